@@ -9,7 +9,7 @@ use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
 use dashpot_hil::commands::failure::Kind;
 use dashpot_hil::commands::interruption;
 
-/// Desk host of the Dashpot damper. Without a command: the demonstration on a made ride.
+/// Desktop tools for the Dashpot damper model. Without a command, runs the demo on a synthetic ride.
 #[derive(Parser)]
 #[command(
     name = "dashpot",
@@ -20,8 +20,8 @@ use dashpot_hil::commands::interruption;
   dashpot --output damper.html
   dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64
 
-A file called `-` is standard input or standard output; reports then go to standard error.
-Exit code: 0 done, 1 failed, 2 wrong use."
+The file name `-` means standard input or standard output; reports then go to standard error.
+Exit code: 0 success, 1 failure, 2 wrong use."
 )]
 struct Cli {
     #[command(flatten)]
@@ -42,10 +42,10 @@ fn main() -> ExitCode {
     let code = match failure.kind() {
         Kind::OutputClosed => return ExitCode::SUCCESS,
         Kind::Failed => 1,
-        // As clap's own for an option it refuses.
+        // Same code as clap uses for an invalid option.
         Kind::WrongUse => 2,
     };
-    // Nothing can be done when standard error is closed.
+    // If standard error is closed, there is nothing left to do.
     let _ = writeln!(std::io::stderr(), "error: {failure}");
     ExitCode::from(code)
 }

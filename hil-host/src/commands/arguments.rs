@@ -1,4 +1,4 @@
-//! Options that several commands have.
+//! Options shared by several commands.
 
 use std::path::Path;
 
@@ -9,17 +9,17 @@ use super::streams;
 use dashpot_files::damper;
 use dashpot_realtime::options::RealtimeOptions;
 
-/// How a command prints its results.
+/// Output format of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
 pub enum Format {
-    /// Lines and tables for people.
+    /// Readable lines and tables.
     #[default]
     Text,
-    /// One JSON object with SI names for programs.
+    /// One JSON object for programs, with SI units in key names.
     Json,
 }
 
-/// The help of an option that names a damper, with `more`.
+/// Returns the help text of an option that selects a damper, followed by `more`.
 pub(super) fn damper_help(more: &str) -> String {
     let presets = damper::PRESETS.map(|(preset, _)| format!("`{preset}`"));
     format!(
@@ -28,30 +28,30 @@ pub(super) fn damper_help(more: &str) -> String {
     )
 }
 
-/// Which damper a command works on.
+/// Damper selection.
 #[derive(Debug, Clone, clap::Args)]
 pub struct DamperArguments {
-    /// A preset or a file.
+    /// Preset or file.
     #[arg(help = damper_help(""), long, default_value = "paper", value_name = "NAME|FILE")]
     pub damper: String,
-    /// Overrides a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
+    /// Override a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
 }
 
 impl DamperArguments {
-    /// The damper, read and checked.
+    /// Reads and checks the damper.
     ///
     /// # Errors
-    /// As [`damper::load`].
+    /// See [`damper::load`].
     pub fn load(&self) -> Outcome<CheckedParameters> {
         Ok(damper::load(&self.damper, &self.overrides)?)
     }
 
-    /// Refuses standard input for both the damper and the motion at `input`.
+    /// Rejects standard input for both the damper and the motion at `input`.
     ///
     /// # Errors
-    /// Both are `-`.
+    /// Both paths are `-`.
     pub fn refuse_same_input(&self, input: &Path) -> Outcome<()> {
         streams::refuse_second_standard_input(&[
             ("--damper", Path::new(&self.damper)),
@@ -75,7 +75,7 @@ pub struct RealtimeArguments {
 }
 
 impl RealtimeArguments {
-    /// The options as the pacer takes them.
+    /// Converts the options for the pacer.
     pub fn options(&self) -> RealtimeOptions {
         RealtimeOptions {
             fifo_priority: self.fifo,
@@ -84,15 +84,15 @@ impl RealtimeArguments {
         }
     }
 
-    /// The options, which only go with `option`.
+    /// Returns the options, which require `option`.
     ///
     /// # Errors
-    /// There are some though `option` was not `given`.
+    /// Options are set although `option` is not `given`.
     pub fn options_under(&self, option: &str, given: bool) -> Outcome<RealtimeOptions> {
         let options = self.options();
         if !given && options != RealtimeOptions::default() {
             return Err(Failure::wrong_use(format!(
-                "--fifo, --lock-memory and --core go with {option}"
+                "--fifo, --lock-memory and --core require {option}"
             )));
         }
         Ok(options)

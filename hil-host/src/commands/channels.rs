@@ -1,4 +1,4 @@
-//! `dashpot channels`: what a file has, before it is replayed.
+//! `dashpot channels`: lists the channels of a recording.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -15,19 +15,19 @@ use dashpot_recording::{
     ChannelOverview, Channels, GAP_IN_MEDIANS, Overview, Quantity, TimeOverview, overview,
 };
 
-/// Channels of a recording: names, units, ranges, how even the times are, and what to type to replay it.
+/// List the channels of a recording: names, units, ranges, regularity of the times, and the command that replays it.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot channels run7.mf4
   dashpot channels messung.csv --time Zeit --time-unit ms
   dashpot channels run7.parquet --format json")]
 pub struct ChannelsArguments {
-    /// Recording: text (CSV), MDF4 or Parquet, compressed with gzip or not; `-` for standard input.
+    /// Recording: text (CSV), MDF4 or Parquet, optionally compressed with gzip; `-` for standard input.
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
     recording: ListingArguments,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -36,14 +36,14 @@ pub struct ChannelsArguments {
 struct Report {
     #[serde(flatten)]
     overview: Overview,
-    /// What to type to replay it.
+    /// Command line that replays it.
     replay: String,
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// A file that cannot be used.
+/// The file cannot be used.
 pub fn run(arguments: &ChannelsArguments) -> Outcome<()> {
     let channels = arguments.recording.channels();
     let mut overview = overview(&arguments.file, &channels)?;
@@ -60,7 +60,7 @@ pub fn run(arguments: &ChannelsArguments) -> Outcome<()> {
     })
 }
 
-/// The line that replays the file, with words in capitals where something is left to choose.
+/// Returns the command line that replays the file, with words in capitals for missing choices.
 fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overview) -> String {
     let file = arguments.file.display().to_string();
     let mut line = format!("dashpot replay --input {}", quoted(&file));
@@ -77,7 +77,7 @@ fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overv
         ),
         (Quantity::Displacement, displacement),
     ] {
-        // The time of a group of MDF4 needs no name.
+        // The time channel of an MDF4 group needs no name.
         let is_master = group.is_some() && time.is_some_and(|time| time.channel.is_some());
         if quantity == Quantity::Time && is_master && given.time.name.is_none() {
             continue;
@@ -93,11 +93,11 @@ fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overv
             }
             None => line.push_str(&format!(" --{quantity} CHANNEL")),
         }
-        let told = channel.and_then(|channel| unit_of(channel, quantity));
+        let known_unit = channel.and_then(|channel| unit_of(channel, quantity));
         let given = given.of(quantity).unit.map(|unit| unit.name());
         if let Some(unit) = given {
             line.push_str(&format!(" --{quantity}-unit {unit}"));
-        } else if told.is_none() {
+        } else if known_unit.is_none() {
             line.push_str(&format!(" --{quantity}-unit UNIT"));
         }
     }
@@ -105,7 +105,8 @@ fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overv
     line
 }
 
-/// The channel that measures a quantity: that which was named, is called so, or alone has a unit of it.
+/// Returns the channel of a quantity: the chosen one, the one with the standard name, or the first with a matching
+/// unit.
 fn choice<'a>(
     overview: &'a Overview,
     given: &Channels,
@@ -124,7 +125,7 @@ fn choice<'a>(
     all().find(called).or_else(|| all().find(measuring))
 }
 
-/// The unit of a channel as one of the quantity.
+/// Returns the unit of a channel if it is a unit of the quantity.
 fn unit_of(channel: &ChannelOverview, quantity: Quantity) -> Option<&'static str> {
     let unit = match &channel.unit {
         Some(unit) => quantity.unit(unit),
@@ -133,7 +134,7 @@ fn unit_of(channel: &ChannelOverview, quantity: Quantity) -> Option<&'static str
     unit.map(|unit| unit.name())
 }
 
-/// A word for the shell.
+/// Quotes a word for the shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_-./".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) && !word.starts_with('-') {
@@ -158,17 +159,7 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ChannelsArguments) ->
     writeln!(
         out,
         "  {:>3}  {:<name$}  {:<unit$}  {:>5}  {:<9}  {:>10}  {:>8}  {:>12}  {:>12}  {:>12}  {:>12}",
-        "no.",
-        "name",
-        "unit",
-        "group",
-        "type",
-        "rows",
-        "invalid",
-        "first",
-        "last",
-        "least",
-        "greatest"
+        "no.", "name", "unit", "group", "type", "rows", "invalid", "first", "last", "min", "max"
     )?;
     for channel in &overview.channels {
         let number = |value: Option<f64>| value.map_or_else(String::new, six_digits);
@@ -204,7 +195,7 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ChannelsArguments) ->
     if let Some(line) = overview.unended_line {
         writeln!(out, "{}", unended(line))?;
     }
-    writeln!(out, "\nto replay it: {}", report.replay)
+    writeln!(out, "\nto replay: {}", report.replay)
 }
 
 fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
@@ -214,7 +205,7 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
         write!(out, "group {group}{name}: ")?;
     }
     let (Some(channel), Some([from_s, to_s])) = (&time.channel, time.from_to_s) else {
-        let reason = time.reason.as_deref().unwrap_or("it has no number");
+        let reason = time.reason.as_deref().unwrap_or("it has no values");
         return writeln!(out, "no time: {reason}");
     };
     write!(
@@ -229,7 +220,7 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
     {
         write!(
             out,
-            "; {} Hz, intervals deviate by {} s (rms), {} s at most",
+            "; {} Hz, intervals deviate by {} s rms, {} s maximum",
             six_digits(rate_hz),
             two_digits(nearest_nanosecond(jitter_s)),
             two_digits(nearest_nanosecond(largest_s))
@@ -239,7 +230,7 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
     if time.not_growing > 0 {
         writeln!(
             out,
-            "warning: the time does not grow at {}, which replay refuses",
+            "warning: the time does not increase at {}; `replay` rejects this",
             counted(time.not_growing, "row")
         )?;
     }
@@ -247,7 +238,7 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
     if let Some((gaps, longest)) = gaps.and_then(|gaps| Some((gaps, gaps.longest?))) {
         writeln!(
             out,
-            "warning: {}, over {GAP_IN_MEDIANS} times the median interval; the longest lasts {} s from {} s",
+            "warning: {} (over {GAP_IN_MEDIANS} times the median interval); the longest lasts {} s from {} s",
             counted(gaps.count, "gap"),
             longest.duration_s,
             nearest_nanosecond(longest.start_s)
@@ -264,7 +255,7 @@ fn two_digits(number: f64) -> String {
     digits(number, 1)
 }
 
-/// A number with so many digits after the first, short where it is.
+/// Formats a number with up to `digits` digits after the first, without trailing zeros.
 fn digits(number: f64, digits: usize) -> String {
     let text = format!("{number:.digits$e}");
     match text.parse::<f64>() {

@@ -1,4 +1,4 @@
-//! How a command fails: its exit code, and its message in the words of the command line.
+//! Failures of commands: exit codes, and messages that name command-line options.
 
 use std::fmt;
 
@@ -29,39 +29,37 @@ use dashpot_testbench::TestbenchError;
 use dashpot_testbench::plate::PlateError;
 use dashpot_vehicle_run::VehicleRunError;
 
-/// A failure with a message that names what failed, where, and what is allowed there.
+/// A failure with a message that says what failed, where, and what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failure {
     kind: Kind,
     message: String,
 }
 
-/// What a failure means for the command; the exit code follows from it.
+/// Kind of a failure, which determines the exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A file, the system or a result is not as it must be.
+    /// A file, the system or a result is invalid.
     Failed,
-    /// Something is requested that is not allowed: an option's value, or options together.
+    /// The value of an option or a combination of options is not allowed.
     WrongUse,
-    /// The reader of the output has left: nothing is wrong, and no message is needed.
+    /// The reader closed the output: not an error, so no message is printed.
     OutputClosed,
 }
 
-/// The options that help where a target does not answer in time; nothing for other errors.
+/// Returns the options that help if a target does not answer in time; empty for other errors.
 pub(super) fn remedy(error: &LinkError) -> &'static str {
     match error {
-        LinkError::Silent { .. } => {
-            "; allowed: a longer first wait by --timeout-ms, more tries by --tries"
-        }
+        LinkError::Silent { .. } => "; use a longer --timeout-ms or more --tries",
         _ => "",
     }
 }
 
-/// Result of a command or a part of one.
+/// Result of a command or of a part of it.
 pub type Outcome<T> = Result<T, Failure>;
 
 impl Failure {
-    /// A failure with `message`.
+    /// Creates a failure with `message`.
     pub fn new(message: impl Into<String>) -> Self {
         Self {
             kind: Kind::Failed,
@@ -69,7 +67,7 @@ impl Failure {
         }
     }
 
-    /// A request that is not allowed; `message` names the option and what is allowed.
+    /// Creates a wrong-use failure; `message` names the option and what is allowed.
     pub fn wrong_use(message: impl Into<String>) -> Self {
         Self {
             kind: Kind::WrongUse,
@@ -77,7 +75,7 @@ impl Failure {
         }
     }
 
-    /// What the failure means for the command.
+    /// Returns the kind of the failure.
     pub fn kind(&self) -> Kind {
         self.kind
     }
@@ -91,7 +89,7 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Errors whose own words are those of the command line.
+/// Errors whose own text needs no change for the command line.
 macro_rules! failures {
     ($($error:ty),*) => {$(
         impl From<$error> for Failure {
@@ -122,7 +120,7 @@ impl From<DamperError> for Failure {
     fn from(error: DamperError) -> Self {
         let message = match &error {
             DamperError::Override { assignment, reason } => {
-                format!("--set {assignment}: {reason}; the form is {FORM}")
+                format!("--set {assignment}: {reason}; expected {FORM}")
             }
             DamperError::Content { name, source } | DamperError::Overridden { name, source } => {
                 match source {
@@ -146,7 +144,7 @@ impl From<VehicleFileError> for Failure {
     fn from(error: VehicleFileError) -> Self {
         match &error {
             VehicleFileError::Override { assignment, reason } => Self::wrong_use(format!(
-                "--set {assignment}: {reason}; the form is {VEHICLE_FORM}"
+                "--set {assignment}: {reason}; expected {VEHICLE_FORM}"
             )),
             VehicleFileError::Overridden { name, message } => {
                 Self::wrong_use(format!("{name}: after --set: {message}"))
@@ -268,7 +266,7 @@ impl From<RealtimeError> for Failure {
         match error {
             RealtimeError::Step { .. } => Self::wrong_use(error.to_string()),
             RealtimeError::Core { core, allowed } => Self::wrong_use(format!(
-                "--core {core}: no core this process may use, allowed: {}",
+                "--core {core}: this process may not use this core; allowed: {}",
                 listed(&allowed)
             )),
             RealtimeError::Refused { option, reason } => Self::new(match option {
@@ -282,10 +280,10 @@ impl From<RealtimeError> for Failure {
                 span(stop.limit_ns as f64)
             )),
             RealtimeError::TooManyMissed { missed, ticks } => Self::new(format!(
-                "{missed} of {ticks} deadlines missed, allowed with --realtime: one in {TICKS_PER_ALLOWED_MISS}"
+                "{missed} of {ticks} deadlines missed; allowed with --realtime: one in {TICKS_PER_ALLOWED_MISS}"
             )),
             RealtimeError::MissedDeadlines { missed, ticks } => Self::new(format!(
-                "{missed} of {ticks} deadlines missed, allowed by --fail-on-miss: none"
+                "{missed} of {ticks} deadlines missed; allowed with --fail-on-miss: none"
             )),
             _ => Self::new(error.to_string()),
         }
@@ -296,11 +294,11 @@ impl From<ExportError> for Failure {
     fn from(error: ExportError) -> Self {
         Self::wrong_use(match &error {
             ExportError::Scalar { scalar } => format!(
-                "--scalar {scalar}: the C library is of single precision, allowed with --lang c: f32, \
-                 or f64 with --standalone"
+                "--scalar {scalar}: the C library uses single precision; allowed with --lang c: f32, or f64 with \
+                 --standalone"
             ),
             ExportError::Include { .. } => format!("--output: {error}"),
-            // It starts with `name`, as the option is called.
+            // The message starts with `name`, which is also the name of the option.
             ExportError::Name { .. } | ExportError::ReservedName { .. } => format!("--{error}"),
             _ => return Self::new(error.to_string()),
         })
@@ -310,8 +308,8 @@ impl From<ExportError> for Failure {
 impl From<LinkError> for Failure {
     fn from(error: LinkError) -> Self {
         match error {
-            LinkError::CannotReset => Self::new(format!("{error}; `--link qemu` can")),
-            LinkError::ResetFaults => Self::wrong_use(format!("{error}; `--link qemu` can")),
+            LinkError::CannotReset => Self::new(format!("{error}; use `--link qemu`")),
+            LinkError::ResetFaults => Self::wrong_use(format!("{error}; use `--link qemu`")),
             LinkError::Emulator(EmulatorError::NoImage(_)) => {
                 Self::new(format!("{error}, or name one with --link qemu:IMAGE"))
             }

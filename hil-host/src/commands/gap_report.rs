@@ -1,16 +1,16 @@
-//! Gaps of a recording in a report for people, and what else is doubtful of its rows.
+//! Text report on gaps and doubtful rows of a recording.
 
 use std::io::{self, Write};
 
 use super::counted;
 use dashpot_recording::{GAP_IN_MEDIANS, Gaps, Place};
 
-/// Writes how many gaps the recording has and where the longest is; nothing where there are none; the same of rows that were left out.
+/// Prints warnings about omitted rows, a missing line end and gaps, if there are any.
 pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
     if let Some(first) = gaps.left_out.first {
         writeln!(
             out,
-            "warning: {} left out that lacked a value, the first at {}; the motion is straight across",
+            "warning: {} with a missing value omitted, the first at {}; the motion is interpolated linearly",
             counted(gaps.left_out.rows, "row"),
             place(first)
         )?;
@@ -23,8 +23,8 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
     };
     writeln!(
         out,
-        "warning: {} in the recording, over {GAP_IN_MEDIANS} times the median interval of {median_s} s; the longest \
-         lasts {} s from {} s (before {}); the motion is straight across",
+        "warning: {} in the recording (intervals over {GAP_IN_MEDIANS} times the median of {median_s} s); the longest \
+         lasts {} s from {} s (before {}); the motion is interpolated linearly",
         counted(gaps.count, "gap"),
         longest.duration_s,
         longest.start_s,
@@ -32,10 +32,10 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
     )
 }
 
-/// The warning for a text whose last line has no line end.
+/// Returns the warning for a text file whose last line has no line end.
 pub(super) fn unended(line: u64) -> String {
     format!(
-        "warning: line {line}, the last, has no line end: the file may have been cut inside the last number of that line"
+        "warning: the last line, line {line}, has no line end: the file may have been cut off inside its last number"
     )
 }
 

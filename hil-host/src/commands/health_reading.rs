@@ -1,11 +1,11 @@
-//! A reading of a damper's health as commands tell it: in JSON, and in words.
+//! Health estimates of a damper in command reports, as JSON and as text.
 
 use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
 use serde::Serialize;
 
 use dashpot_testbench::health::stiffness_in_words;
 
-/// An estimate, its status in words.
+/// Health estimates with status names.
 #[derive(Debug, Serialize)]
 pub struct Told {
     pub flow_factor: Estimate,
@@ -19,7 +19,7 @@ pub struct Told {
     pub status: Vec<String>,
     pub force_zero_n: Estimate,
     pub added_friction_n: Estimate,
-    /// Whether nothing says that the intervals may not contain the truth.
+    /// True if no status bit casts doubt on the intervals.
     pub trusted: bool,
     #[serde(skip)]
     pub bits: HealthStatus,
@@ -47,12 +47,12 @@ impl From<&HealthReading> for Told {
 }
 
 impl Told {
-    /// The stiffness in words, MN/m.
+    /// Formats the stiffness in MN/m.
     pub fn stiffness_in_words(&self) -> String {
         stiffness_in_words(self.stiffness_n_per_m, self.compliance_m_per_n)
     }
 
-    /// Whether the status has this.
+    /// True if the status contains `status`.
     pub fn has(&self, status: HealthStatus) -> bool {
         self.bits.contains(status)
     }

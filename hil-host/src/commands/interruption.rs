@@ -1,5 +1,7 @@
-//! SIGINT, SIGTERM and SIGHUP: temporary files are deleted and child processes ended, then the process ends
-//! by the signal as it would have without this. A command that ends gently is asked first, and ended by a second signal.
+//! Handling of SIGINT, SIGTERM and SIGHUP.
+//!
+//! The handler deletes temporary files and ends child processes; then the signal ends the process as usual. A command
+//! that supports a gentle end is only notified by the first signal, and ended by the second.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -8,11 +10,11 @@ use crate::commands::failure::{Failure, Outcome};
 static ENDS_GENTLY: AtomicBool = AtomicBool::new(false);
 static IS_WANTED: AtomicBool = AtomicBool::new(false);
 
-/// While it lives, the first interruption only asks: see [`is_wanted`].
+/// While this value exists, the first interruption only sets [`is_wanted`].
 #[derive(Debug)]
 pub struct EndsGently(());
 
-/// From now on the command looks at [`is_wanted`] often, and ends with what it has when it is.
+/// Announces that the command polls [`is_wanted`] and ends early with the results so far.
 #[must_use]
 pub fn end_gently() -> EndsGently {
     IS_WANTED.store(false, Ordering::Relaxed);
@@ -26,16 +28,17 @@ impl Drop for EndsGently {
     }
 }
 
-/// Whether the user wants the command to end.
+/// True if the user has asked the command to end.
 pub fn is_wanted() -> bool {
     IS_WANTED.load(Ordering::Relaxed)
 }
 
-/// Lets interruptions delete this process's temporary files and end its children from now on. A signal that
-/// the process was started to ignore, as `nohup` has it for SIGHUP, stays ignored.
+/// Installs handlers that delete temporary files and end child processes on interruption.
+///
+/// A signal that was ignored when the process started, such as SIGHUP under `nohup`, stays ignored.
 ///
 /// # Errors
-/// The system refuses the handlers or the thread that waits for them.
+/// The system refuses the handlers or their thread.
 #[cfg(unix)]
 pub fn clean_up() -> Outcome<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -44,7 +47,7 @@ pub fn clean_up() -> Outcome<()> {
 
     use dashpot_files::temporary;
 
-    /// Cleaning up takes little of it (bytes).
+    /// Stack of the signal thread (bytes); cleaning up needs little.
     const STACK: usize = 64 * 1024;
 
     let failed = |error: std::io::Error| Failure::new(format!("cannot wait for signals: {error}"));
@@ -64,7 +67,7 @@ pub fn clean_up() -> Outcome<()> {
                 }
                 let _no_new_files = temporary::delete_all();
                 let _no_new_children = dashpot_host_link::end_children();
-                // Ends the process, by the signal.
+                // Ends the process by the signal itself.
                 let _ = emulate_default_handler(signal);
             }
         })
@@ -72,7 +75,7 @@ pub fn clean_up() -> Outcome<()> {
     Ok(())
 }
 
-/// The signals that this process ignores, signal n as bit n - 1; 0 where the system does not report them.
+/// Returns the ignored signals, with signal n as bit n - 1; 0 if the system does not report them.
 #[cfg(unix)]
 fn ignored_signals() -> u64 {
     std::fs::read_to_string("/proc/self/status")
@@ -84,10 +87,10 @@ fn ignored_signals() -> u64 {
         .unwrap_or(0)
 }
 
-/// Nothing to do: these signals are Unix's.
+/// Does nothing: these signals exist only on Unix.
 ///
 /// # Errors
-/// None.
+/// Never fails.
 #[cfg(not(unix))]
 pub fn clean_up() -> Outcome<()> {
     Ok(())

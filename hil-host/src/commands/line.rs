@@ -1,30 +1,35 @@
-//! The line to a target, as commands name it.
+//! Options for the link to a target.
 
 use std::time::Duration;
 
 use crate::commands::failure::Outcome;
 use dashpot_host_link::{Link, LinkChoice, LinkError, RetryLimits};
 
-/// Which line to a target, and how long to wait for answers.
+/// Link to a target, with timeouts.
 #[derive(Debug, Clone, clap::Args)]
 pub struct LineArguments {
-    /// The target: tcp:HOST:PORT, serial:DEVICE, qemu (an emulator of our own) or qemu:IMAGE.
+    /// Target: tcp:HOST:PORT, serial:DEVICE, qemu (a new emulator) or qemu:IMAGE.
     #[arg(long, value_name = "LINK")]
     link: LinkChoice,
     #[command(flatten)]
     options: LineOptions,
 }
 
-/// How a line is used, whichever it is.
+/// Link options that apply to all kinds of links.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args)]
 pub struct LineOptions {
-    /// First wait for an answer, ms; each wait without one doubles the next, up to eight times the first and 12 s.
-    #[arg(long, default_value_t = TIMEOUT_MS, value_parser = clap::value_parser!(u64).range(1..=60_000), value_name = "MS")]
+    /// First timeout for a response, ms; doubles after each timeout, up to eight times the first and 12 s.
+    #[arg(
+        long,
+        default_value_t = TIMEOUT_MS,
+        value_parser = clap::value_parser!(u64).range(1..=60_000),
+        value_name = "MS"
+    )]
     timeout_ms: u64,
-    /// Tries of a request before the target counts as silent.
+    /// Number of attempts before the target counts as silent.
     #[arg(long, default_value_t = TRIES, value_parser = clap::value_parser!(u32).range(1..=1000))]
     tries: u32,
-    /// Rate of a serial device, bit/s.
+    /// Bit rate of a serial device, bit/s.
     #[arg(long, default_value_t = BAUD, value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
 }
@@ -34,15 +39,15 @@ const TRIES: u32 = 8;
 const BAUD: u32 = 1_000_000;
 
 impl LineArguments {
-    /// Opens the line.
+    /// Opens the link.
     ///
     /// # Errors
-    /// As [`LinkChoice::open`].
+    /// See [`LinkChoice::open`].
     pub fn open(&self) -> Outcome<Box<dyn Link + Send>> {
         Ok(self.options.open(&self.link)?)
     }
 
-    /// How long to wait for an answer, and how often to ask.
+    /// Returns timeout and number of attempts.
     pub fn retry_limits(&self) -> RetryLimits {
         self.options.retry_limits()
     }
@@ -59,15 +64,15 @@ impl Default for LineOptions {
 }
 
 impl LineOptions {
-    /// Opens a line.
+    /// Opens a link.
     ///
     /// # Errors
-    /// As [`LinkChoice::open`].
+    /// See [`LinkChoice::open`].
     pub fn open(&self, link: &LinkChoice) -> Result<Box<dyn Link + Send>, LinkError> {
         link.open(self.baud)
     }
 
-    /// How long to wait for an answer, and how often to ask.
+    /// Returns timeout and number of attempts.
     pub fn retry_limits(&self) -> RetryLimits {
         RetryLimits {
             timeout: Duration::from_millis(self.timeout_ms),

@@ -1,4 +1,4 @@
-//! `dashpot merge`: the rows of a study's shards together.
+//! `dashpot merge`: merges the rows of a study's shards.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -10,29 +10,29 @@ use dashpot_files::output::create_folder;
 use dashpot_study::sweep::rows::{self, Rows, RowsError};
 use dashpot_study::sweep::{CheckError, MergeError, Study, check, chosen, merge};
 
-/// The rows of a study's shards together, checked against its list of cases, and its page.
+/// Merge the rows of a study's shards, check them against the list of cases, and write the page.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot merge paper results/rows-*-of-8.csv --output results
 
   dashpot merge paper results/rows-*-of-8.csv --output results --check 5
 
-Writes rows.csv and report.html, the same as `dashpot sweep` would have on one machine. What is missing or double is named, and nothing
-is written then; exit code 1. --check runs random cases again before anything is written, and fails where a bit
-differs.")]
+Writes rows.csv and report.html, identical to those of `dashpot sweep` on one machine. Missing or duplicate cases are
+listed; then nothing is written and the exit code is 1. --check repeats random cases before anything is written, and
+fails if a bit differs.")]
 pub struct MergeArguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Files of rows, those of `dashpot sweep --shard`.
+    /// Row files written by `dashpot sweep --shard`.
     #[arg(required = true, value_name = "ROWS")]
     files: Vec<PathBuf>,
-    /// Folder that results are written to [default: dashpot- and the name of the study].
+    /// Output folder [default: dashpot- and the name of the study].
     #[arg(long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Runs so many random cases again and compares their rows, bit for bit.
+    /// Repeat this number of random cases and compare their rows bit for bit.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     check: Option<u32>,
-    /// Seed of the choice of --check [default: a random one, which is printed].
+    /// Seed for the selection of --check [default: a random seed, which is printed].
     #[arg(long, value_name = "SEED", requires = "check")]
     check_seed: Option<u64>,
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub struct MergeArguments {
 /// Runs the command.
 ///
 /// # Errors
-/// A study or rows that are refused; cases missing or double; files that cannot be written.
+/// The study or its rows are invalid, cases are missing or duplicate, or a file cannot be written.
 pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
@@ -64,7 +64,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     print_report(results.format(), &report, sweep::print)
 }
 
-/// Runs random cases again.
+/// Repeats random cases.
 fn check_again(study: &Study, rows: &Rows, count: u32, seed: Option<u64>) -> Outcome<Checked> {
     let seed = seed.unwrap_or_else(|| fastrand::u64(..));
     let cases = chosen(rows, count as usize, seed);
@@ -77,14 +77,14 @@ fn check_again(study: &Study, rows: &Rows, count: u32, seed: Option<u64>) -> Out
         &interruption::is_wanted,
     )
     .map_err(|error| {
-        let way_on = match &error {
+        let remedy = match &error {
             CheckError::Differs { .. } => "; run its shard again with --anew",
             CheckError::Arithmetic { .. } => {
-                "; merge without --check, or on a processor of that kind"
+                "; merge without --check, or on a processor of that type"
             }
             _ => "",
         };
-        Failure::new(format!("--check with --check-seed {seed}: {error}{way_on}"))
+        Failure::new(format!("--check with --check-seed {seed}: {error}{remedy}"))
     })?;
     Ok(Checked { cases, seed })
 }
@@ -93,7 +93,7 @@ impl From<MergeError> for Failure {
     fn from(error: MergeError) -> Self {
         match error {
             MergeError::Rows(RowsError::Damaged { line, source }) => Self::new(format!(
-                "{source}; delete line {line} of this file, run the command of its shard again, and merge"
+                "{source}; delete line {line} of this file, run the command of its shard again, then merge"
             )),
             MergeError::Rows(RowsError::Foreign(source)) => Self::new(format!(
                 "{source}; run the command of its shard again with --anew"

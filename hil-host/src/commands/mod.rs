@@ -1,8 +1,8 @@
-//! The commands of `dashpot`, one a file or a folder: options, what they ask of the library, and the report.
+//! The commands of `dashpot`, one per file or folder: options, calls into the library, and the report.
 //!
-//! To add a command, write a file here with its options, a `clap::Args` whose `after_help` has an example, and a
-//! `run` that takes them; then add it to [`Command`]. Options that several commands have are in [`arguments`],
-//! the printing of a report as text or JSON in [`mod@print`], messages and exit codes in [`failure`].
+//! To add a command, write a file here with its options (a `clap::Args` whose `after_help` has an example) and a `run`
+//! function, then add it to [`Command`]. [`arguments`] has options shared by several commands, [`mod@print`] prints a
+//! report as text or JSON, and [`failure`] defines messages and exit codes.
 
 pub mod arguments;
 pub mod budget;
@@ -41,7 +41,7 @@ use arguments::{DamperArguments, Format, RealtimeArguments};
 use failure::Outcome;
 use print::{counted, nearest_nanosecond, print_report, print_report_beside};
 
-/// A command with its options, whose help is the documentation of its arguments.
+/// A command with its options; the documentation of the arguments is the help text.
 #[allow(missing_docs)]
 #[derive(Debug, Clone, clap::Subcommand)]
 pub enum Command {
@@ -67,7 +67,7 @@ impl Command {
     /// Runs the command.
     ///
     /// # Errors
-    /// Those of the command's own `run`.
+    /// Returns the error of the command's own `run`.
     pub fn run(&self) -> Outcome<()> {
         match self {
             Self::Replay(arguments) => replay::run(arguments),

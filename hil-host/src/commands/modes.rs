@@ -1,4 +1,4 @@
-//! `dashpot modes`: axle loads and natural modes of a vehicle, and its critical speed.
+//! `dashpot modes`: computes axle loads, natural modes and critical speed of a vehicle.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use dashpot_files::vehicle::{self, VehicleFileError};
 use dashpot_vehicle_run::contact::ContactOf;
 use dashpot_vehicle_run::{VehicleRunError, contact, hunting};
 
-/// Axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping, and what moves.
+/// Compute axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping and mode shape.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot modes --vehicle locomotive
@@ -23,23 +23,23 @@ use dashpot_vehicle_run::{VehicleRunError, contact, hunting};
   dashpot modes --vehicle coach --hunting
   dashpot modes --vehicle locomotive --set \"front lateral damper.damper='in-service'\" --format json")]
 pub struct ModesArguments {
-    /// The vehicle: the name of one that ships (locomotive, coach) or a TOML file.
+    /// Vehicle: built-in name (locomotive, coach) or TOML file.
     #[arg(long, default_value = "locomotive", value_name = "VEHICLE")]
     pub vehicle: String,
-    /// Changes a value of the vehicle's file: part.key=value, such as body.mass_kg=70e3; may be given several times.
+    /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3. May be repeated.
     #[arg(long = "set", value_name = "PART.KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// Speed on straight track, km/h; the vehicle stands still when not given. S1002 wheels on UIC 60 rails at 1:40.
+    /// Speed on straight track, km/h [default: standstill]. S1002 wheels on UIC 60 rails at 1:40.
     #[arg(long, value_name = "KM/H")]
     pub speed_km_h: Option<f64>,
-    /// Looks for the linear critical speed, at which a mode begins to grow, up to 500 km/h, and for the nonlinear one, from which on a push
-    /// to the flange ends in a limit cycle.
+    /// Search up to 500 km/h for the linear critical speed, at which a mode becomes unstable, and for the nonlinear
+    /// one, above which a push to the flange leads to a limit cycle.
     #[arg(long, conflicts_with = "speed_km_h")]
     pub hunting: bool,
-    /// Friction coefficient of wheel and rail.
+    /// Friction coefficient between wheel and rail.
     #[arg(long, default_value_t = 0.4, value_name = "MU")]
     pub friction: f64,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }
@@ -48,9 +48,9 @@ pub struct ModesArguments {
 struct Report {
     vehicle: String,
     axle_loads_n: Vec<f64>,
-    /// Of the modes; none at standstill.
+    /// Speed of the modes; `None` at standstill.
     speed_km_h: Option<f64>,
-    /// With `--hunting`: none when no mode grows up to the greatest speed.
+    /// Only with `--hunting`.
     #[serde(skip_serializing_if = "Option::is_none")]
     hunting: Option<HuntingRow>,
     modes: Vec<ModeRow>,
@@ -60,9 +60,9 @@ struct Report {
 struct HuntingRow {
     critical_speed_km_h: Option<f64>,
     greatest_speed_km_h: f64,
-    /// None when a push dies away at the linear critical speed, or at the greatest when there is none.
+    /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is none.
     nonlinear_critical_speed_km_h: Option<f64>,
-    /// Greatest lateral displacement of a wheelset in the limit cycle there, m.
+    /// Maximum lateral displacement of a wheelset in the limit cycle at that speed, m.
     limit_cycle_m: Option<f64>,
 }
 
@@ -71,12 +71,12 @@ type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
 /// Speeds at which modes are computed, km/h.
 const SPEEDS_KM_H: std::ops::RangeInclusive<f64> = 1.0..=700.0;
 
-/// Greatest speed at which a critical one is looked for, and from one look to the next, km/h.
-const GREATEST_KM_H: f64 = 500.0;
-const LOOK_EACH_KM_H: f64 = 10.0;
+/// Maximum speed and step of the search for a critical speed, km/h.
+const MAX_SEARCH_KM_H: f64 = 500.0;
+const SEARCH_STEP_KM_H: f64 = 10.0;
 
-/// Modes faster than this are those of wheel and rail, Hz.
-const FASTEST_HZ: f64 = 50.0;
+/// Modes above this frequency belong to wheel and rail and are not listed, Hz.
+const MAX_MODE_HZ: f64 = 50.0;
 
 #[derive(Serialize)]
 struct ModeRow {
@@ -97,17 +97,17 @@ impl From<&Mode> for ModeRow {
     }
 }
 
-/// Prints axle loads and modes, and the critical speed if it is asked for.
+/// Prints axle loads and modes, and the critical speed with `--hunting`.
 ///
 /// # Errors
-/// A vehicle, a speed or a friction that is refused.
+/// The vehicle, the speed or the friction is invalid.
 pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     if let Some(speed) = arguments.speed_km_h
         && !SPEEDS_KM_H.contains(&speed)
     {
-        let (least, greatest) = (SPEEDS_KM_H.start(), SPEEDS_KM_H.end());
+        let (min, max) = (SPEEDS_KM_H.start(), SPEEDS_KM_H.end());
         return Err(Failure::wrong_use(format!(
-            "--speed-km-h: {speed}, allowed: {least} to {greatest} km/h; without it the vehicle stands still"
+            "--speed-km-h: {speed}, allowed: {min} to {max} km/h; omit it for standstill"
         )));
     }
     let name = &arguments.vehicle;
@@ -122,11 +122,11 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
         let contact = contact(name, &vehicle, arguments.friction)?;
         if arguments.hunting {
             let critical = critical_speed_km_h(&vehicle, &contact).map_err(refused)?;
-            speed_km_h = Some(critical.unwrap_or(GREATEST_KM_H));
+            speed_km_h = Some(critical.unwrap_or(MAX_SEARCH_KM_H));
             let cycle = limit_cycle(name, &vehicle, arguments.friction, critical)?;
             hunting = Some(HuntingRow {
                 critical_speed_km_h: critical,
-                greatest_speed_km_h: GREATEST_KM_H,
+                greatest_speed_km_h: MAX_SEARCH_KM_H,
                 nonlinear_critical_speed_km_h: cycle.map(|cycle| 3.6 * cycle.speed_m_per_s),
                 limit_cycle_m: cycle.map(|cycle| cycle.amplitude_m),
             });
@@ -135,7 +135,7 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
             modes_at(&vehicle, &contact, speed_km_h.unwrap_or_default()).map_err(refused)?;
         modes
             .into_iter()
-            .filter(|mode| mode.undamped_hz() < FASTEST_HZ)
+            .filter(|mode| mode.undamped_hz() < MAX_MODE_HZ)
             .collect()
     } else {
         standstill.modes().map_err(refused)?
@@ -150,13 +150,13 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     print_report(arguments.format, &report, print)
 }
 
-/// The contact itself, without tables.
+/// Creates the exact contact, without tables.
 fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Contact> {
     let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
-    let of = ContactOf::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
-    let geometry = of
+    let profiles = ContactOf::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
+    let geometry = profiles
         .map_err(VehicleRunError::from)
-        .and_then(|of| of.geometry());
+        .and_then(|profiles| profiles.geometry());
     let geometry = geometry.map_err(refused)?;
     WheelsetContact::new(
         Arc::new(geometry),
@@ -166,7 +166,7 @@ fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Co
     .map_err(|error| Failure::wrong_use(format!("--friction: {error}")))
 }
 
-/// The limit cycle at the least speed that has one, from a tenth of the linear critical speed to a little above it.
+/// Finds the lowest speed with a limit cycle, from a tenth of the linear critical speed to slightly above it.
 fn limit_cycle(
     name: &str,
     vehicle: &VehicleParameters,
@@ -175,10 +175,10 @@ fn limit_cycle(
 ) -> Outcome<Option<hunting::Outcome>> {
     let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
     let contact = contact::tabulated(vehicle, friction, NORMAL_DAMPING_S_PER_M).map_err(refused)?;
-    let greatest = 1.02 * critical_km_h.unwrap_or(GREATEST_KM_H) / 3.6;
+    let max_m_per_s = 1.02 * critical_km_h.unwrap_or(MAX_SEARCH_KM_H) / 3.6;
     let hunting = hunting::Hunting::new(vehicle, contact).map_err(refused)?;
     hunting
-        .critical([0.1 * greatest, greatest])
+        .critical([0.1 * max_m_per_s, max_m_per_s])
         .map_err(refused)
 }
 
@@ -190,7 +190,7 @@ fn modes_at(
     Running::new(vehicle, contact, km_h / 3.6)?.modes()
 }
 
-/// Least speed at which a mode grows: looked for in steps, then halved to a hundredth of a km/h.
+/// Finds the lowest speed at which a mode is unstable: search in steps, then bisection to 0.01 km/h.
 fn critical_speed_km_h(
     vehicle: &VehicleParameters,
     contact: &Contact,
@@ -200,8 +200,8 @@ fn critical_speed_km_h(
         Ok(modes.iter().any(|mode| mode.damping_ratio() < 0.0))
     };
     let mut stable = 0.0;
-    while stable < GREATEST_KM_H {
-        let mut growing = stable + LOOK_EACH_KM_H;
+    while stable < MAX_SEARCH_KM_H {
+        let mut growing = stable + SEARCH_STEP_KM_H;
         if grows(growing)? {
             while growing - stable > 0.01 {
                 let middle = 0.5 * (stable + growing);
@@ -225,12 +225,12 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         (Some(hunting), _) => match hunting.critical_speed_km_h {
             Some(speed) => writeln!(
                 out,
-                "{}: linear critical speed {speed:.1} km/h, with its modes",
+                "{}: linear critical speed {speed:.1} km/h; modes at that speed:",
                 report.vehicle
             )?,
             None => writeln!(
                 out,
-                "{}: no mode grows up to {} km/h, with its modes there",
+                "{}: all modes are stable up to {} km/h; modes at that speed:",
                 report.vehicle, hunting.greatest_speed_km_h
             )?,
         },
@@ -251,7 +251,8 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     {
         writeln!(
             out,
-            "nonlinear critical speed {speed:.1} km/h: pushed to the flange, wheelsets go on by {:.1} mm to each side or more from there on",
+            "nonlinear critical speed {speed:.1} km/h: above it, wheelsets pushed to the flange keep oscillating with \
+             an amplitude of at least {:.1} mm",
             1e3 * amplitude_m
         )?;
     }

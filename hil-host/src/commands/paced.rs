@@ -1,4 +1,4 @@
-//! What is told of a run in real ticks.
+//! Report of a real-time run.
 
 use std::io::{self, Write};
 
@@ -9,16 +9,16 @@ use dashpot_realtime::limits::TICKS_PER_ALLOWED_MISS;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::{Figures, optional_span, span};
 
-/// Deadlines, lateness and work of the ticks.
+/// Deadlines, lateness and computing time of the ticks.
 #[derive(Serialize)]
 pub(super) struct Paced {
     ticks: u64,
     missed_deadlines: u64,
-    /// Missed deadlines with which the run is still on time.
+    /// Largest accepted number of missed deadlines.
     allowed_missed_deadlines: u64,
     lateness: Figures,
     work: Figures,
-    /// Ticks that waited, because the thread that writes had fallen behind.
+    /// Number of ticks that waited for the writing thread.
     #[serde(skip_serializing_if = "Option::is_none")]
     waits_for_writing: Option<u64>,
 }
@@ -37,20 +37,20 @@ impl From<&PacingReport> for Paced {
 }
 
 impl Paced {
-    /// Of ticks whose results another thread writes, `waits` of which waited for it.
-    pub(super) fn of_report(report: &PacingReport, waits: u64) -> Self {
+    /// Creates the report of a run whose results another thread writes; `waits` ticks waited for that thread.
+    pub(super) fn with_waits(report: &PacingReport, waits: u64) -> Self {
         Self {
             waits_for_writing: Some(waits),
             ..Self::from(report)
         }
     }
 
-    /// One line for people; `work` is what a tick does.
+    /// Prints one line of text; `work` describes the work of a tick.
     pub(super) fn write(&self, out: &mut dyn Write, work: &str) -> io::Result<()> {
         writeln!(
             out,
-            "real ticks: {} of {} deadlines missed, allowed {}; late by {} at most, {} at the 99th percentile; {work}: {} at most, in \
-             tick {}",
+            "real time: {} of {} deadlines missed (allowed {}); lateness at most {}, 99th percentile {}; {work}: at \
+             most {}, in tick {}",
             self.missed_deadlines,
             self.ticks,
             self.allowed_missed_deadlines,

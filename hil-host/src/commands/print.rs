@@ -1,4 +1,4 @@
-//! Printing of a command's report.
+//! Printing of command reports.
 
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -10,13 +10,14 @@ use super::failure::{Failure, Outcome};
 use dashpot_files::input;
 pub(super) use dashpot_files::nearest_nanosecond;
 
-/// `1 tick`, `2 ticks`.
+/// Formats a count with its noun: `1 tick`, `2 ticks`.
 pub(super) fn counted(count: u64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Prints `report` on standard output in `format`: what `text` writes, or one JSON object.
-/// A reader that has left, such as `head`, is no failure.
+/// Prints `report` to standard output: as text, using `text`, or as one JSON object.
+///
+/// A closed pipe (for example `head`) is not an error.
 ///
 /// # Errors
 /// Standard output cannot be written.
@@ -28,7 +29,7 @@ pub fn print_report<R: Serialize>(
     print_to(io::stdout().lock(), "standard output", format, report, text)
 }
 
-/// As [`print_report`], on standard error when the data itself went to standard output as `data`.
+/// Like [`print_report`], but prints to standard error if `data` is standard output.
 ///
 /// # Errors
 /// The stream cannot be written.

@@ -1,9 +1,10 @@
-//! Progress on a terminal, nothing elsewhere.
+//! Progress bar, shown only on a terminal.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar over `length` units of `what`, 0 where that is not known, drawn on standard error when that is a
-/// terminal.
+/// Creates a progress bar over `length` units of `what` on standard error, if that is a terminal.
+///
+/// A `length` of 0 means unknown.
 pub fn bar(length: u64, what: &'static str) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr_with_hz(10));
     let template = if length > 0 {

@@ -1,13 +1,13 @@
-//! Options that say which channels of a recording are read, and as what.
+//! Options for reading the channels of a recording.
 
 use encoding_rs::Encoding;
 
 use dashpot_recording::{Channel, Channels, DecimalMark, Quantity, Separator, TextOptions, Unit};
 
 /// Heading of the options in the help.
-const HEADING: &str = "How the recording is read";
+const HEADING: &str = "Reading the recording";
 
-/// What commands that read a motion have.
+/// Options of commands that read a motion.
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 pub struct MotionArguments {
     #[command(flatten)]
@@ -18,7 +18,7 @@ pub struct MotionArguments {
     file: FileArguments,
 }
 
-/// What commands that read a force have.
+/// Options of commands that read a force.
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 pub struct ForceHistoryArguments {
     #[command(flatten)]
@@ -29,7 +29,7 @@ pub struct ForceHistoryArguments {
     file: FileArguments,
 }
 
-/// What commands that read a motion and the force measured on it have.
+/// Options of commands that read a motion and its measured force.
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 pub struct MeasurementArguments {
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub struct MeasurementArguments {
     file: FileArguments,
 }
 
-/// What commands that look at a file have.
+/// Options of commands that list the channels of a file.
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 pub struct ListingArguments {
     #[command(flatten)]
@@ -54,10 +54,10 @@ pub struct ListingArguments {
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 #[command(next_help_heading = HEADING)]
 struct TimeArguments {
-    /// Name or number, from 1, of the channel of the time; by default time_s, of MDF4 the group's own time.
+    /// Name or number (from 1) of the time channel [default: time_s; for MDF4 the time of the group].
     #[arg(long = "time", value_name = "CHANNEL")]
     time: Option<String>,
-    /// Its unit (s, ms, us, ns, min), whatever the file tells.
+    /// Unit of the time (s, ms, us, ns, min); overrides the file.
     #[arg(long, value_name = "UNIT", value_parser = time_unit)]
     time_unit: Option<Unit>,
 }
@@ -65,10 +65,10 @@ struct TimeArguments {
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 #[command(next_help_heading = HEADING)]
 struct DisplacementArguments {
-    /// Name or number of the channel of the displacement; by default displacement_m.
+    /// Name or number of the displacement channel [default: displacement_m].
     #[arg(long, value_name = "CHANNEL")]
     displacement: Option<String>,
-    /// Its unit (m, cm, mm, um, in), whatever the file tells.
+    /// Unit of the displacement (m, cm, mm, um, in); overrides the file.
     #[arg(long, value_name = "UNIT", value_parser = length_unit)]
     displacement_unit: Option<Unit>,
     /// The displacement is positive in compression.
@@ -79,10 +79,10 @@ struct DisplacementArguments {
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 #[command(next_help_heading = HEADING)]
 struct ForceArguments {
-    /// Name or number of the channel of the force; by default force_n.
+    /// Name or number of the force channel [default: force_n].
     #[arg(long, value_name = "CHANNEL")]
     force: Option<String>,
-    /// Its unit (N, daN, kN, MN, lbf), whatever the file tells.
+    /// Unit of the force (N, daN, kN, MN, lbf); overrides the file.
     #[arg(long, value_name = "UNIT", value_parser = force_unit)]
     force_unit: Option<Unit>,
     /// The force is positive in compression.
@@ -93,31 +93,31 @@ struct ForceArguments {
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 #[command(next_help_heading = HEADING)]
 struct FileArguments {
-    /// Name or number, from 1, of the group of an MDF4 file that the channels are in.
+    /// Name or number (from 1) of the MDF4 group that contains the channels.
     #[arg(long, value_name = "GROUP")]
     group: Option<String>,
-    /// Leave out rows that lack a value: an empty cell, a null, a sample marked invalid.
+    /// Skip rows with a missing value: an empty cell, a null or a sample marked invalid.
     #[arg(long)]
     skip_invalid: bool,
-    /// What separates the cells of text; found where not given.
+    /// Separator of cells in text [default: detected].
     #[arg(long, value_parser = super::named_values::separator())]
     separator: Option<Separator>,
-    /// The mark before the decimals of text; found where not given.
+    /// Decimal mark in text [default: detected].
     #[arg(long, value_parser = super::named_values::decimal_mark(), value_name = "MARK")]
     decimal_mark: Option<DecimalMark>,
-    /// Whether the first row of text has the names of the columns; found where not given.
+    /// Treat the first row of text as a header with column names, or not [default: detected].
     #[arg(long, value_name = "yes|no", value_parser = yes_or_no)]
     header: Option<bool>,
-    /// Encoding of text, such as utf-16le or windows-1252; found where not given.
+    /// Encoding of text, such as utf-16le or windows-1252 [default: detected].
     #[arg(long, value_name = "NAME", value_parser = encoding)]
     encoding: Option<&'static Encoding>,
-    /// Lines of text before the header or the first row, beside those that start with #.
+    /// Number of lines to skip before the header or first row, not counting lines that start with #.
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     skip_lines: u64,
 }
 
 impl MotionArguments {
-    /// The channels.
+    /// Returns the channels.
     pub fn channels(&self) -> Channels {
         let mut channels = self.file.channels();
         channels.time = self.time.channel();
@@ -127,7 +127,7 @@ impl MotionArguments {
 }
 
 impl ForceHistoryArguments {
-    /// The channels.
+    /// Returns the channels.
     pub fn channels(&self) -> Channels {
         let mut channels = self.file.channels();
         channels.time = self.time.channel();
@@ -137,7 +137,7 @@ impl ForceHistoryArguments {
 }
 
 impl MeasurementArguments {
-    /// The channels.
+    /// Returns the channels.
     pub fn channels(&self) -> Channels {
         let mut channels = self.file.channels();
         channels.time = self.time.channel();
@@ -148,7 +148,7 @@ impl MeasurementArguments {
 }
 
 impl ListingArguments {
-    /// The channels.
+    /// Returns the channels.
     pub fn channels(&self) -> Channels {
         let mut channels = self.file.channels();
         channels.time = self.time.channel();

@@ -1,9 +1,9 @@
-//! What a user of the command can do about an error, in the words of its options.
+//! Remedies for errors, expressed as command-line options.
 
 use dashpot_recording::Quantity;
 use dashpot_recording::Remedy;
 
-/// The message of an error with its remedy, where it has one.
+/// Appends the remedy to an error message, if there is one.
 pub fn with_remedy(message: String, remedy: Option<Remedy>) -> String {
     match remedy {
         Some(remedy) => format!("{message}; {}", in_options(remedy)),
@@ -22,13 +22,13 @@ fn in_options(remedy: Remedy) -> String {
             unit(quantity)
         ),
         Remedy::GiveUnit(quantity) => {
-            format!("name it: {} with {}", unit(quantity), quantity.unit_names())
+            format!("give it with {}: {}", unit(quantity), quantity.unit_names())
         }
         Remedy::OverrideUnit(quantity) => format!("{} overrides it", unit(quantity)),
         Remedy::NameGroup => "choose one with --group".into(),
-        Remedy::SayWhetherHeader => "say which: --header yes or --header no".into(),
-        Remedy::GiveDecimalMark => "say which holds: --decimal-mark point or comma".into(),
-        Remedy::SkipInvalid => "--skip-invalid leaves out rows that lack a value".into(),
+        Remedy::SayWhetherHeader => "use --header yes or --header no".into(),
+        Remedy::GiveDecimalMark => "use --decimal-mark point or --decimal-mark comma".into(),
+        Remedy::SkipInvalid => "use --skip-invalid to skip rows with a missing value".into(),
     }
 }
 
@@ -48,7 +48,7 @@ fn unit(quantity: Quantity) -> &'static str {
     }
 }
 
-/// The option whose name is that of a key of a file: `speed_km_h` is given by `--speed-km-h`.
+/// Returns the option for a key of a file: `--speed-km-h` for `speed_km_h`.
 pub fn option_of(key: &str) -> String {
     let words: Vec<&str> = key.split('_').collect();
     format!("--{}", words.join("-"))

@@ -1,4 +1,4 @@
-//! Options that say what is known of the sensors of a damper whose health is watched.
+//! Options describing the sensors of a damper whose health is monitored.
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::health::{HealthModel, HealthSettings};
@@ -8,34 +8,34 @@ use super::remedy::option_of;
 use dashpot_testbench::health::Noise;
 
 /// Heading of the options in the help.
-const HEADING: &str = "Sensors and memory of the health";
+const HEADING: &str = "Sensors and memory of the health estimate";
 
-/// What is known of the sensors; the core checks the ranges.
+/// Sensor properties; the core checks the ranges.
 #[derive(Debug, Clone, Copy, Default, PartialEq, clap::Args)]
 #[command(next_help_heading = HEADING)]
 pub struct SensorArguments {
-    /// Standard deviation of a sample's displacement, m.
+    /// Standard deviation of the displacement noise, m.
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub displacement_noise_m: Option<f64>,
-    /// Standard deviation of a sample's force, N.
+    /// Standard deviation of the force noise, N.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub force_noise_n: Option<f64>,
-    /// Time in contact after which a sample counts for 1/e, s; 1 where not given.
+    /// Time in contact after which the weight of a sample drops to 1/e, s [default: 1].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     memory_s: Option<f64>,
-    /// Part by which the law of a healthy damper may be wrong within a stroke; 0.05 where not given.
+    /// Relative model error of a healthy damper within a stroke [default: 0.05].
     #[arg(long, value_name = "PART", allow_negative_numbers = true)]
     law_deviation: Option<f64>,
-    /// Lag of the measured force behind the measured displacement, s; 0 where not given.
+    /// Lag of the measured force behind the measured displacement, s [default: 0].
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     lag_s: Option<f64>,
-    /// Standard deviation with which the lag is known, s; 0 keeps it, 0.001 where not given.
+    /// Standard deviation of the lag, s; 0 fixes the lag [default: 0.001].
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     lag_sd_s: Option<f64>,
 }
 
 impl SensorArguments {
-    /// The noise, where both numbers are given.
+    /// Returns the noise if both values are given.
     pub fn noise(&self) -> Option<Noise> {
         Some(Noise {
             displacement_m: self.displacement_noise_m?,
@@ -43,22 +43,23 @@ impl SensorArguments {
         })
     }
 
-    /// The noise, which `option` needs.
+    /// Returns the noise, which `option` requires.
     ///
     /// # Errors
-    /// A number that is not given.
+    /// A value is missing.
     pub fn noise_for(&self, option: &str) -> Outcome<Noise> {
         self.noise().ok_or_else(|| {
             Failure::wrong_use(format!(
-                "{option}: the noise of the sensors is part of its model, allowed: with --displacement-noise-m and --force-noise-n"
+                "{option} requires --displacement-noise-m and --force-noise-n, because the sensor noise is part of the \
+                 model"
             ))
         })
     }
 
-    /// Refuses options that mean nothing without `option`.
+    /// Rejects options that have no effect without `option`.
     ///
     /// # Errors
-    /// One is given.
+    /// An option is given.
     pub fn refuse_without(&self, option: &str) -> Outcome<()> {
         let given = [
             ("--displacement-noise-m", self.displacement_noise_m),
@@ -70,13 +71,13 @@ impl SensorArguments {
         ];
         match given.iter().find(|(_, value)| value.is_some()) {
             Some((name, _)) => Err(Failure::wrong_use(format!(
-                "{name}: it says what watches the health of a damper, allowed: with {option}"
+                "{name}: applies to health monitoring only and requires {option}"
             ))),
             None => Ok(()),
         }
     }
 
-    /// The settings of an estimate from samples with this noise.
+    /// Returns the settings of an estimate from samples with this noise.
     pub fn settings(&self, noise: Noise) -> HealthSettings {
         let default = HealthSettings::new(noise.displacement_m, noise.force_n);
         default
@@ -89,10 +90,10 @@ impl SensorArguments {
     }
 }
 
-/// The model of a damper's health at every step (s).
+/// Builds the health model of a damper for a step (s).
 ///
 /// # Errors
-/// A setting or a step out of its range, in the words of the options.
+/// A setting or the step is out of range; the message names the option.
 pub fn model(
     parameters: &CheckedParameters,
     settings: &HealthSettings,

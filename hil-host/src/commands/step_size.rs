@@ -1,4 +1,4 @@
-//! The value of `--step-us`: a step size in microseconds.
+//! Value of `--step-us`: a step size in microseconds.
 
 use std::fmt;
 use std::str::FromStr;
@@ -7,12 +7,12 @@ use dashpot_core::parameters::STEP_RANGE_S;
 
 use super::failure::{Failure, Outcome};
 
-/// Shortest and longest step (us).
+/// Returns the shortest and longest step (us).
 fn range_us() -> (f64, f64) {
     (STEP_RANGE_S.start() * 1e6, STEP_RANGE_S.end() * 1e6)
 }
 
-/// The help of an option that takes a step size: `what` it is, the steps allowed, and `more`.
+/// Returns the help text of a step-size option: `what` it is, the allowed range, and `more`.
 pub(super) fn help(what: &str, more: &str) -> String {
     let (shortest, longest) = range_us();
     format!("{what}, us; {shortest} to {longest}, fractions allowed{more}")
@@ -33,21 +33,22 @@ pub struct StepSize {
 }
 
 impl StepSize {
-    /// The step size of `us` (us); `None` outside [`STEP_RANGE_S`].
+    /// Creates a step size from microseconds; `None` outside [`STEP_RANGE_S`].
     pub fn from_us(us: f64) -> Option<Self> {
         let step = Self { us };
         STEP_RANGE_S.contains(&step.step_s()).then_some(step)
     }
 
-    /// The step that a target reports in single precision (s), which stands for the shortest decimal that
-    /// rounds to it; `None` outside [`STEP_RANGE_S`].
+    /// Converts the step that a target reports in single precision (s).
+    ///
+    /// The result is the shortest decimal that rounds to it; `None` outside [`STEP_RANGE_S`].
     pub fn from_target(step_s: f32) -> Option<Self> {
         let decimal: f64 = step_s.to_string().parse().ok()?;
-        // Free of the rounding of the product, to the picosecond.
+        // Round to the picosecond to remove the rounding error of the product.
         Self::from_us((decimal * 1e12).round() / 1e6)
     }
 
-    /// As [`Self::from_target`], for building a target's dampers.
+    /// Like [`Self::from_target`], with an error, for building the dampers of a target.
     ///
     /// # Errors
     /// The step is outside [`STEP_RANGE_S`].
@@ -55,18 +56,18 @@ impl StepSize {
         Self::from_target(step_s).ok_or_else(|| {
             let (shortest_us, longest_us) = range_us();
             Failure::new(format!(
-                "the target steps {step_s} s; allowed: {shortest_us} us to {} ms",
+                "the step of the target is {step_s} s; allowed: {shortest_us} us to {} ms",
                 longest_us * 1e-3
             ))
         })
     }
 
-    /// In microseconds.
+    /// Returns the step in microseconds.
     pub fn step_us(self) -> f64 {
         self.us
     }
 
-    /// In seconds.
+    /// Returns the step in seconds.
     pub fn step_s(self) -> f64 {
         self.us / 1e6
     }

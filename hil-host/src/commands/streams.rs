@@ -1,14 +1,14 @@
-//! Files that options name twice, which is wrong use.
+//! Checks for files that several options name.
 
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
 use dashpot_files::input::is_standard_stream;
 
-/// Refuses `-` for more than one of `inputs`, each an option and the file it names.
+/// Rejects `-` for more than one of `inputs`, which are pairs of option and path.
 ///
 /// # Errors
-/// Two of them are `-`: standard input can be read once.
+/// Two paths are `-`: standard input can be read only once.
 pub(super) fn refuse_second_standard_input(inputs: &[(&str, &Path)]) -> Outcome<()> {
     let options: Vec<&str> = inputs
         .iter()
@@ -17,31 +17,31 @@ pub(super) fn refuse_second_standard_input(inputs: &[(&str, &Path)]) -> Outcome<
         .collect();
     if options.len() > 1 {
         return Err(Failure::wrong_use(format!(
-            "{}: `-` is standard input, which can be read for one of them only",
+            "{}: `-` is standard input, which can be read for only one of them",
             options.join(" and ")
         )));
     }
     Ok(())
 }
 
-/// Refuses to write the file at `path`, as `option` asks, over the one at `input`.
+/// Rejects an output `path`, given by `option`, that would overwrite `input`.
 ///
 /// # Errors
-/// Both are the same file.
+/// Both paths are the same file.
 pub(super) fn refuse_input(option: &str, path: &Path, input: &Path) -> Outcome<()> {
     if is_standard_stream(path) || is_standard_stream(input) {
         return Ok(());
     }
     match (path.canonicalize(), input.canonicalize()) {
         (Ok(same), Ok(input)) if same == input => Err(Failure::wrong_use(format!(
-            "{option} {}: is the input too; give another output file",
+            "{option} {}: this is also an input file; give another output file",
             path.display()
         ))),
         _ => Ok(()),
     }
 }
 
-/// Refuses a file that `option` names twice.
+/// Rejects a file that is given twice for `option`.
 ///
 /// # Errors
 /// Two paths are the same file.
@@ -50,7 +50,7 @@ pub(super) fn refuse_twice(option: &str, inputs: &[PathBuf]) -> Outcome<()> {
     for (number, file) in files.iter().enumerate() {
         if file.is_some() && files[..number].contains(file) {
             return Err(Failure::wrong_use(format!(
-                "{option} {}: given twice, and would count twice; allowed: each file once",
+                "{option} {}: given twice; give each file once",
                 inputs[number].display()
             )));
         }
@@ -58,12 +58,12 @@ pub(super) fn refuse_twice(option: &str, inputs: &[PathBuf]) -> Outcome<()> {
     Ok(())
 }
 
-/// Refuses one file for two of `outputs`, each an option and the file it names.
+/// Rejects one file for two of `outputs`, which are pairs of option and path.
 ///
 /// # Errors
-/// Two are the same file, however their paths are written.
+/// Two paths are the same file, even if they are spelled differently.
 pub(super) fn refuse_same_output(outputs: &[(&str, Option<&Path>)]) -> Outcome<()> {
-    let place = |path: &Path| {
+    let location = |path: &Path| {
         let folder = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty());
@@ -79,9 +79,9 @@ pub(super) fn refuse_same_output(outputs: &[(&str, Option<&Path>)]) -> Outcome<(
         .collect();
     for (number, (option, path)) in outputs.iter().enumerate() {
         for (other, earlier) in &outputs[..number] {
-            if place(path) == place(earlier) {
+            if location(path) == location(earlier) {
                 return Err(Failure::wrong_use(format!(
-                    "{other} and {option}: both are {}; give each a file of its own",
+                    "{other} and {option}: both are {}; give each a different file",
                     path.display()
                 )));
             }

@@ -26,11 +26,11 @@ fn an_altered_cell_is_refused_on_resume_and_merge() {
         for (command, way_on) in [
             (
                 &sweep[..],
-                "delete line 5 of this file, and the same command runs its case again",
+                "delete line 5 of this file and repeat the command to run its case again",
             ),
             (
                 &merge,
-                "delete line 5 of this file, run the command of its shard again, and merge",
+                "delete line 5 of this file, run the command of its shard again, then merge",
             ),
         ] {
             let error = error_of(&dashpot(command, folder.path()).code(1));
@@ -73,13 +73,16 @@ fn a_check_finds_what_was_altered_with_its_digest() {
     let four = ["--check", "4", "--check-seed", "7"];
     let told = text_of(&check(&four).success());
     assert!(
-        told.contains("4 cases run again (--check-seed 7), the same bits: "),
+        told.contains("4 cases repeated with bit-identical results (--check-seed 7): "),
         "{told}"
     );
     let again = text_of(&check(&four).success());
     assert_eq!(told, again);
     let told = text_of(&check(&["--check", "99"]).success());
-    assert!(told.contains("12 cases run again (--check-seed "), "{told}");
+    assert!(
+        told.contains("12 cases repeated with bit-identical results (--check-seed "),
+        "{told}"
+    );
     fs::remove_dir_all(folder.path().join("merged")).unwrap();
     // All twelve are run: the altered one is among them.
     let row = rest.lines().nth(3).unwrap();

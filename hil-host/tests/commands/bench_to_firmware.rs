@@ -278,7 +278,9 @@ fn what_was_left_out_of_a_recording_is_told() {
     ];
     let text = text_of(&dashpot(&line, folder.path()).success());
     assert!(
-        text.contains("note: run.csv: left out 1 row that lacked a value; 1 part between gaps, too short for a test"),
+        text.contains(
+            "note: run.csv: omitted 1 row with a missing value; 1 segment between gaps, too short for a test"
+        ),
         "{text}"
     );
 }
@@ -336,7 +338,7 @@ fn wrong_use_says_what_is_allowed() {
                 "mount.clearance_m=2e-3:1e-3",
             ],
             2,
-            "the lesser first",
+            "the smaller first",
         ),
         (
             &[

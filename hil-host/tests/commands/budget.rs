@@ -128,7 +128,7 @@ fn a_paced_run_counts_misses_and_fails_on_them_when_asked() {
     let message = message(run.verdict(true));
     assert_eq!(
         message,
-        "3 of 20 deadlines missed, allowed by --fail-on-miss: none"
+        "3 of 20 deadlines missed; allowed with --fail-on-miss: none"
     );
     assert!(paced_run(Length::Ticks(12), None).verdict(true).is_ok());
 }
@@ -191,7 +191,7 @@ fn text_scales_its_units_and_says_what_is_not_told() {
     assert!(text.contains("tick 1.00 ms"), "{text}");
     assert!(text.contains("p99 -, p99.9 -, p99.99 -"), "{text}");
     assert!(
-        text.contains("-: too few spans for this percentile"),
+        text.contains("-: too few values for this percentile"),
         "{text}"
     );
     assert!(
@@ -237,7 +237,7 @@ fn wrong_options_say_what_is_allowed() {
         (
             &["--core", "1000000"],
             2,
-            "no core this process may use, allowed: ",
+            "this process may not use this core; allowed: ",
         ),
     ] {
         let output = budget(arguments).code(code);

@@ -1,4 +1,4 @@
-//! Advice of `calibrate` named what there was not: `--vary sensor_skew_s=LEAST:GREATEST` of a note, and the prior of a number that was
+//! Advice of `calibrate` named what there was not: `--vary sensor_skew_s=MIN:MAX` of a note, and the prior of a number that was
 //! refused. What a message advises is run here, and every name of a report is taken by the options.
 
 use std::path::Path;

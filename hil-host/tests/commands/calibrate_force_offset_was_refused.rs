@@ -56,7 +56,10 @@ fn offsets_of_both_sensors_are_found_with_intervals() {
     let page = std::fs::read_to_string(folder.join("found.html")).unwrap();
     assert!(page.contains("force_offset_n") && page.contains("middle, mm"));
     let head = std::fs::read_to_string(folder.join("found.toml")).unwrap();
-    assert!(head.contains("(of the rig, not of the damper)"), "{head}");
+    assert!(
+        head.contains("(parameter of the rig, not of the damper)"),
+        "{head}"
+    );
 }
 
 #[test]
@@ -140,7 +143,7 @@ fn the_rigs_numbers_take_bounds_priors_and_values() {
         ),
         (
             &["--no-skew", "--prior", "sensor_skew_s=0:1e-3"],
-            "leave out `--no-skew`",
+            "remove `--no-skew`",
         ),
         (
             &["--hold", "force_offset_n=1e9"],
@@ -157,7 +160,7 @@ fn the_rigs_numbers_take_bounds_priors_and_values() {
         ),
         (
             &["--vary", "sensor_skew_s", "--vary", "sensor_skew_s"],
-            "an option names it twice",
+            "given twice by the same option",
         ),
         (&["--temperature-uncertainty-k", "-1"], "0 to 1000"),
         (&["--max-misfit-percent", "0"], "0.1 to 10000"),

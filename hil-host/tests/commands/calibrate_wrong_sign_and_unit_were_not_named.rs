@@ -61,7 +61,7 @@ fn an_option_that_reverses_in_vain_is_named() {
     is_named(
         |sample| sample,
         &["--reverse-force"],
-        "the force has the opposite sign: leave out `--reverse-force`",
+        "the force has the opposite sign: remove `--reverse-force`",
     );
 }
 

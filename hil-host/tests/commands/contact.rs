@@ -179,7 +179,7 @@ fn a_pair_whose_force_jumps_is_said_with_the_place() {
     let folder = folder_of(&[("worn.csv", &worn_wheel())]);
     let command = ["contact", "--no-plots", "--wheel", "worn.csv"];
     let text = text_of(&dashpot(&command, folder.path()).success());
-    let said = "contact tables of this pair are refused: at a lateral shift of";
+    let said = "contact tables of this pair are rejected: at a lateral shift of";
     assert!(text.contains(said), "{text}");
     let json = [&command[..], &["--format", "json"]].concat();
     let report = json_of(&dashpot(&json, folder.path()).success());

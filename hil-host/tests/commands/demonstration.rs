@@ -55,12 +55,12 @@ fn the_page_is_whole_self_contained_and_accurate() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
-/// The ride is made: nothing on the page or in the report says that it was recorded or measured. What the
-/// paper measured and what was timed here are called so.
+/// The ride is synthetic, and neither page nor report says that it was recorded or measured. Measurements of the paper
+/// and timings on this machine are called measured.
 #[test]
-fn made_signals_are_called_made_and_measured_ones_measured() {
+fn synthetic_signals_are_called_synthetic_and_measured_ones_measured() {
     let (report, page) = &*SHOWN;
-    assert!(report.contains("made ride"), "{report}");
+    assert!(report.contains("synthetic ride"), "{report}");
     let captions: Vec<&str> = page
         .split("<figcaption>")
         .skip(1)
@@ -69,12 +69,12 @@ fn made_signals_are_called_made_and_measured_ones_measured() {
         .collect();
     assert_eq!(captions.len(), 9);
     for caption in &captions[1..] {
-        assert!(caption.contains("made "), "{caption}");
+        assert!(caption.contains("synthetic "), "{caption}");
     }
     for words in [
-        "that is made, not measured",
-        "paper on the made ride",
-        "in-service on the made ride",
+        "runs on a synthetic ride of",
+        "paper on the synthetic ride",
+        "in-service on the synthetic ride",
         "test, measured",
         "measured on this machine",
     ] {
@@ -84,7 +84,7 @@ fn made_signals_are_called_made_and_measured_ones_measured() {
         assert!(!text.contains("recorded"), "{text:.200}");
     }
     let help = text_of(&dashpot(&["--help"], Path::new(".")));
-    assert!(help.contains("made ride"), "{help}");
+    assert!(help.contains("synthetic ride"), "{help}");
 }
 
 /// Figures of the text are those of the damper files.

@@ -150,7 +150,7 @@ fn what_does_not_go_together_is_wrong_use() {
         "--force-noise-n",
         "9",
     ];
-    assert!(wrong(&without_health, 2).contains("allowed: with --health"));
+    assert!(wrong(&without_health, 2).contains("requires --health"));
     let double = [&EXPORT[..], &["bin", "--scalar", "f64"]].concat();
     assert!(wrong(&double, 2).contains("single precision"));
     let step = [&EXPORT[..], &["bin", "--step-us", "5000"]].concat();
@@ -172,6 +172,6 @@ fn what_does_not_go_together_is_wrong_use() {
     );
     assert_eq!(
         text,
-        "PAPER_HEALTH in y.c, declared in y.h: health of paper for 1000 us: image 2236 bytes, 2224 bytes in memory, an estimate 440 bytes\n"
+        "PAPER_HEALTH in y.c, declared in y.h: health model of paper for 1000 us: image 2236 bytes, 2224 bytes in memory, estimate 440 bytes\n"
     );
 }

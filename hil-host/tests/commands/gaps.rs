@@ -75,7 +75,7 @@ fn the_commands_reports_gaps() {
         let arguments = [command, &["--input", ride]].concat();
         let output = dashpot(&arguments, &root).success();
         let text = text_of(&output);
-        let expected = "warning: 1 gap in the recording, over 5 times the median interval of 0.002 s; \
+        let expected = "warning: 1 gap in the recording (intervals over 5 times the median of 0.002 s); \
                         the longest lasts 0.0422 s from 1.9979 s (before line 1009)";
         assert!(text.contains(expected), "{text}");
         let output = dashpot(&[&arguments[..], &["--format", "json"]].concat(), &root);

@@ -37,8 +37,8 @@ fn garbage_is_named_with_its_line_and_the_way_on() {
             error.contains("one/rows.csv.partial:6: "),
             "{name}: {error}"
         );
-        let way_on = "delete line 6 of this file, and the same command runs its case again; or start over with --anew";
-        assert!(error.contains(way_on), "{name}: {error}");
+        let remedy = "delete line 6 of this file and repeat the command to run its case again, or start over with --anew";
+        assert!(error.contains(remedy), "{name}: {error}");
         assert_eq!(fs::read(&partial).unwrap(), bytes, "nothing is changed");
         // The way on, followed.
         let mut mended = lines[..5].concat();

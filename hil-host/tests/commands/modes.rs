@@ -213,12 +213,12 @@ fn errors_say_what_where_and_what_is_allowed() {
         (
             &["--set", "mass_kg=3"],
             2,
-            "--set mass_kg=3: one part and one key; the form is part.key=value",
+            "--set mass_kg=3: one part and one key; expected part.key=value",
         ),
         (
             &["--speed-km-h", "0"],
             2,
-            "--speed-km-h: 0, allowed: 1 to 700 km/h; without it the vehicle stands still",
+            "--speed-km-h: 0, allowed: 1 to 700 km/h; omit it for standstill",
         ),
         (
             &["--speed-km-h", "80", "--friction", "3"],

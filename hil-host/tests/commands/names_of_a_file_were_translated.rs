@@ -36,7 +36,7 @@ const CASES: [Case; 13] = [
     (
         "time_s,--force\n0,1\n1,2\n",
         &["--displacement=--force"],
-        "run.csv: the file does not tell the unit of --force; name it: --displacement-unit with m, cm, mm, um, in\n",
+        "run.csv: the file does not tell the unit of --force; give it with --displacement-unit: m, cm, mm, um, in\n",
         &["--displacement=--force", "--displacement-unit", "m"],
     ),
     (
@@ -76,7 +76,7 @@ const CASES: [Case; 13] = [
     (
         "time_s;displacement_m\ns;mm\n0;0\n1;0\n",
         &[],
-        "run.csv: column displacement_m has the unit `mm`, which is not that of its name; name it: --displacement-unit with m, cm, mm, um, in\n",
+        "run.csv: column displacement_m has the unit `mm`, which is not that of its name; give it with --displacement-unit: m, cm, mm, um, in\n",
         &["--displacement-unit", "mm"],
     ),
     (
@@ -87,7 +87,7 @@ const CASES: [Case; 13] = [
             "--displacement=#2",
             "--displacement-unit=m",
         ],
-        "run.csv:1: `0 1` may be names of columns or a row; say which: --header yes or --header no\n",
+        "run.csv:1: `0 1` may be names of columns or a row; use --header yes or --header no\n",
         &[
             "--header=no",
             "--time=#1",
@@ -100,13 +100,13 @@ const CASES: [Case; 13] = [
         "time_s;displacement_m\n0,5;0.25\n1,5;0.5\n",
         &[],
         "run.csv:2: column displacement_m: `0.25` has a decimal point, the numbers before it have another mark or another one was asked \
-         for; say which holds: --decimal-mark point or comma\n",
+         for; use --decimal-mark point or --decimal-mark comma\n",
         &[],
     ),
     (
         "time_s,displacement_m\n0,0\n1,\n2,0\n",
         &[],
-        "run.csv:3: column displacement_m: `` is not a finite number; --skip-invalid leaves out rows that lack a value\n",
+        "run.csv:3: column displacement_m: `` is not a finite number; use --skip-invalid to skip rows with a missing value\n",
         &["--skip-invalid"],
     ),
     (

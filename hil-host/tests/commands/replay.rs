@@ -116,7 +116,7 @@ fn a_failed_replay_keeps_the_output_that_was_there() {
     let kept = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     assert_eq!(kept, "precious");
     let onto_itself = ["replay", "--input", "in.csv", "--output", "in.csv"];
-    dashpot(&onto_itself, folder.path()).stderr(contains("is the input too"));
+    dashpot(&onto_itself, folder.path()).stderr(contains("this is also an input file"));
 }
 
 #[cfg(unix)]
@@ -221,9 +221,9 @@ fn held_and_limited_input_is_reported() {
     let text = text_of(&output);
     for part in [
         "input held at 1 tick:",
-        "input limited at 1 tick:",
+        "input rate-limited at 1 tick:",
         "limits.rate_m_per_s = 2,",
-        "the first at 5.001 s",
+        "first at 5.001 s",
     ] {
         assert!(text.contains(part), "`{text}` lacks `{part}`");
     }

@@ -94,7 +94,7 @@ fn every_value_is_in_the_file_and_in_json() {
     }
     assert_eq!(report["swept_sine"]["window_cycles"], 2);
     let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
-    assert!(page.contains("Swept beside harmonic") && page.contains("loss angle, °"));
+    assert!(page.contains("Swept compared with harmonic") && page.contains("loss angle, °"));
 }
 
 /// The two commands of the help have the dampers of the study `paper`, at the amplitudes of its figures.

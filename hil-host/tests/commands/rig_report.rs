@@ -48,13 +48,13 @@ fn the_loops_are_drawn_when_asked_for() {
     };
     let nominal = svg(&[]);
     for words in [
-        "Force over displacement, made motion of ±24.875 mm at 0.64 Hz",
+        "Force over displacement, harmonic motion of ±24.875 mm at 0.64 Hz",
         "Force over velocity, made motion",
         "displacement, mm",
         "velocity, m/s",
         "force, kN",
         "paper, computed",
-        "largest forces measured (Table 5)",
+        "measured maximum forces (Table 5)",
     ] {
         assert!(nominal.contains(words), "{words}");
     }

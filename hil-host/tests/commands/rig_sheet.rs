@@ -84,7 +84,7 @@ fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
     let options = ["--sheet", "sheet.toml", "--page", "page.html"];
     let ended = rig(&options, folder.path())
         .code(1)
-        .stderr("error: 1 of 1 limit not kept\n");
+        .stderr("error: 1 of 1 limit violated\n");
     let text = text_of(&ended);
     let line = text
         .lines()
@@ -101,8 +101,8 @@ fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
         "tr class=\"over\"",
         "drawing 12, 3.4",
         "0 of 1",
-        "computed by its model, not measured",
-        "Forces over speed",
+        "computed from its model, not measured",
+        "Forces over velocity",
     ] {
         assert!(page.contains(words), "{words}");
     }
@@ -162,7 +162,7 @@ fn a_sheet_comes_through_standard_input() {
     let sheet = SHEET.replace("LEAST", "1e3");
     dashpot_reading(sheet.as_bytes(), &["rig", "--sheet", "-"], folder.path())
         .success()
-        .stdout(contains("1 limit, all kept"));
+        .stdout(contains("1 limit, all met"));
     dashpot(&["rig", "--sheet", "-", "--damper", "-"], folder.path())
         .code(2)
         .stderr(contains("--damper and --sheet: `-` is standard input"));
@@ -223,7 +223,7 @@ fn what_is_wrong_is_told_with_its_place_and_leaves_no_page() {
         (&["--page", "page.html"], "--sheet"),
         (
             &["--sheet", "sheet.toml", "--page", "sheet.toml"],
-            "--page sheet.toml: is the input too",
+            "--page sheet.toml: this is also an input file",
         ),
     ] {
         rig(options, folder.path()).code(2).stderr(contains(part));

@@ -65,7 +65,7 @@ fn a_short_run_of_a_vehicle_says_that_it_has_no_ride() {
     assert_eq!(
         error_of(&short),
         "note: the run takes 0.5 s, and an index of ride needs a whole window of 5 s; the report will have no \
-         Sperling's index and no mean comfort; --duration-s makes it longer\n"
+         Sperling's index and no mean comfort; use --duration-s for a longer run\n"
     );
     assert!(json_of(&short)["indices"]["ride"][0]["sperling_vertical"].is_null());
     let long = dashpot(&[&line[..], &["--duration-s", "5"]].concat(), folder.path()).success();

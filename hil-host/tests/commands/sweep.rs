@@ -336,7 +336,10 @@ fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
     let ended = child.wait_with_output().unwrap();
     let error = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{error}");
-    assert!(error.contains("files were changed while it ran"), "{error}");
+    assert!(
+        error.contains("a file of the study was changed during the run"),
+        "{error}"
+    );
     let kept = read(folder.path(), "one/rows.csv.partial");
     assert_eq!(kept.lines().count(), 1, "{kept}");
 }
@@ -405,7 +408,7 @@ fn an_interrupted_study_goes_on() {
     let error = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{error}");
     assert!(
-        error.contains("of 12 cases are done; the same command goes on with the rest"),
+        error.contains("of 12 cases are done; the same command resumes with the rest"),
         "{error}"
     );
     assert_eq!(files_in(&folder.path().join("one")), ["rows.csv.partial"]);
@@ -432,7 +435,7 @@ vary = [{ parameter = "speed_km_h", values = [40, 160] }]
     let folder = folder(study);
     let sweep = ["sweep", "study.toml", "--no-page", "--output", "."];
     let text = text_of(&dashpot(&sweep, folder.path()).success());
-    assert!(text.contains("1 case did not come to the end"), "{text}");
+    assert!(text.contains("1 case did not complete"), "{text}");
     let rows = cells(&read(folder.path(), "rows.csv"));
     assert_eq!(rows[0]["ending"], "completed");
     assert!(rows[0]["body_lateral_rms_m_per_s2"].parse::<f64>().unwrap() > 0.0);

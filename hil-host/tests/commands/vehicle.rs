@@ -116,7 +116,7 @@ fn a_case_writes_histories_indices_and_a_page() {
         "wheelset 6",
         "front lateral damper 2",
         "Spectra",
-        "Nadal's is 1.34",
+        "Nadal's limit is 1.34",
         "<svg",
         "aria-label=\"Q left, kN over time, s\"",
     ] {
@@ -243,7 +243,7 @@ fn a_run_that_derails_says_where_keeps_its_rows_and_gives_no_index() {
         spectra.starts_with("frequency_hz,body_middle_lateral") && spectra.lines().count() == 1
     );
     let page = fs::read_to_string(folder.path().join("over/report.html")).unwrap();
-    assert!(page.contains("did not come to its end"));
+    assert!(page.contains("The run did not complete"));
 }
 
 #[test]

@@ -109,7 +109,7 @@ fn input_that_the_damper_did_not_follow_is_reported() {
     );
     let text = text_of(&output);
     assert!(
-        text.contains("warning: input held or limited at up to 2 ticks"),
+        text.contains("warning: input held or rate-limited at up to 2 ticks"),
         "{text}{}",
         error_of(&output)
     );

@@ -67,7 +67,7 @@ fn an_nrmse_above_the_limit_fails_and_the_table_is_for_people() {
 #[test]
 fn options_that_go_with_a_recording_or_without_are_refused_otherwise() {
     for (options, part) in [
-        (&["--time", "t"][..], "need --input"),
+        (&["--time", "t"][..], "require --input"),
         (
             &["--input", "in.csv", "--top-speed-m-per-s", "1"],
             "cannot be used with",

@@ -67,8 +67,8 @@ fn a_load_far_beyond_the_model_ends_the_run_with_time_and_place() {
     let place = load["distance_m"].as_f64().unwrap();
     assert!((DIP_M..DIP_M + 10.0).contains(&place), "{load}");
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert!(page.contains("The run did not come to its end: beyond the model at"));
-    assert!(page.contains("Results beyond what the model means"));
+    assert!(page.contains("The run did not complete: beyond the model at"));
+    assert!(page.contains("Results outside the validity of the model"));
 }
 
 /// A row of a study says the same, and has no indices.
@@ -87,7 +87,7 @@ fn a_row_of_a_study_says_so() {
     .success();
     let text = text_of(&ended);
     assert!(
-        text.contains("1 case did not come to the end (beyond the model), without indices: 1"),
+        text.contains("1 case did not complete (beyond the model; no indices): 1"),
         "{text}"
     );
     let mut rows = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();
@@ -124,5 +124,5 @@ fn a_load_over_ten_times_that_at_standstill_is_a_warning() {
         assert!(text.contains(&format!("warning: {message}")), "{text}");
     }
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert!(page.contains("Results beyond what the model means"));
+    assert!(page.contains("Results outside the validity of the model"));
 }

@@ -92,7 +92,7 @@ fn step_sizes() {
         &["--realtime", "--step-us", "62.5"],
         "allowed are 100 to 1000 us",
     );
-    wrong_use(&REPLAY, &["--fifo", "10"], "go with --realtime");
+    wrong_use(&REPLAY, &["--fifo", "10"], "require --realtime");
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn dampers() {
             ("mount.clearence_m=1e-3", "did you mean `clearance_m`"),
             ("mount.stiffness_n_per_m=-1", "mount.stiffness_n_per_m = -1"),
             ("mount.stiffness_n_per_m", "no `=`"),
-            ("mount.clearance_m=wide", "the form is table.key=value"),
+            ("mount.clearance_m=wide", "expected table.key=value"),
             (
                 "geometry.rod_diameter_m=0.07",
                 "0 to 0.95 of piston_diameter_m",
@@ -163,7 +163,7 @@ fn recordings() {
     wrong_use(
         &["replay"],
         &onto_itself,
-        "--output in.csv: is the input too",
+        "--output in.csv: this is also an input file",
     );
     failed(
         &["replay", "--input", "in.csv"],
@@ -192,7 +192,7 @@ fn shims_as_plates() {
     for (options, part) in [
         (
             &["--loaded-radii-m", "0.02"][..],
-            "allowed: two radii in m with a comma between",
+            "allowed: two radii in m separated by a comma",
         ),
         (
             &["--loaded-radii-m", "0.025,0.02"],
@@ -214,8 +214,8 @@ fn shims_as_plates() {
             &["--loaded-radii-m", "0.02,0.025", "--decay-exponent", "0"],
             "--decay-exponent: 0, allowed: above 0 and at most 10",
         ),
-        (&["--decay-exponent", "2"], "--decay-exponent goes with"),
-        (&["--bosses", "6"], "--bosses goes with --boss-share, or"),
+        (&["--decay-exponent", "2"], "--decay-exponent requires"),
+        (&["--bosses", "6"], "--bosses requires --boss-share, or"),
         (
             &["--bosses", "37", "--boss-share", "0.5"],
             "--bosses: 37, allowed: 1 to 36",
@@ -322,7 +322,7 @@ fn budget() {
         #[cfg(target_os = "linux")]
         (
             &["--core", "1000000"],
-            "--core 1000000: no core this process may use, allowed: ",
+            "--core 1000000: this process may not use this core; allowed: ",
         ),
     ] {
         wrong_use(&["budget"], options, part);

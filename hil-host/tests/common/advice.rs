@@ -1,5 +1,5 @@
 //! The advice of an error message, taken as its user would take it: options in backticks after `use` are added or replaced, those after
-//! `leave out` are removed.
+//! `remove` are removed.
 
 /// Options without a value.
 const SWITCHES: [&str; 4] = [
@@ -28,7 +28,7 @@ fn changed(line: Vec<String>, part: &str) -> Option<Vec<String>> {
     let used = part
         .split_once("use `")
         .and_then(|(_, rest)| rest.split_once('`'));
-    let left = part.split_once("leave out `").map(|(_, rest)| rest);
+    let left = part.split_once("remove `").map(|(_, rest)| rest);
     if used.is_none() && left.is_none() {
         return None;
     }

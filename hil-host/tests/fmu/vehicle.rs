@@ -233,17 +233,17 @@ fn what_is_no_vehicle_around_a_damper_is_refused() {
         (
             2,
             "--fmi 3 --case straight-180",
-            "no damper is outside, allowed: with --outside DAMPER",
+            "--case requires at least one --outside DAMPER",
         ),
         (
             2,
             "--fmi 3 @",
-            "--outside: it is of the FMU of a vehicle, allowed: with --case",
+            "--outside applies to the FMU of a vehicle only and requires --case",
         ),
         (
             2,
             "--lang c --case straight-180",
-            "--case: it is of an FMU, allowed: with --fmi",
+            "--case applies to FMUs only and requires --fmi",
         ),
         (
             2,

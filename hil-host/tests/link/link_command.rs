@@ -21,14 +21,14 @@ fn hello_reports_who_answers() {
         })
     );
     let text = rig.text(&["hello"]);
-    assert!(text.contains("step      1000 us\ntick      0, the host steps\n"));
+    assert!(text.contains("step      1000 us\ntick      0, stepped by the host\n"));
     assert!(
         text.ends_with(&format!("    2  {:#010x}\n", revisions[2])),
         "{text}"
     );
     rig.text(&["run", "--displacement-m", "0"]);
     assert_eq!(rig.json(&["hello"])["running"], true);
-    assert!(rig.text(&["hello"]).contains("runs free"));
+    assert!(rig.text(&["hello"]).contains("free-running"));
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn status_is_reported_by_name_and_cleared() {
         json!({"place": 0, "status": [], "rejected_inputs": 0})
     );
     let cleared = rig.text(&["clear"]);
-    assert!(cleared.starts_with("cleared:\nplace  rejected inputs  status\n"));
+    assert!(cleared.starts_with("cleared:\n slot  rejected inputs  status\n"));
     assert!(
         cleared.contains(&format!("{rejected}  input limited")),
         "{cleared}"
@@ -83,7 +83,7 @@ fn the_clearance_changes_live() {
     let rig = Rig::new();
     let before = rig.json(&["hello"]);
     let reported = rig.text(&["set", "--place", "1", "--clearance-m", "0.002"]);
-    assert_eq!(reported, "place 1: clearance 0.002 m\n");
+    assert_eq!(reported, "slot 1: clearance 0.002 m\n");
     let after = rig.json(&["hello"]);
     let same = |place: usize| before["revisions"][place] == after["revisions"][place];
     assert_eq!([0, 1, 2].map(same), [true, false, true]);
@@ -112,7 +112,9 @@ fn the_tick_runs_stops_and_says_when_it_cannot() {
     assert_eq!(driven["tick"], 4 * TICKS);
     let error = rig.error(&["displace", "--displacement-m", "0,1"], 2);
     assert!(
-        error.contains("2 values, the target has 3 places; allowed: 1, for all places, or 3"),
+        error.contains(
+            "2 values, but the target has 3 slots; allowed: 1 value for all slots or 3 values"
+        ),
         "{error}"
     );
     assert_eq!(rig.json(&["stop"]), json!({"running": false}));
@@ -124,7 +126,7 @@ fn a_lost_link_makes_the_outputs_safe_until_run() {
     let reported = rig.text(&["loss-of-link", "--after-ticks", "50", "--output", "zero"]);
     assert_eq!(
         reported,
-        "lost after 50 ticks without a displacement; outputs then: zero\n"
+        "lost after 50 ticks without a displacement; outputs after that: zero\n"
     );
     let run = ["run", "--displacement-m", "0"];
     let displace = ["displace", "--displacement-m", "0.005"];

@@ -17,7 +17,7 @@ fn a_damper_goes_where_it_is_not_yet() {
     assert_eq!(
         reported,
         format!(
-            "in-service, revision {revision:#010x}\nloaded into places 0, 2\nskipped place 1: there already\n"
+            "in-service, revision {revision:#010x}\nloaded into slots 0, 2\nskipped slot 1: already loaded\n"
         )
     );
     let again = rig.json(&load);
@@ -73,13 +73,13 @@ fn an_image_is_loaded_when_it_fits() {
     for (image, part) in [
         (
             &half.to_image()[..],
-            "x.bin: built for a step of 500 us, the target steps 1000 us; export it for that step",
+            "x.bin: built for a step of 500 us, but the target's step is 1000 us; export it for that step",
         ),
         (&double.to_image()[..], "x.bin: "),
         (&damaged[..], "x.bin: CRC-32 does not match"),
         (
             b"DASH",
-            "x.bin: 4 bytes where a damper has 6728; allowed: what `dashpot export --lang bin`",
+            "x.bin: 4 bytes where a damper has 6728; allowed: a file written by `dashpot export --lang bin`",
         ),
         (b"", "x.bin: 0 bytes"),
     ] {

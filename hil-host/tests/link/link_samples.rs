@@ -50,11 +50,11 @@ fn every_damper_has_its_own_samples_of_the_same_ticks() {
     }
     let text = rig.text(&["telemetry"]);
     assert!(
-        text.contains("place 0: 0 samples taken, 16 overwritten"),
+        text.contains("slot 0: 0 samples fetched; 16 overwritten"),
         "{text}"
     );
     assert!(
-        text.contains("place 2: 64 samples taken, 16 overwritten"),
+        text.contains("slot 2: 64 samples fetched; 16 overwritten"),
         "{text}"
     );
     // A header, the samples of the third damper, a line for each place.
@@ -124,11 +124,11 @@ fn samples_are_watched_as_they_come() {
     assert!(ticks.is_sorted_by(|a, b| a < b), "{ticks:?}");
     // 20 ticks pass with each request, whose answer has 8 samples.
     let warnings = error_of(&output);
-    assert!(warnings.starts_with("warning: place 0: "), "{warnings}");
-    assert!(warnings.contains("overwritten before they were taken"));
+    assert!(warnings.starts_with("warning: slot 0: "), "{warnings}");
+    assert!(warnings.contains("overwritten before they were fetched"));
     let text = rig.text(&["watch", "--samples", "9"]);
     assert_eq!(text.lines().count(), 10);
-    assert!(text.starts_with("place        tick  displacement_m     force_n  status\n"));
+    assert!(text.starts_with(" slot        tick  displacement_m     force_n  status\n"));
     assert!(
         text.lines().last().unwrap().starts_with("    1  "),
         "{text}"
@@ -140,7 +140,9 @@ fn a_target_that_does_not_run_is_not_watched_for_ever() {
     let rig = Rig::new();
     let output = rig.output(&["watch"]).code(1);
     let error = error_of(&output);
-    assert!(error.contains("does not run free, so no more samples come; `run` starts it"));
+    assert!(
+        error.contains("not free-running, so no more samples will arrive; start it with `run`")
+    );
 }
 
 fn watch(rig: &Rig) -> Child {

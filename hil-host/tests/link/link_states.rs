@@ -51,14 +51,17 @@ fn states_of_other_dampers_are_refused_before_they_are_sent() {
     let before = refused(&rig);
     let error = rig.error(&["restore", "--input", "a.toml"], 1);
     assert!(
-        error.contains("a.toml: place 1: state of damper 0x"),
+        error.contains("a.toml: slot 1: state of damper 0x"),
         "{error}"
     );
     assert!(
-        error.contains(&format!("the target's is {:#010x}; load", revision(1))),
+        error.contains(&format!(
+            "the target holds {:#010x}; first load",
+            revision(1)
+        )),
         "{error}"
     );
-    assert!(!error.contains("place 0") && !error.contains("place 2"));
+    assert!(!error.contains("slot 0") && !error.contains("slot 2"));
     assert_eq!(refused(&rig), before);
 
     let text = rig.read("a.toml");

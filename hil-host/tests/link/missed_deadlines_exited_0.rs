@@ -49,7 +49,7 @@ fn a_run_that_misses_its_deadlines_fails() {
     assert!(realtime["work"]["worst_ns"].as_f64().unwrap() >= 3e6);
     let error = error_of(&ended.code(1));
     assert!(
-        error.contains("50 of 50 deadlines missed, allowed with --realtime: one in 1000"),
+        error.contains("50 of 50 deadlines missed; allowed with --realtime: one in 1000"),
         "{error}"
     );
     // What was computed is kept.

@@ -142,11 +142,15 @@ fn the_page_shows_each_place_and_the_results() {
         .iter()
         .enumerate()
     {
-        assert!(page.contains(&format!("<h3>Place {place}: {damper}</h3>")));
+        assert!(page.contains(&format!("<h3>Slot {place}: {damper}</h3>")));
     }
     // Forces of three places, clock ticks how often and over time, and round trip.
     assert_eq!(page.matches("class=\"plot\"").count(), 6);
-    assert_eq!(page.matches("Every force has the host's bits.").count(), 3);
+    assert_eq!(
+        page.matches("Every force is bit-identical to that of the host.")
+            .count(),
+        3
+    );
     assert!(!page.contains("Marks on the time axes"));
 }
 
@@ -198,7 +202,7 @@ fn a_force_that_differs_fails_the_command_and_is_shown() {
     assert_ne!(differing[0][7], differing[0][8]);
     let page = std::fs::read_to_string(folder.path().join("run.html")).unwrap();
     assert_eq!(
-        page.matches("Red, on axes of its own: target less host.")
+        page.matches("Red, on separate axes: target minus host.")
             .count(),
         1
     );
@@ -232,12 +236,12 @@ fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
         (
             &["--output", "in.csv"],
             2,
-            "--output in.csv: is the input too",
+            "--output in.csv: this is also an input file",
         ),
         (
             &["--page", "./in.csv"],
             2,
-            "--page ./in.csv: is the input too",
+            "--page ./in.csv: this is also an input file",
         ),
         (
             &["--output", "x", "--page", "x"],
@@ -252,12 +256,12 @@ fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
         (
             &["--damper", "-", "--damper", "-"],
             2,
-            "`-` is standard input, which can be read for one of them only",
+            "`-` is standard input, which can be read for only one of them",
         ),
         (
             &["--core", "0"],
             2,
-            "--fifo, --lock-memory and --core go with --paced",
+            "--fifo, --lock-memory and --core require --paced",
         ),
     ] {
         let folder = tempfile::tempdir().unwrap();

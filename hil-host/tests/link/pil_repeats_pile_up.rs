@@ -171,7 +171,7 @@ fn a_silent_target_names_the_options() {
         "{error}"
     );
     assert!(
-        error.contains("by --timeout-ms, more tries by --tries"),
+        error.contains("use a longer --timeout-ms or more --tries"),
         "{error}"
     );
 }

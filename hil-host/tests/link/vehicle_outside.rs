@@ -102,7 +102,7 @@ fn a_damper_on_a_target_answers_one_tick_late() {
         [600, 0, 1]
     );
     let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
-    assert!(page.contains("Dampers outside") && page.contains("its force 1000 us late"));
+    assert!(page.contains("External dampers") && page.contains("force delayed by 1000 us"));
 }
 
 #[test]
@@ -177,7 +177,7 @@ fn a_target_whose_step_does_not_divide_the_cases_is_refused() {
         vehicle(&[&options[..], &[step_us]].concat(), folder.path())
             .code(2)
             .stderr(contains(format!(
-                "the target steps 1000 us, the case {step_us} us; allowed: --step-us 1000 or a whole multiple"
+                "the step of the target is 1000 us, that of the case {step_us} us; allowed: --step-us 1000 or a whole multiple"
             )));
     }
 }
@@ -279,7 +279,7 @@ fn the_recorded_force_of_a_run_replays_it() {
     assert_eq!(found["dampers"][0]["is_recorded"], true);
     assert_eq!(found["effect"], Value::Null);
     let page = std::fs::read_to_string(again.path().join("report.html")).unwrap();
-    assert!(page.contains("recorded force of force.csv"));
+    assert!(page.contains("recorded force from force.csv"));
 }
 
 #[test]
@@ -376,7 +376,7 @@ fn wrong_use_is_told() {
         (&["--outside", &one, "--check"], "cannot be used with"),
         (
             &["--baud", "9600"],
-            "--timeout-ms, --tries and --baud go with --outside",
+            "--timeout-ms, --tries and --baud require --outside",
         ),
         (
             &["--case", "fault.toml", "--outside", &one],

@@ -28,7 +28,7 @@ pub fn ended(trial: &Trial) -> Outcome<String> {
     // The command stopped in order.
     contains(
         &trial.log(&job, 1)?,
-        "of 6 cases are done; the same command goes on",
+        "of 6 cases are done; the same command resumes",
     )?;
     let expected = missing(&[1, 2]);
     trial.merge_fails(ENDED, &expected)?;

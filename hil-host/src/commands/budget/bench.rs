@@ -1,4 +1,4 @@
-//! The work of a tick: dampers on a made motion.
+//! Work of a tick: dampers on a synthetic motion.
 
 use std::hint::black_box;
 
@@ -6,7 +6,7 @@ use dashpot_core::{Damper, DamperState, Real};
 
 use dashpot_testbench::excitation::Excitation;
 
-/// Dampers on a ride that ends where it began, a decay, then rest; over and over.
+/// Dampers on a repeating motion: a ride that ends where it began, a decay, then rest.
 pub(super) struct Bench<T> {
     damper: Damper<T>,
     states: Vec<DamperState<T>>,
@@ -15,7 +15,7 @@ pub(super) struct Bench<T> {
 }
 
 impl<T: Real> Bench<T> {
-    /// So many of `damper`, built for `step_s` (s).
+    /// Creates `dampers` states of `damper`, which is built for `step_s` (s).
     pub(super) fn new(damper: Damper<T>, dampers: u32, step_s: f64) -> Self {
         let mut motion = Excitation::Ride.displacements_m(step_s);
         let last = motion.len() - 1;

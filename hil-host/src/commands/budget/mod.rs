@@ -1,4 +1,4 @@
-//! `dashpot budget`: time per step on this host, free running or in real ticks.
+//! `dashpot budget`: measures the time per step on this host, free-running or in real time.
 
 mod bench;
 mod report;
@@ -20,58 +20,58 @@ use dashpot_realtime::limits::RATE_RANGE_HZ;
 use dashpot_realtime::pacing::{MonotonicClock, Pacer, overhead_ns};
 use dashpot_realtime::timing::Machine;
 
-/// Time per step on this host: histogram, percentiles, worst case, missed deadlines.
+/// Measure the time per step on this host: histogram, percentiles, worst case, missed deadlines.
 ///
-/// The dampers follow a made motion: a random ride, a decay, then rest, over and over.
+/// The dampers follow a synthetic motion that repeats: a random ride, a decay, then rest.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot budget --damper paper --steps 1000000
   dashpot budget --rate-hz 10000 --duration-s 60 --fifo 80 --lock-memory --core 1 --fail-on-miss
   dashpot budget --rate-hz 1000 --stop-above-ns 100000 --format json
 
-Histograms have the same bins in every run: borders at 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3 and 8 times the powers of
-ten from 1 ns to 10 s (R10 of ISO 3), a span on a border in the bin above; bins without spans are left out.
-A percentile is told when at least ten spans are expected beyond it: p50 takes 20 spans, p90 100, p99 1000, p99.9 10000,
-p99.99 100000; else it is - in text and null in JSON.")]
+Histogram bins are the same in every run, with edges at 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3 and 8 times powers of ten
+from 1 ns to 10 s (R10 of ISO 3). A value on an edge belongs to the bin above. Empty bins are omitted.
+A percentile is printed only if at least ten values are expected beyond it: p50 needs 20 values, p90 100, p99 1000,
+p99.9 10000 and p99.99 100000. Otherwise it is - in text and null in JSON.")]
 pub struct BudgetArguments {
     #[command(flatten)]
     damper: DamperArguments,
     /// Floating-point type.
     #[arg(long, value_parser = named_values::scalar(), default_value_t = Scalar::F32)]
     scalar: Scalar,
-    /// Ticks to run; 1000000 free running, five seconds paced when not given.
+    /// Number of ticks to run [default: 1000000 free-running, five seconds in real time].
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=10_000_000_000))]
     steps: Option<u64>,
-    /// Time to run in place of --steps, s; free running, half of it ticks timed alone, half in batches.
+    /// Duration instead of --steps, s; free-running, half of it times single ticks and half times batches.
     #[arg(long, conflicts_with = "steps", value_name = "S",
         value_parser = clap::value_parser!(u64).range(1..=604_800))]
     duration_s: Option<u64>,
-    /// Dampers stepped each tick.
+    /// Number of dampers stepped per tick.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     dampers: u32,
-    /// Run in real ticks at this rate, Hz; free running, built for 1000 Hz, when not given.
+    /// Run in real time at this rate, Hz [default: free-running, with dampers built for 1000 Hz].
     #[arg(long, value_parser = clap::value_parser!(u32).range(rates_hz()))]
     rate_hz: Option<u32>,
-    /// Stop at the first tick whose work takes longer, ns; report it and exit with 1.
+    /// Stop with exit code 1 at the first tick that takes longer than this, ns.
     #[arg(long, value_name = "NS", value_parser = clap::value_parser!(u64).range(1..))]
     stop_above_ns: Option<u64>,
-    /// Exit with 1 when a deadline was missed.
+    /// Exit with code 1 if a deadline was missed.
     #[arg(long, requires = "rate_hz")]
     fail_on_miss: bool,
     #[command(flatten)]
     realtime: RealtimeArguments,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
-/// Rates that ticks can be paced at (Hz), as clap takes a range.
+/// Returns the allowed tick rates (Hz) as a range for clap.
 fn rates_hz() -> RangeInclusive<i64> {
     i64::from(*RATE_RANGE_HZ.start())..=i64::from(*RATE_RANGE_HZ.end())
 }
 
 impl BudgetArguments {
-    /// How long the run lasts, `ticks` when no option says it.
+    /// Returns the length of the run; `ticks` if no option sets it.
     fn length(&self, ticks: u64) -> Length {
         match (self.steps, self.duration_s) {
             (_, Some(duration_s)) => Length::Nanoseconds(duration_s * 1_000_000_000),
@@ -84,8 +84,8 @@ impl BudgetArguments {
 /// Runs the budget and prints it.
 ///
 /// # Errors
-/// The damper is refused, the system refuses a real-time option, a tick took longer than
-/// `--stop-above-ns`, or a deadline was missed under `--fail-on-miss`.
+/// The damper is invalid, the system refuses a real-time option, a tick took longer than `--stop-above-ns`, or a
+/// deadline was missed with `--fail-on-miss`.
 pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
     match arguments.scalar {
         Scalar::F32 => measure::<f32>(arguments),
@@ -98,7 +98,7 @@ fn measure<T: Real>(arguments: &BudgetArguments) -> Outcome<()> {
     let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
     let mut bench = Bench::new(damper, arguments.dampers, step_s);
     let options = arguments.realtime.options();
-    // Before the run, so that its own load does not count.
+    // Read before the run, so that the load of the run itself does not count.
     let machine = Machine::read(Path::new("/"), options.core, SystemTime::now());
     let clock = MonotonicClock::default();
     let clock_overhead_ns = overhead_ns(&clock);

@@ -1,4 +1,4 @@
-//! The report of `dashpot budget`.
+//! Report of `dashpot budget`.
 
 use std::io::{self, Write};
 
@@ -10,7 +10,7 @@ use dashpot_realtime::options::RealtimeOptions;
 use dashpot_realtime::stop::Stop;
 use dashpot_realtime::timing::{Bin, Figures, Machine, optional_span, span};
 
-/// What was run, and where.
+/// Settings of the run and the machine.
 #[derive(Serialize)]
 pub(super) struct Setting {
     pub(super) mode: &'static str,
@@ -38,9 +38,9 @@ pub(super) struct Report {
 struct Spread {
     name: &'static str,
     figures: Figures,
-    /// Tick of the longest span, or the first of its batch, from 0.
+    /// Tick of the longest time (or the first tick of its batch), from 0.
     worst_tick: u64,
-    /// That tick's time along the motion: tick times step.
+    /// Time of that tick along the motion (tick times step).
     worst_time_s: f64,
     worst_share_of_tick: f64,
     histogram: Vec<Bin>,
@@ -62,7 +62,7 @@ impl Spread {
 }
 
 impl Report {
-    /// Of a run in its setting.
+    /// Creates the report of a run.
     pub(super) fn new(setting: Setting, run: &Run) -> Self {
         let spread = |series| Spread::new(series, setting.step_s);
         Self {
@@ -76,12 +76,12 @@ impl Report {
     }
 }
 
-/// The report for people.
+/// Prints the report as text.
 pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let setting = &report.setting;
     writeln!(
         out,
-        "{} {}, dampers a tick: {}, {} ticks, {}; tick {}; two clock readings {}{}",
+        "{} {}, dampers per tick: {}, {} ticks, {}; tick {}; two clock readings {}{}",
         setting.damper,
         setting.scalar,
         setting.dampers,
@@ -104,7 +104,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         .iter()
         .map(|ns| span(*ns as f64))
         .collect();
-    writeln!(out, "first ticks, clock within: {}", first.join(", "))?;
+    writeln!(out, "first ticks, including clock: {}", first.join(", "))?;
     for spread in &report.spreads {
         print_spread(out, spread)?;
     }
@@ -112,7 +112,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.spreads.iter().any(sparse) {
         writeln!(
             out,
-            "\n-: too few spans for this percentile, fewer than ten would lie beyond it"
+            "\n-: too few values for this percentile (fewer than ten would lie beyond it)"
         )?;
     }
     Ok(())
@@ -122,7 +122,7 @@ fn print_spread(out: &mut dyn Write, spread: &Spread) -> io::Result<()> {
     let f = &spread.figures;
     writeln!(
         out,
-        "\n{}, a tick: min {}, mean {}, p50 {}, p90 {}, p99 {}, p99.9 {}, p99.99 {}",
+        "\n{}, per tick: min {}, mean {}, p50 {}, p90 {}, p99 {}, p99.9 {}, p99.99 {}",
         spread.name,
         span(f.min_ns),
         span(f.mean_ns),

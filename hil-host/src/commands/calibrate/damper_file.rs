@@ -1,4 +1,4 @@
-//! The damper that was found, as a file that says in its head what it was found from.
+//! The calibrated damper as a TOML file; comments at the top list the tests.
 
 use dashpot_core::CheckedParameters;
 
@@ -7,7 +7,7 @@ use crate::commands::failure::Outcome;
 use dashpot_calibration::RIG;
 use dashpot_files::damper;
 
-/// The file.
+/// Returns the text of the file.
 ///
 /// # Errors
 /// The damper cannot be written.
@@ -37,17 +37,17 @@ pub(super) fn text(report: &Report, found: &CheckedParameters) -> Outcome<String
             ));
         }
     }
-    lines.push("Found, with the interval of 95 %:".into());
+    lines.push("Found, with 95 % intervals:".into());
     for number in &report.numbers {
         let end = |end: Option<f64>| end.map_or_else(|| "its bound".into(), digits);
         let rig = if RIG.contains(&number.key.as_str()) {
-            " (of the rig, not of the damper)"
+            " (parameter of the rig, not of the damper)"
         } else {
             ""
         };
         let prior = number.prior.filter(|_| !number.by_tests).map(|prior| {
             format!(
-                "; known before: {} +- {}",
+                "; prior: {} +- {}",
                 digits(prior.mean),
                 digits(prior.standard_deviation)
             )

@@ -1,4 +1,4 @@
-//! `dashpot calibrate`: from bench tests to the numbers of a damper.
+//! `dashpot calibrate`: identifies damper parameters from bench tests.
 
 mod damper_file;
 mod numbers;
@@ -24,72 +24,104 @@ use dashpot_files::FileError;
 use dashpot_files::damper::Keyed;
 use dashpot_files::output::{cannot_write, write_bytes, write_whole_if};
 
-/// Find the numbers of a damper from bench tests: force-displacement loops, or tables of their indices.
+/// Identify damper parameters from bench tests: force-displacement loops or tables of their indices.
 ///
-/// Says how well the tests determine each number, and refuses those that they do not.
+/// Reports how well the tests determine each parameter, and rejects parameters that they do not determine.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot calibrate --damper in-service --input bench.mf4 --vary orifice.discharge_coefficient \\
       --vary mount.stiffness_n_per_m --vary mount.clearance_m --output calibrated.toml --page calibrated.html
-  dashpot calibrate --damper reduced-vertical --input slow.csv --input fast.csv --displacement Weg --displacement-unit mm \\
-      --vary reduced.damping_n_s_per_m=5e4:3e5 --vary mount.stiffness_n_per_m --output found.toml
-  dashpot calibrate --damper paper --indices table5.csv --vary orifice.diameter_m --prior orifice.diameter_m=2e-3:1e-4 \\
+  dashpot calibrate --damper reduced-vertical --input slow.csv --input fast.csv --displacement Weg \\
+      --displacement-unit mm --vary reduced.damping_n_s_per_m=5e4:3e5 --vary mount.stiffness_n_per_m \\
       --output found.toml
+  dashpot calibrate --damper paper --indices table5.csv --vary orifice.diameter_m \\
+      --prior orifice.diameter_m=2e-3:1e-4 --output found.toml
 
-Numbers are found by least squares; each test counts by what its force scatters by. Two numbers of the rig are found with them from recorded
-loops: sensor_skew_s, the time by which the force is recorded later, and force_offset_n, what the force sensor shows at no force. --vary gives
-them bounds, --prior says what is known of them, and --hold keeps them. A wrong sign, a wrong unit and a start from another kind of damper
-are refused with the option that helps. A table of indices is CSV with the columns
-amplitude_m, frequency_hz and any of max_extension_force_n, max_compression_force_n, energy_per_cycle_j (magnitudes; an empty cell was
-not measured), force_at_most_n (what no force exceeds) and scatter_percent (standard deviation; 1 where none is given).")]
+Parameters are identified by least squares, and each test is weighted by the noise of its force. Recorded loops also
+determine two parameters of the rig: sensor_skew_s, the delay of the recorded force, and force_offset_n, the reading
+of the force sensor at zero force. --vary sets their bounds, --prior states prior knowledge, and --hold fixes them. A
+wrong sign, a wrong unit or a start from another kind of damper is an error, which names the option that corrects it.
+
+A table of indices is a CSV file with the columns amplitude_m and frequency_hz and any of max_extension_force_n,
+max_compression_force_n, energy_per_cycle_j (magnitudes; an empty cell means not measured), force_at_most_n (an upper
+limit of the force) and scatter_percent (standard deviation; default 1).")]
 pub struct CalibrateArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// Recorded loops: time, displacement and force; one file for each test, or one with gaps between the tests.
+    /// Recorded loops (time, displacement and force): one file per test, or one file with gaps between the tests.
     #[arg(long, value_name = "FILE")]
     input: Vec<PathBuf>,
     #[command(flatten)]
     channels: MeasurementArguments,
-    /// Table of the indices of tests, CSV.
+    /// Table of test indices, CSV.
     #[arg(long, value_name = "FILE")]
     indices: Vec<PathBuf>,
-    /// A number to find, where it starts being the damper's; bounds in its unit, where they are not to be the plausible ones.
-    #[arg(long, value_name = "KEY[=LEAST:GREATEST]", required = true)]
+    /// Parameter to identify, starting from the damper's value. Bounds are in its unit; the default is a plausible
+    /// range.
+    #[arg(long, value_name = "KEY[=MIN:MAX]", required = true)]
     vary: Vec<Variation>,
-    /// What is known of a number before the tests: mean and standard deviation.
+    /// Prior knowledge of a parameter: mean and standard deviation.
     #[arg(long, value_name = "KEY=MEAN:DEVIATION")]
     prior: Vec<NamedPrior>,
-    /// Only priors that are given, not those that hold for every damper (discharge coefficients, density and bulk modulus of oil, steel).
+    /// Use only the priors given by --prior, not the built-in ones (discharge coefficients, density and bulk modulus
+    /// of oil, steel).
     #[arg(long)]
     no_priors: bool,
-    /// Force and displacement are recorded at the same instant; else the skew between them is found too. The same as --hold sensor_skew_s.
+    /// Assume that force and displacement were recorded simultaneously; otherwise the skew between them is identified.
+    /// Same as --hold sensor_skew_s.
     #[arg(long)]
     no_skew: bool,
-    /// A number of the rig that is not to be found, sensor_skew_s or force_offset_n, and its value, 0 where none is given.
+    /// Fix a parameter of the rig, sensor_skew_s or force_offset_n, at a value (default 0) instead of identifying it.
     #[arg(long, value_name = "KEY[=VALUE]")]
     hold: Vec<Held>,
-    /// How well you know the temperature of the oil in the tests (K): half of an interval of 95 %. All intervals include it.
-    #[arg(long, value_name = "K", default_value_t = TEMPERATURE_UNCERTAINTY_K, value_parser = uncertainty, allow_negative_numbers = true)]
+    /// Uncertainty of the oil temperature in the tests (K), as half of a 95 % interval. Included in all intervals.
+    #[arg(
+        long,
+        value_name = "K",
+        default_value_t = TEMPERATURE_UNCERTAINTY_K,
+        value_parser = uncertainty,
+        allow_negative_numbers = true
+    )]
     temperature_uncertainty_k: f64,
-    /// How well you know the density of the oil (kg/m3): half of an interval of 95 %. All intervals include it.
-    #[arg(long, value_name = "KG_PER_M3", default_value_t = 0.0, value_parser = uncertainty, allow_negative_numbers = true)]
+    /// Uncertainty of the oil density (kg/m3), as half of a 95 % interval. Included in all intervals.
+    #[arg(
+        long,
+        value_name = "KG_PER_M3",
+        default_value_t = 0.0,
+        value_parser = uncertainty,
+        allow_negative_numbers = true
+    )]
     density_uncertainty_kg_per_m3: f64,
-    /// What the model may miss of each test's force beyond its noise, rms of rms (%); a fit that misses more is refused.
-    #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * MOST_MISSED, value_parser = percent, allow_negative_numbers = true)]
+    /// Largest accepted misfit of each test: rms residual beyond the noise, as a percentage of the rms force. A larger
+    /// misfit is an error.
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 100.0 * MOST_MISSED,
+        value_parser = percent,
+        allow_negative_numbers = true
+    )]
     max_misfit_percent: f64,
-    /// Starts of the search.
+    /// Number of starting points of the search.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
     starts: u16,
-    /// The step, us.
-    #[arg(help = step_size::help("Step of the model", ""), long, default_value = "250", value_name = "US", allow_negative_numbers = true)]
+    /// Step of the model, us.
+    #[arg(
+        help = step_size::help("Step of the model", ""),
+        long,
+        default_value = "250",
+        value_name = "US",
+        allow_negative_numbers = true
+    )]
     step_us: StepSize,
-    /// The damper found, TOML, with what it was found from in its head; a file is written whole or not at all, `-` is standard output.
+    /// Calibrated damper, TOML; its header lists the tests. No partial file is left after an error; `-` is standard
+    /// output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
-    /// Page with loops before and after, HTML.
+    /// HTML page with the loops before and after calibration.
     #[arg(long, value_name = "FILE")]
     page: Option<PathBuf>,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -97,11 +129,11 @@ pub struct CalibrateArguments {
 /// Runs the command.
 ///
 /// # Errors
-/// A damper, number or test that cannot be used, or numbers that the tests do not determine; then nothing is written.
+/// The damper, a parameter or a test is invalid, or the tests do not determine a parameter. Nothing is then written.
 pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     if arguments.input.is_empty() && arguments.indices.is_empty() {
         return Err(Failure::wrong_use(
-            "nothing to calibrate from: give recorded loops with --input, or a table of indices with --indices",
+            "no tests: give recorded loops with --input, or a table of indices with --indices",
         ));
     }
     refuse_same_streams(arguments)?;
@@ -162,7 +194,7 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
 }
 
 impl CalibrateArguments {
-    /// What the options say of the recording and the damper, for advice.
+    /// Options that the advice in error messages depends on.
     fn given(&self) -> words::Given {
         let channels = self.channels.channels();
         words::Given {
@@ -176,21 +208,21 @@ impl CalibrateArguments {
     }
 }
 
-/// An uncertainty, 0 or above.
+/// Parses an uncertainty: 0 to 1000.
 fn uncertainty(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok();
     let number = number.filter(|number| (0.0..=1e3).contains(number));
     number.ok_or_else(|| "allowed: 0 to 1000".into())
 }
 
-/// A part in percent.
+/// Parses a percentage.
 fn percent(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok();
     let number = number.filter(|number| (0.1..=1e4).contains(number));
     number.ok_or_else(|| "allowed: 0.1 to 10000".into())
 }
 
-/// Refuses standard input twice, and outputs that would overwrite what is read.
+/// Rejects standard input for two inputs, and outputs that would overwrite an input.
 fn refuse_same_streams(arguments: &CalibrateArguments) -> Outcome<()> {
     let damper = [("--damper", std::path::Path::new(&arguments.damper.damper))];
     let inputs = arguments

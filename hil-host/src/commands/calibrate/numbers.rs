@@ -1,11 +1,11 @@
-//! The numbers that are varied, as options name them.
+//! Parsing of the options that select parameters: `--vary`, `--prior` and `--hold`.
 
 use std::str::FromStr;
 
 use super::CalibrateArguments;
 use dashpot_calibration::{Prior, Request, SKEW};
 
-/// `KEY` or `KEY=LEAST:GREATEST`.
+/// `KEY` or `KEY=MIN:MAX`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Variation {
     key: String,
@@ -51,9 +51,8 @@ impl FromStr for Variation {
             let (key, bounds) = (text.to_owned(), None);
             return Ok(Self { key, bounds });
         };
-        let bounds = pair(bounds).filter(|[least, greatest]| least < greatest);
-        let bounds =
-            bounds.ok_or("allowed after `=`: LEAST:GREATEST, two numbers, the lesser first")?;
+        let bounds = pair(bounds).filter(|[min, max]| min < max);
+        let bounds = bounds.ok_or("allowed after `=`: MIN:MAX, two numbers, the smaller first")?;
         Ok(Self {
             key: key.into(),
             bounds: Some(bounds),
@@ -77,13 +76,14 @@ impl FromStr for NamedPrior {
                 },
             }),
             None => Err(
-                "allowed: KEY=MEAN:DEVIATION, two numbers, the standard deviation above 0".into(),
+                "allowed: KEY=MEAN:DEVIATION, two numbers, with a standard deviation above 0"
+                    .into(),
             ),
         }
     }
 }
 
-/// Two finite numbers with a colon between them.
+/// Parses two finite numbers separated by a colon.
 fn pair(text: &str) -> Option<[f64; 2]> {
     let (first, second) = text.split_once(':')?;
     let numbers = [first, second].map(|number| number.trim().parse::<f64>().ok());
@@ -91,7 +91,7 @@ fn pair(text: &str) -> Option<[f64; 2]> {
     Some([first?, second?])
 }
 
-/// What the options ask for.
+/// Builds the calibration request from the options.
 pub(super) fn request(arguments: &CalibrateArguments) -> Request {
     let vary = arguments.vary.iter();
     let priors = arguments.prior.iter();

@@ -1,4 +1,4 @@
-//! The page of a calibration.
+//! HTML page of a calibration.
 
 use maud::{Markup, html};
 
@@ -14,15 +14,15 @@ use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, PALE, RED_LINE};
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;
 
-/// Samples of a loop that are drawn, at most.
-const MOST_SAMPLES: usize = 2000;
+/// Maximum number of samples drawn per loop.
+const MAX_SAMPLES: usize = 2000;
 
-/// A number with a minus at which no line ends.
+/// Formats a number with U+2212 as minus sign, at which browsers do not break a line.
 fn digits(value: f64) -> String {
     report::digits(value).replace('-', "\u{2212}")
 }
 
-/// The page.
+/// Returns the page.
 ///
 /// # Errors
 /// A figure cannot be drawn.
@@ -38,9 +38,9 @@ pub(super) fn write(
         .zip(&report.loops);
     let body = html! {
         h1 { "Calibrated damper" }
-        p.lead { (report.before()) ", its numbers found from bench tests by least squares." }
+        p.lead { (report.before()) ", with parameters identified from bench tests by least squares." }
         (headline(report))
-        h2 { "Numbers" }
+        h2 { "Parameters" }
         (numbers(report))
         (notes(report))
         (profiles(report, found)?)
@@ -49,8 +49,8 @@ pub(super) fn write(
         @if !report.indices.is_empty() { (index_table(report)) }
         @for ((test, fit), row) in tests { (loop_figures(calibration.step_s, test, fit, row)?) }
         (footer(&html! {
-            "The damper is in " code { (report.output) } "; what it was found from is in its head. How numbers and intervals are found: "
-            "docs/calibration.md."
+            "The damper file is " code { (report.output) } "; its header lists the tests. docs/calibration.md "
+            "describes how values and intervals are found."
         }))
     };
     Ok(document("Dashpot: calibrated damper", &body))
@@ -70,7 +70,7 @@ fn headline(report: &Report) -> Markup {
         let share = 100.0 * row.missed_after_n / row.peak_force_n;
         shown.push((
             html! { (format!("{share:.1} %")) },
-            "of the peak force is missed in the worst test, rms".into(),
+            "rms residual in the worst test, relative to the peak force".into(),
         ));
     }
     tiles(&shown)
@@ -81,15 +81,22 @@ fn numbers(report: &Report) -> Markup {
     html! {
         div.wide.worded {
             table {
-                tr { th { "number" } th { "before" } th { "found" } th { "95 % interval" } th { "known before" } th { "determined by" } }
+                tr {
+                    th { "parameter" } th { "before" } th { "found" } th { "95 % interval" } th { "prior" }
+                    th { "determined by" }
+                }
                 @for number in &report.numbers {
                     tr {
                         td { (number.key) }
                         td { (digits(number.before)) }
                         td { b { (digits(number.found)) } }
                         td { (end(number.least)) " to " (end(number.greatest)) }
-                        td { @if let Some(prior) = number.prior { (digits(prior.mean)) " ± " (digits(prior.standard_deviation)) } }
-                        td { @if number.by_tests { "tests" } @else { "tests and what was known" } }
+                        td {
+                            @if let Some(prior) = number.prior {
+                                (digits(prior.mean)) " ± " (digits(prior.standard_deviation))
+                            }
+                        }
+                        td { @if number.by_tests { "tests" } @else { "tests and prior" } }
                     }
                 }
             }
@@ -104,14 +111,14 @@ fn notes(report: &Report) -> Markup {
     }
 }
 
-/// How the sum of squares rises about each number.
+/// Draws the profile likelihood of each parameter: the rise of the sum of squares around its best value.
 fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
-    let of = |(number, profile): (&Number, &Profile)| {
+    let panel_of = |(number, profile): (&Number, &Profile)| {
         let centre = number.found;
-        // In percent where that is a number, so that the ticks can be read.
+        // In percent where possible, so that the ticks are readable.
         let (scale, label) = match centre {
-            0.0 => (1.0, "from the one found"),
-            _ => (100.0 / centre.abs(), "from the one found, %"),
+            0.0 => (1.0, "change from the value found"),
+            _ => (100.0 / centre.abs(), "change from the value found, %"),
         };
         let shown = |value: f64| (value - centre) * scale;
         let points = profile
@@ -119,7 +126,7 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
             .iter()
             .filter(|(_, rise)| *rise <= 2.0 * RISE_95);
         let points: Vec<(f64, f64)> = points.map(|(value, rise)| (shown(*value), *rise)).collect();
-        // Near the minimum the rise is a parabola on either side.
+        // Near the minimum the rise is a parabola on each side.
         let side = |end: Option<&(f64, f64)>| {
             let (end, rise) = end.copied().unwrap_or((0.0, 0.0));
             (0..=20).map(move |part| {
@@ -144,15 +151,21 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
         panel
     };
     let profiles = Figure {
-        panels: report.numbers.iter().zip(&found.profiles).map(of).collect(),
+        panels: report
+            .numbers
+            .iter()
+            .zip(&found.profiles)
+            .map(panel_of)
+            .collect(),
         height: 200,
         shares: None,
     };
     figure(
         &profiles,
         &html! {
-            "Profile of the likelihood, the rise of chi-square: how much worse all tests fit together when a number is held elsewhere and the others follow. Where it "
-            "passes the dashed line the interval of 95 % ends."
+            "Profile likelihood (rise of chi-square): how much the fit of all tests worsens when one parameter is "
+            "fixed at another value and the others are refitted. The 95 % interval ends where the curve crosses "
+            "the dashed line."
         },
     )
 }
@@ -162,8 +175,9 @@ fn loop_table(rows: &[Loop]) -> Markup {
         div.wide.worded {
             table {
                 tr {
-                    th { "test" } th { "amplitude, mm" } th { "middle, mm" } th { "peak velocity, m/s" } th { "peak force, kN" } th { "noise of force, N" }
-                    th { "missed before, N" } th { "missed after, N" }
+                    th { "test" } th { "amplitude, mm" } th { "middle, mm" } th { "peak velocity, m/s" }
+                    th { "peak force, kN" } th { "noise of force, N" }
+                    th { "residual before, N" } th { "residual after, N" }
                 }
                 @for row in rows {
                     tr class=[row.misses.then_some("over")] {
@@ -190,7 +204,10 @@ fn index_table(report: &Report) -> Markup {
                 @for row in &report.indices {
                     @for (name, measured, before, after) in row.lines() {
                         tr {
-                            td { "±" (format!("{:.3}", row.measured.amplitude_m * 1e3)) " mm at " (row.measured.frequency_hz) " Hz" }
+                            td {
+                                "±" (format!("{:.3}", row.measured.amplitude_m * 1e3))
+                                " mm at " (row.measured.frequency_hz) " Hz"
+                            }
                             td { (name) }
                             td { (measured) }
                             td { (format!("{before:.1}")) }
@@ -203,14 +220,14 @@ fn index_table(report: &Report) -> Markup {
     }
 }
 
-/// Loops of a test and what the model misses of it.
+/// Draws the loops of a test and the residual of the model.
 fn loop_figures(
     step_s: f64,
     test: &LoopTest,
     fit: &LoopFit,
     row: &Loop,
 ) -> Result<Markup, DrawError> {
-    let every = fit.after_n.len().div_ceil(MOST_SAMPLES).max(1);
+    let every = fit.after_n.len().div_ceil(MAX_SAMPLES).max(1);
     let measured = test.counted_forces_n();
     let (x, v) = (
         test.counted_displacements_m(),
@@ -239,17 +256,19 @@ fn loop_figures(
     let missed = Figure {
         panels: vec![panel(
             "time, s",
-            "found less measured, N",
+            "found minus measured, N",
             vec![Curve::new("", RED_LINE, missed).wide(FINE)],
         )],
         height: 200,
         shares: None,
     };
     let caption = html! {
-        "Force over displacement (first) and velocity (second), freed of the noise of the displacement: measured, before, found."
+        "Force over displacement (first) and over velocity (second), with the noise of the displacement removed: "
+                "measured, before and found."
     };
     let missed_caption = html! {
-        "What the model misses: " (format!("{:.0}", row.missed_after_n)) " N rms of " (format!("{:.1}", row.peak_force_n * 1e-3)) " kN."
+        "Residual of the model: " (format!("{:.0}", row.missed_after_n)) " N rms at a peak force of "
+                (format!("{:.1}", row.peak_force_n * 1e-3)) " kN."
     };
     Ok(html! {
         h3 { (row.test) }

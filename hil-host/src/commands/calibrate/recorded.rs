@@ -1,4 +1,4 @@
-//! Loops as a file has them.
+//! Reading of recorded loops.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use dashpot_files::FileError;
 use dashpot_files::input;
 use dashpot_recording::{Channels, Gaps, Measurement};
 
-/// The loops recorded in the file at `path`, and its gaps.
+/// Reads the loops recorded in the file at `path`, and its gaps.
 ///
 /// # Errors
-/// A file that cannot be read, or that has not the channels.
+/// The file cannot be read, or a channel is missing.
 pub(super) fn read(path: &Path, channels: &Channels) -> Result<(Recorded, Gaps), FileError> {
     let mut measurement = Measurement::open(path, channels)?;
     let mut recorded = Recorded {

@@ -15,54 +15,56 @@ use dashpot_files::output;
 use dashpot_recording::Gaps;
 use dashpot_testbench::bench_test::{Indices, run_until_periodic};
 
-/// Half of the interval of the middle of a motion, in standard deviations of the noise: 1.96 over the root of two, for it is the mean of two ends, and
-/// smoothing makes neither worse than a sample.
+/// Half-width of the 95 % interval of the middle of a motion, in standard deviations of the noise.
+///
+/// It is 1.96 / sqrt(2) because the middle is the mean of two ends, and smoothing makes neither end noisier than a
+/// sample.
 const OFFSET_DEVIATIONS: f64 = 1.386;
 
-/// A number that was found.
+/// An identified parameter.
 #[derive(Serialize)]
 pub(super) struct Number {
     pub(super) key: String,
     pub(super) before: f64,
     pub(super) found: f64,
-    /// Ends of the interval of 95 %, by the profile of the likelihood and the uncertainty of the assumed numbers; `None` where a bound comes
-    /// first.
+    /// Ends of the 95 % interval from the profile likelihood and the uncertainty of the assumed parameters; `None` if
+    /// a bound is reached first.
     pub(super) least: Option<f64>,
     pub(super) greatest: Option<f64>,
-    /// The same by the profile alone, the assumed numbers being exact.
+    /// Ends of the interval from the profile alone, with the assumed parameters exact.
     least_by_noise: Option<f64>,
     greatest_by_noise: Option<f64>,
     pub(super) bounds: [f64; 2],
     pub(super) prior: Option<Prior>,
-    /// Whether the tests tell it, rather than what was known before.
+    /// True if the tests rather than the prior determine it.
     pub(super) by_tests: bool,
-    /// Standard deviation by linear theory, priors included.
+    /// Standard deviation from linear theory, including priors.
     standard_deviation: f64,
-    /// Other numbers and the correlation with them.
+    /// Correlation with each of the other parameters.
     correlation: Vec<(String, f64)>,
 }
 
-/// An assumed number is said to move others that it moves by this part of what noise does.
+/// Smallest shift that the report mentions, as a part of the interval from noise alone.
 const PART_OF_NOISE: f64 = 0.2;
 
 impl Number {
-    /// Half of its interval by noise.
+    /// Returns half of the interval from noise alone.
     fn noise(&self) -> f64 {
         let [least, greatest] = self.bounds;
         0.5 * (self.greatest_by_noise.unwrap_or(greatest) - self.least_by_noise.unwrap_or(least))
     }
 }
 
-/// What an assumed number does to those that were found.
+/// Effect of an assumed parameter on the identified ones.
 #[derive(Serialize)]
 pub(super) struct AssumedNumber {
     pub(super) key: String,
     pub(super) value: f64,
-    /// Half of its interval of 95 %.
+    /// Half of its 95 % interval.
     pub(super) uncertainty: f64,
-    /// The option that sets it.
+    /// Option that sets the uncertainty.
     option: &'static str,
-    /// Each found number with how far it moves at the lower and at the upper end of that interval.
+    /// Each identified parameter with its shift at the lower and at the upper end of that interval.
     pub(super) shifts: Vec<(String, [f64; 2])>,
 }
 
@@ -80,7 +82,7 @@ impl AssumedNumber {
         }
     }
 
-    /// In words, with what it does to each of `numbers` that it moves.
+    /// Describes the assumption and how much it shifts each of `numbers`.
     pub(super) fn words(&self, numbers: &[Number]) -> String {
         let moved = self.shifts.iter().zip(numbers);
         let moved: Vec<String> = moved
@@ -100,9 +102,9 @@ impl AssumedNumber {
             })
             .collect();
         let moves = if moved.is_empty() {
-            "which moves no number by a fifth of its noise".into()
+            "which shifts every parameter by less than a fifth of its noise".into()
         } else {
-            format!("which moves {}", moved.join(", "))
+            format!("which shifts {}", moved.join(", "))
         };
         format!(
             "{} {} +- {} (95 %, {}), {moves}",
@@ -111,7 +113,7 @@ impl AssumedNumber {
     }
 }
 
-/// A warning and its words.
+/// A warning with its text.
 #[derive(Serialize)]
 pub(super) struct Warned {
     #[serde(flatten)]
@@ -119,16 +121,16 @@ pub(super) struct Warned {
     pub(super) words: String,
 }
 
-/// What was read of a file of loops, and what was left out.
+/// Counts of tests and omitted rows of a file of loops.
 #[derive(Serialize)]
 pub(super) struct Recording {
     file: String,
     tests: usize,
-    /// Stretches between gaps with too few samples for a test.
+    /// Segments between gaps with too few samples for a test.
     too_short: usize,
-    /// Rows that lacked a value.
+    /// Rows with a missing value.
     rows_left_out: u64,
-    /// The last line of the file, where it has no line end.
+    /// Number of the last line, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
     unended_line: Option<u64>,
 }
@@ -144,12 +146,16 @@ impl Recording {
         }
     }
 
-    /// What was left out, in words.
+    /// Describes the omitted rows and segments.
     fn left_out(&self) -> Option<String> {
-        let rows = (self.rows_left_out > 0)
-            .then(|| format!("{} that lacked a value", counted(self.rows_left_out, "row")));
+        let rows = (self.rows_left_out > 0).then(|| {
+            format!(
+                "{} with a missing value",
+                counted(self.rows_left_out, "row")
+            )
+        });
         let short = (self.too_short > 0).then(|| {
-            let parts = counted(self.too_short as u64, "part");
+            let parts = counted(self.too_short as u64, "segment");
             format!("{parts} between gaps, too short for a test")
         });
         let parts: Vec<String> = [rows, short].into_iter().flatten().collect();
@@ -157,7 +163,7 @@ impl Recording {
     }
 }
 
-/// A loop before and after.
+/// Results for one loop before and after calibration.
 #[derive(Serialize)]
 pub(super) struct Loop {
     pub(super) test: String,
@@ -166,7 +172,8 @@ pub(super) struct Loop {
     pub(super) peak_velocity_m_per_s: f64,
     pub(super) peak_force_n: f64,
     pub(super) displacement_noise_m: f64,
-    /// The middle of the motion as recorded, with its interval of 95 %: the offset of the sensor where the rig moves about the damper's middle.
+    /// Middle of the recorded motion, with its 95 % interval. It is the sensor's offset if the rig moves about the
+    /// damper's middle.
     pub(super) displacement_offset_m: f64,
     displacement_offset_least_m: f64,
     displacement_offset_greatest_m: f64,
@@ -174,11 +181,11 @@ pub(super) struct Loop {
     pub(super) missed_before_n: f64,
     pub(super) missed_after_n: f64,
     correlation_samples: f64,
-    /// Whether the model lacks something that the test has.
+    /// True if the residual is larger than noise explains.
     pub(super) misses: bool,
 }
 
-/// Indices of a test before and after.
+/// Indices of a test before and after calibration.
 #[derive(Serialize)]
 pub(super) struct IndexRow {
     pub(super) measured: IndexTest,
@@ -186,7 +193,7 @@ pub(super) struct IndexRow {
     pub(super) after: Indices,
 }
 
-/// All of it.
+/// The whole report.
 #[derive(Serialize)]
 pub(super) struct Report {
     pub(super) damper: String,
@@ -196,9 +203,9 @@ pub(super) struct Report {
     recordings: Vec<Recording>,
     pub(super) loops: Vec<Loop>,
     pub(super) indices: Vec<IndexRow>,
-    /// Values of the rig's numbers that were not varied.
+    /// Values of the rig's fixed parameters.
     held: HeldRig,
-    /// What was assumed of the oil, and what that does to the numbers.
+    /// Assumed properties of the oil and their effect on the parameters.
     #[serde(rename = "assumed")]
     pub(super) influences: Vec<AssumedNumber>,
     pub(super) warnings: Vec<Warned>,
@@ -209,10 +216,10 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Of a calibration and what it found.
+    /// Builds the report.
     ///
     /// # Errors
-    /// A damper whose force does not become periodic.
+    /// The force of the damper does not become periodic.
     pub(super) fn new(
         arguments: &CalibrateArguments,
         calibration: &Calibration,
@@ -265,14 +272,14 @@ impl Report {
         });
         let before = arguments.damper.load()?;
         let indices = calibration.indices.iter().map(|measured| -> Outcome<_> {
-            let of = |damper| -> Outcome<Indices> {
+            let indices_of = |damper| -> Outcome<Indices> {
                 let cycle = run_until_periodic(damper, measured.motion(), calibration.step_s)?;
                 Ok(cycle.indices())
             };
             Ok(IndexRow {
                 measured: measured.clone(),
-                before: of(&before)?,
-                after: of(&found.damper)?,
+                before: indices_of(&before)?,
+                after: indices_of(&found.damper)?,
             })
         });
         Ok(Self {
@@ -307,13 +314,13 @@ impl Report {
         })
     }
 
-    /// What the damper was before, with its overrides.
+    /// Returns the initial damper with its overrides, as options.
     pub(super) fn before(&self) -> String {
         let set = self.overrides.iter().map(|set| format!(" --set {set}"));
         [self.damper.clone()].into_iter().chain(set).collect()
     }
 
-    /// Prints it for people.
+    /// Prints the report as text.
     ///
     /// # Errors
     /// The output cannot be written.
@@ -322,7 +329,7 @@ impl Report {
         writeln!(out, "{} calibrated from {tests}", report.before())?;
         for recording in &report.recordings {
             if let Some(left_out) = recording.left_out() {
-                writeln!(out, "note: {}: left out {left_out}", recording.file)?;
+                writeln!(out, "note: {}: omitted {left_out}", recording.file)?;
             }
             if let Some(line) = recording.unended_line {
                 writeln!(out, "{}: {}", recording.file, unended(line))?;
@@ -340,7 +347,7 @@ impl Report {
         writeln!(
             out,
             "  {:<width$}  {:>11}  {:>11}  {:^25}  by",
-            "number", "before", "found", "95 % interval"
+            "parameter", "before", "found", "95 % interval"
         )?;
         for number in &report.numbers {
             writeln!(
@@ -367,7 +374,7 @@ impl Report {
         }
         writeln!(
             out,
-            "{} of {} led to these numbers",
+            "{} of {} led to these values",
             report.starts_at_this_minimum,
             counted(report.starts as u64, "start")
         )?;
@@ -395,7 +402,7 @@ impl Report {
             "velocity, m/s",
             "force, kN",
             "noise, N",
-            "missed before",
+            "misfit before",
             "and after, N"
         )?;
         for row in &self.loops {
@@ -439,7 +446,7 @@ impl Report {
 }
 
 impl IndexRow {
-    /// Name, measured, before and after of each index that was measured.
+    /// Returns the name, measured value, value before and value after of each measured index.
     pub(super) fn lines(&self) -> impl Iterator<Item = (&'static str, String, f64, f64)> {
         let IndexRow {
             measured,
@@ -469,7 +476,7 @@ impl IndexRow {
                 after.max_compression_force_n,
             ),
             (
-                "energy of a cycle, J",
+                "energy per cycle, J",
                 measured
                     .energy_per_cycle_j
                     .map(|energy| format!("{energy:.1}")),
@@ -491,7 +498,7 @@ impl IndexRow {
     }
 }
 
-/// Four digits.
+/// Formats a number with four significant digits.
 pub(super) fn digits(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (0.01..10_000.0).contains(&size) {

@@ -1,34 +1,34 @@
-//! A calibration's errors and warnings in the words of the command: what to do, as options.
+//! Errors and warnings of a calibration, with remedies expressed as command-line options.
 
 use crate::commands::failure::Failure;
 use dashpot_calibration::{Advice, CalibrationError, Finding, Remedy, SKEW, Warning};
 use dashpot_recording::{Quantity, Unit};
 
-/// What the command line says already, so that advice goes with it.
+/// Options already on the command line, so that advice does not repeat or contradict them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Given {
-    /// Unit of the displacement, where an option gives one.
+    /// Unit of the displacement, if an option gives one.
     pub displacement_unit: Option<Unit>,
-    /// Unit of the force, where an option gives one.
+    /// Unit of the force, if an option gives one.
     pub force_unit: Option<Unit>,
-    /// Whether the displacement is reversed.
+    /// True if the displacement is reversed.
     pub displacement_is_reversed: bool,
-    /// Whether the force is reversed.
+    /// True if the force is reversed.
     pub force_is_reversed: bool,
-    /// Whether the damper has overrides.
+    /// True if the damper has overrides.
     pub has_overrides: bool,
-    /// Whether `--no-skew` holds the skew.
+    /// True if `--no-skew` fixes the skew.
     pub has_no_skew: bool,
 }
 
-/// Options to add and options to leave out.
+/// Options to add and options to remove.
 #[derive(Debug, Default)]
 struct Change {
     add: Vec<String>,
-    leave_out: Vec<String>,
+    remove: Vec<String>,
 }
 
-/// The failure that `error` is, beside the options `given`.
+/// Converts `error` to a command failure with advice that fits the options in `given`.
 pub fn failure(error: CalibrationError, given: &Given) -> Failure {
     match error {
         CalibrationError::Damper(error) => error.into(),
@@ -48,7 +48,7 @@ pub fn failure(error: CalibrationError, given: &Given) -> Failure {
     }
 }
 
-/// The error and what to do about it.
+/// Returns the error text with its remedies.
 fn message(error: &CalibrationError, given: &Given) -> String {
     let what = match error {
         CalibrationError::Bounds { .. }
@@ -59,11 +59,14 @@ fn message(error: &CalibrationError, given: &Given) -> String {
         CalibrationError::NotOfRig { .. }
         | CalibrationError::HeldAndVaried { .. }
         | CalibrationError::Held { .. } => format!("--hold {error}"),
-        CalibrationError::Twice { key } => format!("{key}: an option names it twice"),
+        CalibrationError::Twice { key } => format!("{key}: given twice by the same option"),
         other => other.to_string(),
     };
     let advice = error.advice();
-    let said: Vec<String> = advice.iter().map(|advice| said(advice, given)).collect();
+    let remedies: Vec<String> = advice
+        .iter()
+        .map(|advice| instruction(advice, given))
+        .collect();
     match error {
         CalibrationError::Implausible {
             advice: found,
@@ -74,49 +77,56 @@ fn message(error: &CalibrationError, given: &Given) -> String {
                 format!(
                     "{}: {}\n  {what}",
                     causes.join(", and "),
-                    said.join(", or ")
+                    remedies.join(", or ")
                 )
             }
-            None => nothing_found(finding, &what, &said),
+            None => without_cause(finding, &what, &remedies),
         },
         CalibrationError::Undetermined { .. } => {
-            format!("{what}\n{}, or add a test that decides", said.join(", or "))
+            format!(
+                "{what}\n{}, or add a test that separates them",
+                remedies.join(", or ")
+            )
         }
-        _ if said.is_empty() => what,
-        _ => format!("{what}; {}", said.join(", or ")),
+        _ if remedies.is_empty() => what,
+        _ => format!("{what}; {}", remedies.join(", or ")),
     }
 }
 
-/// Where no cause was found.
-fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
-    let tried = "no sign, unit, bound or preset that was tried explains the recordings";
+/// Message for an implausible result whose cause was not identified.
+fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
+    let tried = "none of the signs, units, bounds and presets tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
-            "{what}\n  {tried}: the law of this damper lacks something that they have; to have the nearest fit all the same, {}",
-            said.join(", or ")
+            "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit \
+             anyway, {}",
+            remedies.join(", or ")
         ),
         Finding::AtBound { .. } => format!(
-            "{what}\n  {tried}; to have the best value within these bounds all the same, {}",
-            said.join(", or ")
+            "{what}\n  {tried}; to accept the best value within these bounds anyway, {}",
+            remedies.join(", or ")
         ),
         Finding::Driven { .. } => format!(
-            "{what}\n  the force or the displacement has the opposite sign: use `--reverse-force`, or use `--reverse-displacement`"
+            "{what}\n  the force or the displacement has the opposite sign: use `--reverse-force`, or use \
+             `--reverse-displacement`"
         ),
-        _ => format!("{what}\n  look at the unit (--displacement-unit) and at the time"),
+        _ => format!(
+            "{what}\n  check the displacement unit (--displacement-unit) and the time column"
+        ),
     }
 }
 
-/// What to do, in a sentence without an end.
-fn said(advice: &Advice, given: &Given) -> String {
+/// Phrases `advice` as an instruction, without a full stop.
+fn instruction(advice: &Advice, given: &Given) -> String {
     let mut change = Change::default();
     for remedy in advice {
         change.take(remedy, given);
     }
     let quoted = |options: &[String], between: &str| format!("`{}`", options.join(between));
     let add = (!change.add.is_empty()).then(|| format!("use {}", quoted(&change.add, " ")));
-    let leave = (!change.leave_out.is_empty())
-        .then(|| format!("leave out {}", quoted(&change.leave_out, "` and `")));
-    [add, leave]
+    let remove = (!change.remove.is_empty())
+        .then(|| format!("remove {}", quoted(&change.remove, "` and `")));
+    [add, remove]
         .into_iter()
         .flatten()
         .collect::<Vec<_>>()
@@ -139,29 +149,28 @@ impl Change {
                 self.add.push(format!("--force-unit {unit}"));
             }
             Remedy::Bounds { key, bounds } => {
-                let [least, greatest] = bounds;
-                self.add
-                    .push(format!("--vary {key}={least:e}:{greatest:e}"));
+                let [min, max] = bounds;
+                self.add.push(format!("--vary {key}={min:e}:{max:e}"));
             }
             Remedy::VaryAlso(keys) => self.vary(keys),
             Remedy::OtherDamper { name, vary } => {
                 self.add.push(format!("--damper {name}"));
                 self.vary(vary);
                 if !vary.is_empty() {
-                    self.leave_out.push("every other --vary".into());
+                    self.remove.push("every other --vary".into());
                 }
                 if given.has_overrides {
-                    self.leave_out.push("every other --set".into());
+                    self.remove.push("every other --set".into());
                 }
             }
-            Remedy::Leave(key) => self.leave_out.push(format!("--vary {key}")),
+            Remedy::Leave(key) => self.remove.push(format!("--vary {key}")),
             Remedy::Know(key) => self.add.push(format!("--prior {key}=MEAN:DEVIATION")),
-            Remedy::Forget(key) => self.leave_out.push(format!("--prior {key}")),
+            Remedy::Forget(key) => self.remove.push(format!("--prior {key}")),
             Remedy::Hold(key) => self.add.push(format!("--hold {key}=VALUE")),
             Remedy::Release(key) if key == SKEW && given.has_no_skew => {
-                self.leave_out.push("--no-skew".into());
+                self.remove.push("--no-skew".into());
             }
-            Remedy::Release(key) => self.leave_out.push(format!("--hold {key}")),
+            Remedy::Release(key) => self.remove.push(format!("--hold {key}")),
             Remedy::Set { key, value } => self.add.push(format!("--set {key}={value:e}")),
             Remedy::Starts(starts) => self.add.push(format!("--starts {starts}")),
             Remedy::AllowMisfit(part) => {
@@ -173,7 +182,7 @@ impl Change {
 
     fn switch(&mut self, option: &str, is_given: bool) {
         let list = if is_given {
-            &mut self.leave_out
+            &mut self.remove
         } else {
             &mut self.add
         };
@@ -186,7 +195,9 @@ impl Change {
     }
 }
 
-/// The unit in which numbers are that were read in the unit `given`, or in that of SI or the file's, and must be multiplied by `factor`.
+/// Returns the unit that corrects a wrong scale.
+///
+/// The values were read in the unit `given`, or else in SI or the file's own unit, and must be multiplied by `factor`.
 fn unit_read(quantity: Quantity, given: Option<Unit>, factor: f64) -> &'static str {
     let units = quantity.units();
     let read = given.map_or(units, |given| {
@@ -195,16 +206,16 @@ fn unit_read(quantity: Quantity, given: Option<Unit>, factor: f64) -> &'static s
             .position(|unit| unit.name() == given.name())
             .map_or(units, |number| &units[number..=number])
     });
-    let is_of =
+    let matches =
         |unit: &Unit, read: &Unit| (unit.to_si(1.0) / read.to_si(factor) - 1.0).abs() < 1e-6;
     let pairs = read
         .iter()
         .flat_map(|read| units.iter().map(move |unit| (unit, read)));
-    let mut found = pairs.filter(|(unit, read)| is_of(unit, read));
+    let mut found = pairs.filter(|(unit, read)| matches(unit, read));
     found.next().map_or("UNIT", |(unit, _)| unit.name())
 }
 
-/// A warning, as a line for people.
+/// Formats a warning as one line of text.
 pub(super) fn line(warning: &Warning) -> String {
     match warning {
         Warning::Missed {
@@ -212,11 +223,12 @@ pub(super) fn line(warning: &Warning) -> String {
             missed_n,
             noise_n,
         } => format!(
-            "warning: {test}: the model misses {missed_n:.0} N where the force scatters by {noise_n:.0} N: it lacks something that this test \
-             has, and no interval includes that"
+            "warning: {test}: the residual is {missed_n:.0} N but the noise only {noise_n:.0} N: the model lacks an \
+             effect that this test contains, and the intervals do not account for it"
         ),
         Warning::ZeroDiffers { test, mean_n } => format!(
-            "warning: {test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate it apart",
+            "warning: {test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate this \
+             test separately",
             -mean_n
         ),
         Warning::AtBound {
@@ -224,15 +236,16 @@ pub(super) fn line(warning: &Warning) -> String {
             bound,
             is_physical: true,
         } => format!(
-            "note: {key} is {}, as far as a damper goes",
+            "note: {key} is at its physical limit, {}",
             super::report::digits(*bound)
         ),
         Warning::AtBound { key, bound, .. } => format!(
-            "warning: {key} is at the bound {} that you gave, so the best value lies beyond it; --vary {key}=LEAST:GREATEST gives others",
+            "warning: {key} is at the bound {} that you gave, so the best value lies beyond it; set other bounds with \
+             --vary {key}=MIN:MAX",
             super::report::digits(*bound)
         ),
         Warning::Close { a, b, correlation } => {
-            format!("note: {a} and {b} are hardly told apart: correlation {correlation:.3}")
+            format!("note: the tests hardly separate {a} and {b}: correlation {correlation:.3}")
         }
         Warning::Assumed {
             key,
@@ -241,8 +254,9 @@ pub(super) fn line(warning: &Warning) -> String {
             uncertainty,
             shift_percent,
         } => format!(
-            "warning: {key} moves by {shift_percent:.2} % when {assumed} is {value} +- {uncertainty}, more than by the noise of the tests; they \
-             do not tell the two apart. The interval includes it: {} sets how well you know it",
+            "warning: {key} shifts by {shift_percent:.2} % if {assumed} is {value} +- {uncertainty}, more than by the \
+             noise of the tests, which cannot separate the two. The interval includes this shift; set the \
+             uncertainty with {}",
             uncertainty_option(assumed)
         ),
         Warning::FitsBetter {
@@ -250,13 +264,13 @@ pub(super) fn line(warning: &Warning) -> String {
             value,
             better,
         } => format!(
-            "warning: these recordings fit better at {assumed} {better} than at {value}: look at the thermometer; --set {assumed}={better:e} takes \
-             that value"
+            "warning: the recordings fit better with {assumed} {better} than with {value}: check the thermometer; to \
+             use that value, add --set {assumed}={better:e}"
         ),
     }
 }
 
-/// The option with the uncertainty of an assumed number.
+/// Returns the option that sets the uncertainty of an assumed parameter.
 pub(super) fn uncertainty_option(key: &str) -> &'static str {
     if key == dashpot_calibration::TEMPERATURE {
         "--temperature-uncertainty-k"

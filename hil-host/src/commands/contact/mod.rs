@@ -1,4 +1,4 @@
-//! `dashpot contact`: the geometry of a wheel and a rail, in numbers and plots.
+//! `dashpot contact`: computes and plots the contact geometry of wheel and rail.
 
 mod plots;
 mod profiles;
@@ -16,7 +16,7 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::output::write_folder;
 use dashpot_study::wheelset_geometry::WheelsetGeometry;
 
-/// Contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
+/// Compute the contact geometry of a wheelset on a track: contact points, rolling radius, equivalent conicity.
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
@@ -26,16 +26,16 @@ use dashpot_study::wheelset_geometry::WheelsetGeometry;
   dashpot contact --rail worn.csv --gauge-m 1.432 --plots worn-plots --format json"
 )]
 pub struct ContactArguments {
-    /// The wheel and the rail.
+    /// Wheel and rail.
     #[command(flatten)]
     pub profiles: ProfileArguments,
     /// Track gauge, m.
     #[arg(long, default_value_t = Installation::default().gauge_m)]
     pub gauge_m: f64,
-    /// Depth below the rails' top at which the gauge is measured, m.
+    /// Depth below the top of the rails at which the gauge is measured, m.
     #[arg(long, default_value_t = Installation::default().gauge_depth_m)]
     pub gauge_depth_m: f64,
-    /// Distance of the flange backs, m.
+    /// Distance between the flange backs, m.
     #[arg(long, default_value_t = Installation::default().back_to_back_m)]
     pub back_to_back_m: f64,
     /// Distance from the flange back to the tread datum, m.
@@ -47,18 +47,18 @@ pub struct ContactArguments {
     /// Rail inclination: 0.025 is 1:40.
     #[arg(long, default_value_t = Installation::default().inclination)]
     pub inclination: f64,
-    /// Folder the plots are written to.
+    /// Output folder for plots.
     #[arg(long, default_value = "contact-plots", value_name = "FOLDER")]
     pub plots: PathBuf,
-    /// Write no plots.
+    /// Do not write plots.
     #[arg(long)]
     pub no_plots: bool,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }
 
-/// Largest lateral shift that is drawn: there the flange face touches, m.
+/// Largest lateral shift that is drawn, at which the flange face touches, m.
 const LARGEST_SHIFT_DRAWN_M: f64 = 8e-3;
 /// Prints and draws the contact geometry of the given profiles.
 ///
@@ -100,7 +100,7 @@ fn draw(
     contacts: &[RigidContact],
     rolling: &RollingRadiusDifference,
 ) -> Outcome<Vec<String>> {
-    // A line each half millimetre.
+    // One line per half millimetre.
     let lines: Vec<RigidContact> = contacts
         .iter()
         .copied()

@@ -1,4 +1,4 @@
-//! Plots of a pair: contact points, rolling radius and angle, conicity; SVG.
+//! SVG plots of a wheel-rail pair: contact points, rolling radius and angle, conicity.
 
 use dashpot_rail::contact::{Pair, RigidContact};
 use dashpot_rail::indices::RollingRadiusDifference;
@@ -10,12 +10,12 @@ use dashpot_report::plot::style::{
     BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
 };
 
-/// Wheel over rail with lines between the points that touch at each lateral shift in `contacts`.
+/// Draws the wheel over the rail with lines between the contact points for each lateral shift in `contacts`.
 ///
 /// # Errors
 /// The drawing fails.
 pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, DrawError> {
-    /// The wheel is drawn lifted by this, mm, to leave space for the lines.
+    /// Height by which the wheel is lifted in the drawing to leave space for the lines, mm.
     const LIFT: f64 = 30.0;
     /// Width and height of margins, labels and title, pixels.
     const MARGINS: [f64; 2] = [88.0, 90.0];
@@ -34,7 +34,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
     };
     let x = extent(wheel().chain(rail()).map(|p| p.0));
     let y = extent(wheel().chain(rail()).map(|p| p.1));
-    // Both axes have the same scale.
+    // Use the same scale on both axes.
     let width = 1000;
     let scale = (f64::from(width) - MARGINS[0]) / (x.end - x.start);
     let height = (scale * (y.end - y.start) + MARGINS[1]).round() as u32;
@@ -49,16 +49,16 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
             title,
             x,
             y,
-            "lateral place from the track centre, mm (wheelset centred)",
+            "lateral position from the track centre, mm (wheelset centred)",
             "height, mm (wheel lifted by 30 mm)",
             (0, 0)
         );
-        let greatest = contacts
+        let max_shift = contacts
             .iter()
-            .fold(1e-9, |most: f64, c| most.max(c.lateral_m.abs()));
+            .fold(1e-9, |max: f64, c| max.max(c.lateral_m.abs()));
         for contact in contacts {
             let side = &contact.sides[1];
-            let relative_shift = contact.lateral_m / greatest;
+            let relative_shift = contact.lateral_m / max_shift;
             let colour = if relative_shift < -1e-9 {
                 BLUE_LINE
             } else if relative_shift > 1e-9 {
@@ -96,7 +96,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
                 continue;
             }
             last_label = at;
-            // Beside the wheel's surface, along its normal.
+            // Next to the wheel surface, along its normal.
             let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
             let away = 15.0 * f64::from(FINE);
             let offset = ((away * across) as i32, (-away * up) as i32);
@@ -112,12 +112,12 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
                 ))
                 .map_err(failed)?;
         }
-        // Inside the rail's head, where every profile leaves space.
+        // Inside the rail head, where every profile leaves space.
         let middle = 0.5
             * (rail().map(|p| p.0).fold(f64::MAX, f64::min)
                 + rail().map(|p| p.0).fold(f64::MIN, f64::max));
         for (row, (note, colour)) in [
-            ("lines join the points in contact,", &INK),
+            ("lines connect the points in contact,", &INK),
             ("numbers: lateral shift of the wheelset, mm", &INK),
             ("shifted to the right (+)", &RED_LINE),
             ("shifted to the left (-)", &BLUE_LINE),
@@ -137,13 +137,13 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
     })
 }
 
-/// Rolling radius difference and the right wheel's contact angle over the shift.
+/// Draws the rolling radius difference and the contact angles over the lateral shift.
 ///
 /// # Errors
 /// The drawing fails.
 pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Result<String, DrawError> {
     let title = format!(
-        "Rolling radius difference, right less left: {} on {}",
+        "Rolling radius difference, right minus left: {} on {}",
         pair.wheel().name(),
         pair.rail().name()
     );
@@ -157,7 +157,7 @@ pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
             title,
             x.clone(),
             extent(contacts.iter().map(difference)),
-            "lateral shift at the rails' top, mm (right positive)",
+            "lateral shift at the top of the rails, mm (positive to the right)",
             "difference, mm",
             (0, 0)
         );
@@ -171,10 +171,10 @@ pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
         let both = contacts.iter().flat_map(|c| [angle(c, 0), angle(c, 1)]);
         let mut chart = axes!(
             &lower,
-            "Contact angle against the track plane",
+            "Contact angle relative to the track plane",
             x,
             extent(both),
-            "lateral shift at the rails' top, mm (right positive)",
+            "lateral shift at the top of the rails, mm (positive to the right)",
             "angle, degrees",
             (0, 0)
         );
@@ -206,7 +206,7 @@ pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
     })
 }
 
-/// Equivalent conicity over the amplitude, with the value at 3 mm as text.
+/// Draws the equivalent conicity over the amplitude, with the value at 3 mm as text.
 ///
 /// # Errors
 /// The drawing fails.
@@ -232,7 +232,7 @@ pub fn conicity(
                 ))
             })
             .collect();
-        let highest = points.iter().fold(0.05, |most: f64, p| most.max(p.1));
+        let highest = points.iter().fold(0.05, |max: f64, p| max.max(p.1));
         let mut chart = axes!(
             area,
             title,

@@ -1,4 +1,4 @@
-//! The wheel and the rail of `dashpot contact`: built in, or from files.
+//! Wheel and rail profiles of `dashpot contact`: built-in or from files.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::commands::failure::Outcome;
 use crate::commands::streams;
 use dashpot_files::profile;
 
-/// Which wheel runs on which rail.
+/// Selection of wheel and rail profiles.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ProfileArguments {
     /// Wheel profile: `s1002` or a file; `-` for standard input.
@@ -24,20 +24,20 @@ pub struct ProfileArguments {
     /// MiniProf (.ban), SIMPACK (.prr), GENSYS (.rail), or two columns y_mm, z_mm, field side and down positive.
     #[arg(long, default_value = "uic60", value_name = "NAME|FILE")]
     pub rail: String,
-    /// Format of the wheel's file, where its content and name do not tell it.
+    /// Format of the wheel file, if it cannot be detected from its content and name.
     #[arg(long, value_name = "FORMAT", value_parser = formats())]
     pub wheel_format: Option<Format>,
-    /// Format of the rail's file, where its content and name do not tell it.
+    /// Format of the rail file, if it cannot be detected from its content and name.
     #[arg(long, value_name = "FORMAT", value_parser = formats())]
     pub rail_format: Option<Format>,
-    /// Axes of the wheel's file to change the sign of: y for a profile of the other side.
+    /// Axes of the wheel file whose sign is inverted: y for a profile of the other side.
     #[arg(long, value_name = "AXES", value_parser = mirrors())]
     pub wheel_mirror: Option<Mirror>,
-    /// Axes of the rail's file to change the sign of: y for a profile of the other side. A GENSYS rail needs it: none
-    /// when its y points to the field side, y when to the track centre.
+    /// Axes of the rail file whose sign is inverted: y for a profile of the other side. Required for a GENSYS rail:
+    /// none if its y points to the field side, y if it points to the track centre.
     #[arg(long, value_name = "AXES", value_parser = mirrors())]
     pub rail_mirror: Option<Mirror>,
-    /// Wavelength halved by the smoothing of profiles from files, m; 0 goes through every point.
+    /// Smoothing of profiles from files: wavelength whose amplitude is halved, m; 0 passes through every point.
     #[arg(long, default_value_t = measured::DEFAULT_SMOOTHING_M)]
     pub smoothing_m: f64,
 }
@@ -50,14 +50,14 @@ fn mirrors() -> impl TypedValueParser<Value = Mirror> {
     PossibleValuesParser::new(Mirror::ALL.map(Mirror::name)).try_map(|name| name.parse())
 }
 
-/// A wheel, a rail, and what was read of each.
+/// A wheel and a rail, with reading details.
 pub(super) struct Profiles {
     pub wheel: Profile,
     pub rail: Profile,
     pub readings: Readings,
 }
 
-/// What was read of a wheel and a rail; `None` for a built-in one.
+/// Reading details of wheel and rail; `None` for a built-in profile.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Readings {
     pub wheel: Option<Reading>,
@@ -65,10 +65,10 @@ pub(super) struct Readings {
 }
 
 impl ProfileArguments {
-    /// The two profiles.
+    /// Loads the two profiles.
     ///
     /// # Errors
-    /// No such profile, a file that is none, or an option out of its range.
+    /// A profile does not exist, a file is invalid, or an option is out of range.
     pub(super) fn load(&self) -> Outcome<Profiles> {
         let smoothing_m = self.smoothing_m;
         streams::refuse_second_standard_input(&[

@@ -1,4 +1,4 @@
-//! The report of `dashpot contact`: equivalent conicity, and the rigid wheelset over its lateral shift.
+//! Report of `dashpot contact`: equivalent conicity, and rigid contact over the lateral shift of the wheelset.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::profiles::Readings;
 use dashpot_study::wheelset_geometry::{Conicity, ForceJump, Shift, WheelsetGeometry};
 
-/// What was read of a profile file, for programs.
+/// JSON report on reading a profile file.
 #[derive(Serialize)]
 struct FileReport {
     format: &'static str,
@@ -48,12 +48,12 @@ pub(super) struct Report {
     conicity_at_3mm: Option<f64>,
     conicity: Vec<Conicity>,
     shifts: Vec<Shift>,
-    /// Why contact tables of the pair are refused; none if they are not.
+    /// Reason for rejecting contact tables of the pair; `None` if they are valid.
     force_jump: Option<ForceJump>,
     plots: Vec<String>,
 }
 
-/// The report on `pair`, of which `readings` were read, and the files of the plots.
+/// Builds the report on `pair` with the reading details and the plot files.
 pub(super) fn report(
     pair: &Pair,
     readings: Readings,
@@ -75,7 +75,7 @@ pub(super) fn report(
             .rolling
             .equivalent_conicity(3e-3, installation.wheel_radius_m),
         conicity: geometry.conicities(pair),
-        // A row each millimetre.
+        // One row per millimetre.
         shifts: geometry
             .contacts
             .iter()
@@ -87,7 +87,7 @@ pub(super) fn report(
     }
 }
 
-/// The report for people.
+/// Prints the report as text.
 pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let inclination = if report.rail_inclination == 0.0 {
         "upright".to_owned()
@@ -125,8 +125,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     }
     writeln!(
         out,
-        "\nrigid wheelset (shift at the rails' top, right positive; places on the wheel from the tread datum)\n  \
-         shift mm  radius difference mm  angle left deg  right deg  place left mm  right mm"
+        "\nrigid wheelset (shift at the top of the rails, positive to the right; y on the wheel from the tread \
+         datum)\n  \
+         shift mm  radius difference mm  angle left deg  right deg      y left mm  right mm"
     )?;
     for row in &report.shifts {
         writeln!(
@@ -143,8 +144,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if let Some(jump) = &report.force_jump {
         writeln!(
             out,
-            "\ncontact tables of this pair are refused: at a lateral shift of {:.6} m of the right wheel over its rail (roll {:.4} rad, \
-             yaw {:.4} rad)\nthe force of the contact jumps by {:.0} N under a load of {:.0} N, where its stiffness allows {:.0} N",
+            "\ncontact tables of this pair are rejected: at a lateral shift of {:.6} m of the right wheel over its \
+             rail (roll {:.4} rad, yaw {:.4} rad)\nthe contact force jumps by {:.0} N under a load of {:.0} N; its \
+             stiffness allows {:.0} N",
             jump.lateral_m, jump.roll_rad, jump.yaw_rad, jump.jump_n, jump.load_n, jump.allowed_n
         )?;
     }

@@ -8,15 +8,15 @@ use dashpot_core::{CheckedParameters, Real};
 use crate::commands::failure::Outcome;
 use dashpot_realtime::timing::Distribution;
 
-/// Steps timed together: long against the clock's resolution, short against an interruption.
+/// Steps timed together: long compared with the clock's resolution, short compared with the time between interruptions.
 const BLOCK: usize = 500;
-/// Steps timed at least.
+/// Minimum number of timed steps.
 const STEPS: usize = 200_000;
 
-/// Median over blocks of steps along the motion from rest (ns).
+/// Returns the median time per step over blocks of steps along the motion (ns).
 ///
 /// # Errors
-/// Parameters that cannot be built.
+/// The damper cannot be built.
 pub(super) fn median_ns_per_step<T: Real>(
     parameters: &CheckedParameters,
     step_s: f64,

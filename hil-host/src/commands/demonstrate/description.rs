@@ -1,4 +1,4 @@
-//! What the dampers of the page are, from their parameters.
+//! Description of the dampers on the page, generated from their parameters.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use maud::{Markup, html};
 use super::results::Bench;
 use dashpot_testbench::{TestbenchError, shim_valves};
 
-/// A number without zeros at its end, to four digits behind the point.
+/// Formats a number with up to four decimals, without trailing zeros.
 fn number(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -21,11 +21,11 @@ fn hydraulics(bench: &Bench) -> Option<&Hydraulics> {
     }
 }
 
-/// The first damper's build and what the others add to it.
+/// Describes the design of the first damper and the additions of the others.
 pub(super) fn damper(benches: &[Bench]) -> Markup {
     let built = benches.first().and_then(hydraulics).map(|hydraulics| {
         format!(
-            ", {} mm piston and {} mm rod. A constant orifice of {} mm in the piston is open both ways",
+            ", {} mm piston and {} mm rod. A constant orifice of {} mm in the piston is open in both directions",
             number(hydraulics.geometry.piston_diameter_m * 1e3),
             number(hydraulics.geometry.rod_diameter_m * 1e3),
             number(hydraulics.orifice.diameter_m * 1e3)
@@ -34,26 +34,26 @@ pub(super) fn damper(benches: &[Bench]) -> Markup {
     html! {
         p {
             "The secondary vertical damper of a locomotive: a twin-tube hydraulic damper" (built.unwrap_or_default())
-            "; three packs of thin steel shims, one working in extension and two in compression, bend open under oil \
-             pressure. In series stand rubber bushes and, in service, the oil column with its entrained air, the \
-             seats and a clearance."
+            "; three packs of thin steel shims, one for extension and two for compression, bend open under oil \
+             pressure. In series with them are rubber bushes and, in service, the oil column with its entrained air, \
+             the seats and a clearance."
         }
         p {
             @for bench in benches {
                 @let terms = in_service_terms(&bench.parameters).join(", ");
                 b { (bench.damper) }
                 @if terms.is_empty() {
-                    " is the published damper literally: no clearance, no in-service term. "
+                    " is exactly the published damper, without clearance and without in-service terms. "
                 } @else {
                     " adds " (terms) ". "
                 }
             }
-            "Displacement and force are positive in extension; every force is computed."
+            "Displacement and force are positive in extension; all forces are computed."
         }
     }
 }
 
-/// The terms that the published equations do not have, those that are on.
+/// Lists the active terms that the published equations do not contain.
 fn in_service_terms(parameters: &DamperParameters) -> Vec<String> {
     let mut terms = Vec::new();
     let mount = &parameters.mount;
@@ -106,7 +106,7 @@ fn in_service_terms(parameters: &DamperParameters) -> Vec<String> {
     terms
 }
 
-/// A sentence for each relief valve: its opening pressure and the forces `P A + F_c` it opens at.
+/// Describes each relief valve with its opening pressure and the forces `P A + F_c` at which it opens.
 pub(super) fn relief(benches: &[Bench]) -> Markup {
     html! {
         @for bench in benches {
@@ -119,7 +119,7 @@ pub(super) fn relief(benches: &[Bench]) -> Markup {
     }
 }
 
-/// Pressure (MPa) that the relief valve opens at, and the forces (kN) in extension and in compression.
+/// Returns the opening pressure (MPa) of the relief valve and the forces (kN) in extension and compression.
 fn relief_opening(bench: &Bench) -> Option<(f64, [f64; 2])> {
     let hydraulics = hydraulics(bench)?;
     let relief = hydraulics.relief.as_ref()?;
@@ -134,10 +134,10 @@ fn relief_opening(bench: &Bench) -> Option<(f64, [f64; 2])> {
     ))
 }
 
-/// The first erratum of the source paper, with the figures of the first damper, which is the paper's.
+/// Returns the first erratum of the source paper, with values of the first damper, which is the paper's.
 ///
 /// # Errors
-/// As [`shim_valves::erratum`].
+/// See [`shim_valves::erratum`].
 pub(super) fn erratum(benches: &[Bench]) -> Result<String, TestbenchError> {
     match benches.first().and_then(hydraulics) {
         Some(paper) => shim_valves::erratum(paper),

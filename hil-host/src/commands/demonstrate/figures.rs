@@ -1,4 +1,4 @@
-//! Figures of the page.
+//! Figures of the demo page.
 
 use super::results::{Bench, LOOP_AMPLITUDES_M, Ride};
 use dashpot_report::page::{Figure, panel};
@@ -6,10 +6,10 @@ use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::loops;
 use dashpot_report::plot::style::{BLUE_LINE, PALE, RED_LINE};
 
-/// The window of the ride shown large (s).
+/// Window of the ride shown in detail (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
 
-/// A figure of one panel whose curves fill the width.
+/// Creates a figure with one panel whose curves fill the width.
 fn single(x: &str, y: &str, height: u32, curves: Vec<Curve>) -> Figure {
     Figure {
         panels: vec![panel(x, y, curves)],
@@ -18,7 +18,7 @@ fn single(x: &str, y: &str, height: u32, curves: Vec<Curve>) -> Figure {
     }
 }
 
-/// A figure of two panels, see [`loops::panels`].
+/// Creates a figure with two panels, see [`loops::panels`].
 fn loop_figure(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Figure {
     Figure {
         panels: loops::panels(displacement, velocity),
@@ -27,7 +27,7 @@ fn loop_figure(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Figure {
     }
 }
 
-/// Forces of a ride with their times (s).
+/// Pairs the forces of a ride with their times (s).
 fn over_time<'a>(ride: &Ride, forces: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
     let step_s = ride.step_s;
     (0_u32..)
@@ -35,7 +35,7 @@ fn over_time<'a>(ride: &Ride, forces: &'a [f64]) -> impl Iterator<Item = (f64, f
         .zip(forces.iter().copied())
 }
 
-/// Force of reference and fixed step over the window.
+/// Draws the forces of reference and fixed step over the window.
 pub(super) fn force(ride: &Ride) -> Figure {
     let shown = |forces| -> Vec<(f64, f64)> {
         over_time(ride, forces)
@@ -50,7 +50,7 @@ pub(super) fn force(ride: &Ride) -> Figure {
     single("time, s", "computed force, kN", 340, curves)
 }
 
-/// Error of the fixed step over the whole ride.
+/// Draws the error of the fixed step over the whole ride.
 pub(super) fn error(ride: &Ride) -> Figure {
     let errors = over_time(ride, &ride.fixed_step_n)
         .zip(&ride.reference_n)
@@ -59,7 +59,7 @@ pub(super) fn error(ride: &Ride) -> Figure {
     single("time, s", "error, N", 240, vec![curve])
 }
 
-/// Force over displacement and velocity along the whole ride.
+/// Draws force over displacement and velocity along the whole ride.
 pub(super) fn ride_loops(ride: &Ride) -> Figure {
     let x = &ride.displacements_m;
     let forces = ride.fixed_step_n.iter().map(|force| force * 1e-3);
@@ -72,7 +72,7 @@ pub(super) fn ride_loops(ride: &Ride) -> Figure {
     loop_figure(thin(displacement.collect()), thin(velocity.collect()))
 }
 
-/// Settled loops of harmonic motions of rising amplitude.
+/// Draws settled loops of harmonic motions with increasing amplitude.
 pub(super) fn bench_loops(bench: &Bench) -> Figure {
     let colours = ramp(bench.loops.len());
     let curves = bench.loops.iter().zip(colours).zip(LOOP_AMPLITUDES_M);
@@ -84,7 +84,7 @@ pub(super) fn bench_loops(bench: &Bench) -> Figure {
     loop_figure(displacement, velocity)
 }
 
-/// Force over constant velocity of every damper.
+/// Draws force over constant velocity for every damper.
 pub(super) fn characteristics(benches: &[Bench]) -> Figure {
     let curves = benches
         .iter()

@@ -1,4 +1,4 @@
-//! `dashpot` without a command: the demonstration.
+//! `dashpot` without a command: runs the demo.
 
 mod cost;
 mod description;
@@ -17,13 +17,13 @@ use super::{Format, print_report_beside, progress};
 use crate::commands::failure::Outcome;
 use dashpot_files::output::{self, write_bytes};
 
-/// The demonstration: two presets on a made ride, accuracy, cost, and a page that shows them.
+/// The demo: two presets on a synthetic ride, with accuracy, cost and a page.
 #[derive(Debug, Clone, clap::Args)]
 pub struct DemonstrateArguments {
-    /// The page, one self-contained HTML file, `-` for standard output.
+    /// Page, a self-contained HTML file; `-` for standard output.
     #[arg(long, default_value = "dashpot-report.html", value_name = "FILE")]
     pub output: PathBuf,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }
@@ -34,7 +34,7 @@ struct Report {
     page: String,
 }
 
-/// Runs the demonstration, prints its figures and writes its page.
+/// Runs the demo, prints its results and writes its page.
 ///
 /// # Errors
 /// The reference does not reach its tolerance, or the page cannot be written.
@@ -58,13 +58,14 @@ pub fn run(arguments: &DemonstrateArguments) -> Outcome<()> {
 fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
-        "locomotive damper on a made ride, fixed step against reference\n\n  {:<12}{:>10}{:>11}{:>23}{:>10}{:>22}{:>16}",
+        "locomotive damper on a synthetic ride, fixed step compared with reference\n\n  \
+         {:<12}{:>10}{:>11}{:>23}{:>10}{:>22}{:>16}",
         "damper",
         "rate, kHz",
         "precision",
         "rms error / rms force",
         "limit",
-        "largest error / peak",
+        "max error / peak",
         "median ns/step"
     )?;
     for row in &report.accuracy {

@@ -1,4 +1,4 @@
-//! The page: one self-contained HTML file.
+//! The demo page, a self-contained HTML file.
 
 use maud::{Markup, html};
 
@@ -12,28 +12,28 @@ use dashpot_report::page::{built, document, figure, footer, tiles};
 use dashpot_testbench::TestbenchError;
 use dashpot_testbench::published::nominal_indices;
 
-/// The demonstration as HTML.
+/// Returns the demo as HTML.
 ///
 /// # Errors
 /// A figure cannot be drawn.
 pub(super) fn write(shown: &Demonstration) -> Outcome<String> {
     let characteristics = html! {
-        "Computed force over constant velocity, extension to the right."
+        "Computed force at constant velocity; extension is to the right."
         (description::relief(&shown.benches))
     };
     let body = html! {
         h1 { "A rail damper in real time" }
         (lead(shown))
         (headline(shown))
-        h2 { "What the damper is" }
+        h2 { "The damper" }
         (description::damper(&shown.benches))
         (figure(&figures::characteristics(&shown.benches), &characteristics)?)
-        h2 { "Fixed step against reference" }
+        h2 { "Fixed step compared with reference" }
         p {
-            "Fixed step: two implicit stages from tables, a fixed number of operations, + − × ÷ only. \
-             Reference: the same laws written independently, with pressure and piston as states, clearance and \
-             valve openings as events, integrated adaptively to 1e-12 a step. Both follow the made motion, \
-             linear between ticks."
+            "Fixed step: two implicit stages from tables, with a fixed number of operations and only + − × ÷. \
+             Reference: an independent implementation of the same laws, with pressure and piston position as states, \
+             clearance and valve openings as events, and adaptive integration with a tolerance of 1e-12 per step. \
+             Both follow the synthetic motion, interpolated linearly between ticks."
         }
         (accuracy_table(&shown.accuracy))
         @for ride in &shown.rides { (ride_figures(ride)?) }
@@ -44,14 +44,14 @@ pub(super) fn write(shown: &Demonstration) -> Outcome<String> {
             p {
                 b { "Two errata of the source paper." }
                 " " (description::erratum(&shown.benches)?)
-                " And its equations with those tables do not give its Table 5: they are progressive in velocity, \
-                 the published energy per cycle asks for a digressive curve. The " b { "paper" }
-                " preset is literal all the same and is not tuned; hence the difference in the table above. Both \
-                 are told with their numbers in docs/validation.md."
+                " Second, the paper's equations with those tables do not reproduce its Table 5: they are progressive \
+                 in velocity, but the published energy per cycle requires a digressive curve. The " b { "paper" }
+                " preset nevertheless follows the paper exactly and is not tuned, hence the difference in the table \
+                 above. docs/validation.md gives the details of both errata."
             }
         }
         (footer(&html! {
-            "Ride: data/excitations/ride_made.csv, made. Other motions and dampers: "
+            "Ride: data/excitations/ride_made.csv, synthetic. For other motions and dampers, see "
             code { "dashpot --help" } "."
         }))
     };
@@ -62,14 +62,13 @@ fn lead(shown: &Demonstration) -> Markup {
     html! {
         p.lead {
             "Dashpot computes a locomotive damper’s force from its displacement at 1 to 10 kHz, in constant time, \
-             for hardware-in-the-loop rigs. Here it runs on a ride of " (format!("{:.1}", shown.duration_s))
-            " s that is made, not measured, and sampled as a logger would: " (shown.samples)
-            " samples at uneven times, with a gap."
+             for hardware-in-the-loop rigs. Here it runs on a synthetic ride of " (format!("{:.1}", shown.duration_s))
+            " s, sampled as by a logger: " (shown.samples) " samples at uneven times, with a gap."
         }
     }
 }
 
-/// The headline: accuracy and cost on the target's precision.
+/// Draws the headline with accuracy and cost.
 fn headline(shown: &Demonstration) -> Markup {
     let worst = |step_s: f64, scalar: Scalar| {
         shown
@@ -87,7 +86,7 @@ fn headline(shown: &Demonstration) -> Markup {
         (
             power_of_ten(slow.0),
             format!(
-                "rms error over rms force at {} kHz, single precision, the worse of both dampers",
+                "rms error over rms force at {} kHz, single precision, worse of the two dampers",
                 rate_khz(slow_s)
             ),
         ),
@@ -102,19 +101,19 @@ fn headline(shown: &Demonstration) -> Markup {
         (
             html! { (format!("{:.0} ns", slow.1.max(fast.1))) },
             format!(
-                "a step, measured on this machine: single precision, median{}",
+                "per step, measured on this machine: single precision, median{}",
                 built()
             ),
         ),
     ])
 }
 
-/// Rate of a step, to the kilohertz.
+/// Formats the rate of a step in kHz.
 fn rate_khz(step_s: f64) -> String {
     format!("{:.0}", 1e-3 / step_s)
 }
 
-/// `1.2 × 10⁻⁴` in HTML.
+/// Formats a number as `1.2 × 10⁻⁴` in HTML.
 fn power_of_ten(value: f64) -> Markup {
     let text = format!("{value:.1e}");
     match text.split_once('e') {
@@ -135,8 +134,8 @@ fn accuracy_table(rows: &[Accuracy]) -> Markup {
                     th { "precision" }
                     th { "rms error" br; "over rms force" }
                     th { "limit" }
-                    th { "largest error" br; "over peak force" }
-                    th { "median cost," br; "ns a step" }
+                    th { "max error" br; "over peak force" }
+                    th { "median cost," br; "ns per step" }
                 }
                 @for row in rows {
                     tr class=[row.over_limit().then_some("over")] {
@@ -152,37 +151,37 @@ fn accuracy_table(rows: &[Accuracy]) -> Markup {
             }
         }
         @if rows.iter().any(Accuracy::over_limit) {
-            p { "Rows on amber are above the project's limit." }
+            p { "Rows in amber exceed the project's limit." }
         }
     }
 }
 
-/// Forces, error and loops of a damper on the ride.
+/// Draws forces, error and loops of a damper on the ride.
 fn ride_figures(ride: &Ride) -> Result<Markup, DrawError> {
     let (from_s, to_s) = figures::WINDOW_S;
     let force = html! {
-        "Computed force, " (from_s) " to " (to_s) " s of the made ride: fixed step at " (rate_khz(ride.step_s)) " kHz in single precision over \
-         the reference."
+        "Computed force from " (from_s) " to " (to_s) " s of the synthetic ride: fixed step at "
+        (rate_khz(ride.step_s)) " kHz in single precision, drawn over the reference."
     };
     let error = html! {
-        "Error of that fixed step over the whole made ride: fixed step less reference, in newtons."
+        "Error of the same fixed step over the whole synthetic ride: fixed step minus reference, in newtons."
     };
     let loops = html! {
-        "Computed force over displacement (first) and velocity (second) along the whole made ride, "
+        "Computed force over displacement (first) and velocity (second) along the whole synthetic ride, "
         (rate_khz(ride.step_s)) " kHz, single precision."
     };
     Ok(html! {
-        h3 { (ride.damper) " on the made ride" }
+        h3 { (ride.damper) " on the synthetic ride" }
         (figure(&figures::force(ride), &force)?)
         (figure(&figures::error(ride), &error)?)
         (figure(&figures::ride_loops(ride), &loops)?)
     })
 }
 
-/// Periodic loops of a damper.
+/// Draws the settled loops of a damper.
 fn bench_figure(bench: &Bench) -> Result<Markup, DrawError> {
     let caption = html! {
-        "Settled loops of a made harmonic motion at " (LOOP_FREQUENCY_HZ) " Hz, by amplitude: computed force over \
+        "Settled loops of a synthetic harmonic motion at " (LOOP_FREQUENCY_HZ) " Hz for several amplitudes: computed force over \
          displacement (first) and velocity (second)."
     };
     Ok(html! {
@@ -191,7 +190,7 @@ fn bench_figure(bench: &Bench) -> Result<Markup, DrawError> {
     })
 }
 
-/// Table 5 beside both dampers.
+/// Compares both dampers with Table 5.
 fn bench_table(benches: &[Bench]) -> Result<Markup, TestbenchError> {
     let motion = Harmonic::TABLE_5;
     Ok(html! {

@@ -1,4 +1,4 @@
-//! The shipped recording on a tick grid.
+//! The built-in recording, resampled to ticks.
 
 use std::path::Path;
 
@@ -13,18 +13,18 @@ fn open() -> Result<Recording, FileError> {
     Recording::read(Path::new(NAME), Box::new(RIDE))
 }
 
-/// Rows of the shipped recording.
+/// Returns the samples of the built-in recording.
 ///
 /// # Errors
-/// The file in the program is not as it was shipped.
+/// The file built into the program is damaged.
 pub fn shipped() -> Result<Vec<Sample>, FileError> {
     open()?.read_all()
 }
 
-/// Displacements (m) at ticks of `step_s` (s), linear between samples.
+/// Returns displacements (m) at ticks of `step_s` (s), interpolated linearly between samples.
 ///
 /// # Errors
-/// As [`shipped`].
+/// See [`shipped`].
 pub fn at_ticks(step_s: f64) -> Result<Vec<f64>, FileError> {
     TickGrid::new(open()?, step_s)?.displacements_m()
 }

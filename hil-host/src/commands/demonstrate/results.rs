@@ -1,4 +1,4 @@
-//! What the demonstration shows: two presets on the shipped made ride, fixed step against reference, bench test, cost.
+//! Results of the demo: two presets on the built-in synthetic ride, accuracy of the fixed step, bench test and cost.
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
@@ -13,7 +13,7 @@ use dashpot_testbench::accuracy_limits::{AccuracyLimits, relaxation_time_s};
 use dashpot_testbench::bench_test::{self, Cycle, Indices};
 use dashpot_testbench::verification::{deviation, fixed_step_forces, reference_forces};
 
-/// Presets shown: the published equations as they stand, and the same damper in service.
+/// Presets shown: the published equations, and the same damper in service.
 const DAMPERS: [&str; 2] = ["paper", "in-service"];
 
 /// Steps shown (s): 1 and 10 kHz.
@@ -23,18 +23,18 @@ pub(super) const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 pub(super) const LOOP_AMPLITUDES_M: [f64; 4] = [1e-3, 2.5e-3, 5e-3, 10e-3];
 pub(super) const LOOP_FREQUENCY_HZ: f64 = 1.5;
 
-/// How near the fixed step comes to the reference, and what a step costs here.
+/// Accuracy of the fixed step relative to the reference, and cost of a step on this machine.
 #[derive(Clone, Debug, Serialize)]
 pub struct Accuracy {
     /// Preset.
     pub damper: &'static str,
-    /// The step's scalar.
+    /// Scalar type of the step.
     pub scalar: Scalar,
     /// Step (s).
     pub step_s: f64,
-    /// rms of the error over rms of the force (1).
+    /// Rms error over rms force (1).
     pub nrmse: f64,
-    /// The promised limit for it (1), where there is one.
+    /// Promised limit of `nrmse` (1), if there is one.
     pub nrmse_limit: Option<f64>,
     /// Largest error over largest force (1).
     pub largest_error_over_peak: f64,
@@ -43,7 +43,7 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Whether the error is above the promised limit.
+    /// True if the error exceeds the promised limit.
     pub fn over_limit(&self) -> bool {
         self.nrmse_limit.is_some_and(|limit| self.nrmse > limit)
     }
@@ -55,7 +55,7 @@ pub(super) struct Ride {
     pub(super) step_s: f64,
     pub(super) displacements_m: Vec<f64>,
     pub(super) reference_n: Vec<f64>,
-    /// Single precision, as on the target.
+    /// Forces in single precision, as on the target.
     pub(super) fixed_step_n: Vec<f64>,
 }
 
@@ -72,16 +72,16 @@ pub(super) struct Bench {
 pub struct Demonstration {
     pub(super) samples: usize,
     pub(super) duration_s: f64,
-    /// A row for each damper, step and scalar.
+    /// One row per damper, step and scalar type.
     pub accuracy: Vec<Accuracy>,
     pub(super) rides: Vec<Ride>,
     pub(super) benches: Vec<Bench>,
 }
 
-/// Pieces of work that [`run`] reports.
+/// Number of work items that [`run`] reports.
 pub const WORK: u64 = (DAMPERS.len() * (STEPS_S.len() + 1)) as u64;
 
-/// Runs the demonstration; `report` receives what is done next and how many pieces are done.
+/// Runs the demo; `report` receives the next work item and the number of finished items.
 ///
 /// # Errors
 /// A preset, the recording or the reference fails.
@@ -113,7 +113,7 @@ pub fn run(mut report: impl FnMut(String, u64)) -> Outcome<Demonstration> {
 }
 
 impl Demonstration {
-    /// Runs the shipped recording at one step size, in both precisions.
+    /// Runs the built-in recording at one step size in both precisions.
     fn ride(&mut self, name: &'static str, damper: &CheckedParameters, step_s: f64) -> Outcome<()> {
         let displacements_m = super::recording::at_ticks(step_s)?;
         let reference_n = reference_forces(damper, step_s, &displacements_m)?;

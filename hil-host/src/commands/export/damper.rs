@@ -1,4 +1,4 @@
-//! `dashpot export --lang`: a built damper as source or bytes.
+//! `dashpot export --lang`: exports a built damper as source code or bytes.
 
 use dashpot_core::Damper;
 use serde::Serialize;
@@ -22,10 +22,10 @@ struct Report {
     scalar: Scalar,
     step_s: f64,
     revision: u32,
-    /// In memory; of C without a library the table.
+    /// Size in memory; for standalone C, size of the table.
     damper_bytes: usize,
     state_bytes: usize,
-    /// Bytes of an image; source in Rust holds words.
+    /// Size of the image; `None` for Rust source, which contains words.
     #[serde(skip_serializing_if = "Option::is_none")]
     image_bytes: Option<usize>,
 }
@@ -34,7 +34,7 @@ struct Report {
 pub(super) fn run<T: Word>(arguments: &ExportArguments) -> Outcome<()> {
     if arguments.standalone && arguments.lang != Language::C {
         return Err(Failure::wrong_use(format!(
-            "--standalone --lang {}: a step without a library is of C, allowed: --lang c",
+            "--standalone --lang {}: standalone code is available in C only; allowed: --lang c",
             arguments.lang.name()
         )));
     }
@@ -47,7 +47,7 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments) -> Outcome<()> {
             report.exported.print(out)?;
             writeln!(
                 out,
-                ": {} for {} us, {}, revision {:#010x}: {}{} bytes {}, a state {} bytes",
+                ": {} for {} us, {}, revision {:#010x}: {}{} bytes {}, state {} bytes",
                 report.damper,
                 arguments.step_us,
                 report.scalar,

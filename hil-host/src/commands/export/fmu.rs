@@ -1,4 +1,4 @@
-//! `dashpot export --fmi`: a damper, a bank or a vehicle as an FMU.
+//! `dashpot export --fmi`: exports a damper, a bank or a vehicle as an FMU.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -20,16 +20,21 @@ use dashpot_files::output::{self, write_bytes};
 #[derive(Debug, Clone, clap::Args)]
 #[command(next_help_heading = "FMU")]
 pub(super) struct FmuArguments {
-    /// Write an FMU for co-simulation of this version of the interface, with a library for this platform and its sources in C.
-    #[arg(long, value_name = "2|3", value_parser = ["2", "3"], conflicts_with_all = ["lang", "standalone", "health"])]
+    /// Write a co-simulation FMU of this FMI version, with a binary for this platform and C sources.
+    #[arg(
+        long,
+        value_name = "2|3",
+        value_parser = ["2", "3"],
+        conflicts_with_all = ["lang", "standalone", "health"]
+    )]
     fmi: Option<String>,
-    /// Another damper of the FMU, preset or TOML file, as it is there; repeated for a bank.
+    /// Additional damper of the FMU, preset or TOML file, without overrides; repeat for a bank.
     #[arg(long, value_name = "NAME|FILE")]
     also: Vec<String>,
-    /// The constants are images in the folder of resources of the FMU, where others may take their place.
+    /// Store the constants as images in the resources folder of the FMU, where they can be replaced.
     #[arg(long)]
     loadable: bool,
-    /// A vehicle on its track in place of a damper: the FMU of a case, the name of one that ships or a TOML file.
+    /// Export a vehicle on its track instead of a damper: built-in case or TOML file.
     #[arg(
         long,
         value_name = "CASE",
@@ -37,32 +42,33 @@ pub(super) struct FmuArguments {
         conflicts_with_all = ["damper", "overrides", "step_us", "scalar", "also", "loadable", "sources_only"]
     )]
     pub(super) case: Option<String>,
-    /// A damper of the case's vehicle whose force is an input of the FMU, by its name and number; may be given several times.
+    /// Damper of the vehicle, by name and number, whose force becomes an input of the FMU. May be repeated.
     #[arg(long, value_name = "DAMPER")]
     pub(super) outside: Vec<String>,
-    /// The library of vehicles, which `cargo build --release -p dashpot-vehicle-model` makes; the one beside this program when not given.
+    /// Vehicle library built by `cargo build --release -p dashpot-vehicle-model` [default: the one next to this
+    /// program].
     #[arg(long, value_name = "FILE")]
     pub(super) library: Option<PathBuf>,
-    /// No library for this platform: no C compiler is needed here, and the importer compiles the sources.
+    /// Omit the binary for this platform: needs no C compiler here, and the importer compiles the sources.
     #[arg(long)]
     sources_only: bool,
 }
 
 impl FmuArguments {
-    /// The interface asked for.
+    /// Returns the requested interface; `None` without `--fmi`.
     ///
     /// # Errors
-    /// None, with options that mean nothing then.
+    /// An option is given that requires `--fmi` or `--case`.
     pub(super) fn interface(&self) -> Outcome<Option<Interface>> {
-        let of_vehicles = [
+        let vehicle_options = [
             ("--outside", !self.outside.is_empty()),
             ("--library", self.library.is_some()),
         ];
         if self.case.is_none()
-            && let Some((option, _)) = of_vehicles.iter().find(|(_, is_given)| *is_given)
+            && let Some((option, _)) = vehicle_options.iter().find(|(_, is_given)| *is_given)
         {
             return Err(Failure::wrong_use(format!(
-                "{option}: it is of the FMU of a vehicle, allowed: with --case"
+                "{option} applies to the FMU of a vehicle only and requires --case"
             )));
         }
         let others = [
@@ -76,7 +82,7 @@ impl FmuArguments {
             others.iter().find(|(_, is_given)| *is_given),
         ) {
             (None, Some((option, _))) => Err(Failure::wrong_use(format!(
-                "{option}: it is of an FMU, allowed: with --fmi"
+                "{option} applies to FMUs only and requires --fmi"
             ))),
             (None, None) => Ok(None),
             (Some("2"), _) => Ok(Some(Interface::Two)),
@@ -85,7 +91,7 @@ impl FmuArguments {
     }
 }
 
-/// What an FMU is of.
+/// Content of an FMU.
 #[derive(Serialize)]
 #[serde(untagged)]
 pub(super) enum Content {
@@ -104,7 +110,7 @@ impl fmt::Display for Content {
         match self {
             Self::Dampers { dampers, scalar } => write!(f, "{}, {scalar}", dampers.join(", ")),
             Self::Vehicle { case, outside } => {
-                write!(f, "{case}, outside: {}", outside.join(", "))
+                write!(f, "{case}, external dampers: {}", outside.join(", "))
             }
         }
     }
@@ -119,7 +125,7 @@ struct Report<'a> {
     output: String,
     step_s: f64,
     token: &'a str,
-    /// Of the library; `None` where there are only sources.
+    /// Platform of the binary; `None` for an FMU with sources only.
     #[serde(skip_serializing_if = "Option::is_none")]
     platform: Option<String>,
     fmu_bytes: usize,
@@ -153,20 +159,20 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
     write(arguments, &fmu, content)
 }
 
-/// The FMU's, of what it is of where none is given.
-pub(super) fn fmu_name(arguments: &ExportArguments, of: &str) -> String {
+/// Returns the name of the FMU: the given one, or one derived from `content`.
+pub(super) fn fmu_name(arguments: &ExportArguments, content: &str) -> String {
     match &arguments.name {
         Some(name) => name.clone(),
-        None => constant_name(of).to_lowercase(),
+        None => constant_name(content).to_lowercase(),
     }
 }
 
-/// Compiles the FMU, unless only sources are wanted, writes it and tells of it.
+/// Compiles the FMU unless `--sources-only` is given, writes it and prints a report.
 ///
 /// # Errors
 /// The compiler fails; the file cannot be written.
 pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) -> Outcome<()> {
-    // Free of the rounding of the product, to the picosecond.
+    // Round to the picosecond to remove the rounding error of the product.
     let step_us = (fmu.step_s() * 1e12).round() / 1e6;
     let binary = match arguments.fmu.sources_only {
         true => None,
@@ -190,8 +196,8 @@ pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) ->
         &report,
         |out, report| {
             let library = match (&report.platform, fmu.has_sources()) {
-                (Some(platform), true) => format!("a library for {platform} and sources"),
-                (Some(platform), false) => format!("a library for {platform}"),
+                (Some(platform), true) => format!("binary for {platform} and sources"),
+                (Some(platform), false) => format!("binary for {platform}"),
                 (None, _) => "sources only".into(),
             };
             writeln!(

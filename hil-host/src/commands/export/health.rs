@@ -1,4 +1,4 @@
-//! `dashpot export --health`: what watches a damper's health, as a constant or as bytes.
+//! `dashpot export --health`: exports the health model of a damper as a constant or as bytes.
 
 use dashpot_core::health::{Health, HealthModel};
 use serde::Serialize;
@@ -29,7 +29,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Outcome<()> {
     let settings = arguments.sensors.settings(noise);
     if arguments.scalar != Scalar::F32 {
         return Err(Failure::wrong_use(
-            "--scalar f64: health is watched in single precision, allowed with --health: f32",
+            "--scalar f64: health monitoring uses single precision; allowed with --health: f32",
         ));
     }
     let name = name_of(arguments, "_HEALTH")?;
@@ -37,7 +37,8 @@ pub(super) fn run(arguments: &ExportArguments) -> Outcome<()> {
     let model = model(&arguments.damper.load()?, &settings, step_s)?;
     let constant = name.as_deref().unwrap_or_default();
     let command = format!(
-        "{} --health --displacement-noise-m {:e} --force-noise-n {} --memory-s {} --law-deviation {} --lag-s {} --lag-sd-s {}",
+        "{} --health --displacement-noise-m {:e} --force-noise-n {} --memory-s {} --law-deviation {} --lag-s {} \
+         --lag-sd-s {}",
         command_line(arguments, constant),
         settings.displacement_noise_m,
         settings.force_noise_n,
@@ -75,7 +76,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Outcome<()> {
             report.exported.print(out)?;
             writeln!(
                 out,
-                ": health of {} for {} us: image {} bytes, {} bytes in memory, an estimate {} bytes",
+                ": health model of {} for {} us: image {} bytes, {} bytes in memory, estimate {} bytes",
                 report.damper,
                 arguments.step_us,
                 report.image_bytes,

@@ -1,4 +1,4 @@
-//! `dashpot export`: the built damper for firmware and for other tools.
+//! `dashpot export`: exports a built damper for firmware and other tools.
 
 mod damper;
 mod fmu;
@@ -19,11 +19,11 @@ use dashpot_files::Scalar;
 /// Language of the exported source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Language {
-    /// A Rust source with a `static` of dashpot-core.
+    /// Rust source with a `static` of dashpot-core.
     Rust,
-    /// A C source with the bytes that the C library takes, and beside it its header (x.c and x.h); C++ too.
+    /// C source with bytes for the C library, and its header (x.c and x.h); also valid C++.
     C,
-    /// The bytes alone: for a link, a file system or another linker.
+    /// Bytes only: for a link, a file system or another linker.
     Bin,
 }
 
@@ -37,7 +37,7 @@ impl Language {
     }
 }
 
-/// Write the built damper for firmware (constant, bytes, plain C) and for other tools (FMU); a vehicle as an FMU.
+/// Export a damper for firmware (constant, bytes, plain C) or other tools (FMU), or a vehicle as an FMU.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot export --damper reduced-vertical --lang rust --step-us 500 --output vertical.rs
@@ -46,17 +46,18 @@ impl Language {
   dashpot export --damper in-service --lang bin --output in_service.bin
   dashpot export --damper in-service --fmi 3 --output in_service.fmu
   dashpot export --case straight-180 --outside \"front lateral damper 1\" --fmi 3 --output locomotive.fmu
-  dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 --output health.c
+  dashpot export --damper in-service --lang c --health --displacement-noise-m 60e-6 --force-noise-n 60 \\
+      --output health.c
 
-Then in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
-and in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)
-without a library: #include \"in_service.h\" ... in_service_step(&in_service_as_built, &state, x), see docs/portable-c.md
-of its health: HealthModel::from_image(&health::IN_SERVICE_HEALTH), dashpot_health_model_init(&model, IN_SERVICE_HEALTH, \
-sizeof IN_SERVICE_HEALTH)")]
+Use in Rust: mod vertical; ... vertical::REDUCED_VERTICAL.step(&mut state, x)
+Use in C: #include \"in_service.h\" ... dashpot_damper_init(&damper, IN_SERVICE, sizeof IN_SERVICE)
+Standalone C (docs/portable-c.md): #include \"in_service.h\" ... in_service_step(&in_service_as_built, &state, x)
+Health model: HealthModel::from_image(&health::IN_SERVICE_HEALTH),
+  or dashpot_health_model_init(&model, IN_SERVICE_HEALTH, sizeof IN_SERVICE_HEALTH)")]
 pub struct ExportArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// Language of the source.
+    /// Language of the exported source.
     #[arg(
         long,
         value_enum,
@@ -67,7 +68,7 @@ pub struct ExportArguments {
     lang: Language,
     #[command(flatten)]
     fmu: fmu::FmuArguments,
-    /// The step, us.
+    /// Step, us.
     #[arg(help = step_size::help("Step the damper is built for", ""), 
         long,
         default_value = "1000",
@@ -78,21 +79,22 @@ pub struct ExportArguments {
     /// Floating-point type.
     #[arg(long, value_parser = named_values::scalar(), default_value_t = Scalar::F32)]
     scalar: Scalar,
-    /// Write step and constants in C99 that need no library, for tool chains without Rust; `--lang c` in either scalar.
+    /// Write step and constants as C99 without a library, for toolchains without Rust; needs `--lang c`, either
+    /// scalar.
     #[arg(long, conflicts_with = "health")]
     standalone: bool,
-    /// Write what watches the damper's health in place of the damper: the bytes of its model in any language.
+    /// Write the damper's health model instead of the damper, in any language.
     #[arg(long)]
     health: bool,
     #[command(flatten)]
     sensors: SensorArguments,
-    /// Name of the constant; the damper's name in capitals when not given, with _HEALTH of its health. Bytes alone have none.
+    /// Name of the constant, not for `--lang bin` [default: the damper's name in capitals, with _HEALTH for --health].
     #[arg(long)]
     name: Option<String>,
     /// File to write, `-` for standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -100,7 +102,7 @@ pub struct ExportArguments {
 /// Builds the damper and writes it.
 ///
 /// # Errors
-/// The damper or the name is refused, or the file cannot be written.
+/// The damper or the name is invalid, or the file cannot be written.
 pub fn run(arguments: &ExportArguments) -> Outcome<()> {
     let interface = arguments.fmu.interface()?;
     if arguments.health {

@@ -1,4 +1,4 @@
-//! Names of what is exported, and the command line that exports it again.
+//! Name of the exported constant, and the command line that repeats the export.
 
 use std::path::Path;
 
@@ -6,19 +6,19 @@ use super::{ExportArguments, Language};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::input::is_standard_stream;
 
-/// Of the constant, which ends in `end` where it is not given; bytes alone have none.
+/// Returns the name of the constant, by default ending in `end`; `None` for bytes only.
 pub(super) fn name_of(arguments: &ExportArguments, end: &str) -> Outcome<Option<String>> {
     match (&arguments.name, arguments.lang) {
         (None, Language::Bin) => Ok(None),
         (Some(name), Language::Bin) => Err(Failure::wrong_use(format!(
-            "--name {name}: bytes have no name, allowed: --lang rust or c"
+            "--name {name}: bytes have no name; allowed: --lang rust or c"
         ))),
         (Some(name), _) => Ok(Some(name.clone())),
         (None, _) => Ok(Some(constant_name(&arguments.damper.damper) + end)),
     }
 }
 
-/// The command line with every default written out.
+/// Returns the command line with all defaults written out.
 pub(super) fn command_line(arguments: &ExportArguments, name: &str) -> String {
     let mut line = format!("dashpot export --damper '{}'", arguments.damper.damper);
     for assignment in &arguments.damper.overrides {
@@ -39,7 +39,7 @@ pub(super) fn command_line(arguments: &ExportArguments, name: &str) -> String {
     line
 }
 
-/// `data/my-damper.toml` is MY_DAMPER, standard input DAMPER.
+/// Derives a constant name: MY_DAMPER for `data/my-damper.toml`, DAMPER for standard input.
 pub(super) fn constant_name(damper: &str) -> String {
     if is_standard_stream(Path::new(damper)) {
         return "DAMPER".into();

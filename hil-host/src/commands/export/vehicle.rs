@@ -1,4 +1,4 @@
-//! `dashpot export --fmi --case`: a vehicle as an FMU, some of its dampers outside.
+//! `dashpot export --fmi --case`: exports a vehicle with external dampers as an FMU.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use dashpot_files::case::Case;
 use dashpot_files::input;
 use dashpot_vehicle_run::{Coupled, CoupledCase, VehicleRunError};
 
-/// Name of the library in the folder of a build.
+/// File name of the vehicle library.
 const LIBRARY: &str = "libdashpot_vehicle_model.a";
 
 /// Builds the vehicle of the case called `name` and writes the FMU.
@@ -18,35 +18,35 @@ pub(super) fn run(arguments: &ExportArguments, name: &str, interface: Interface)
     let options = &arguments.fmu;
     if options.outside.is_empty() {
         return Err(Failure::wrong_use(
-            "--case: no damper is outside, allowed: with --outside DAMPER",
+            "--case requires at least one --outside DAMPER",
         ));
     }
     let library = library(options.library.clone())?;
     let case = Case::load(name)?;
     let refused = |error: VehicleRunError| Failure::new(format!("{}: {error}", case.name));
-    let of = CoupledCase::new(&case, &options.outside).map_err(refused)?;
-    let contact = of.contact().map_err(refused)?;
+    let coupled_case = CoupledCase::new(&case, &options.outside).map_err(refused)?;
+    let contact = coupled_case.contact().map_err(refused)?;
     let tables = contact.tables().map_err(refused)?;
-    let coupled = Coupled::new(&of, tables).map_err(refused)?;
+    let coupled = Coupled::new(&coupled_case, tables).map_err(refused)?;
     let file = contact.tables_file().map_err(refused)?;
     let name_in_fmu = file.file_name().unwrap_or_default().to_string_lossy();
     let content = input::read(&file)?;
     let fmu = Fmu::of_vehicle(
         interface,
         &fmu_name(arguments, name),
-        &of,
+        &coupled_case,
         &coupled,
         (name_in_fmu.into_owned(), content),
         library,
     )?;
     let content = Content::Vehicle {
         case: case.name,
-        outside: of.outside,
+        outside: coupled_case.outside,
     };
     write(arguments, &fmu, content)
 }
 
-/// The library of vehicles: the one that is named, else that beside the program.
+/// Returns the path of the vehicle library: the given one, or the one next to this program.
 fn library(named: Option<PathBuf>) -> Outcome<PathBuf> {
     let beside = || Some(std::env::current_exe().ok()?.parent()?.join(LIBRARY));
     let library = named.or_else(beside).unwrap_or_else(|| LIBRARY.into());
@@ -54,8 +54,8 @@ fn library(named: Option<PathBuf>) -> Outcome<PathBuf> {
         return Ok(library);
     }
     Err(Failure::new(format!(
-        "{}: no library of vehicles there; allowed: --library FILE, which `cargo build --release --package dashpot-vehicle-model` makes as \
-         target/release/{LIBRARY} in the folder of the project",
+        "{}: vehicle library not found; give it with --library FILE. `cargo build --release --package \
+         dashpot-vehicle-model` builds it as target/release/{LIBRARY} in the project folder",
         library.display()
     )))
 }

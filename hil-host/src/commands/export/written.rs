@@ -1,4 +1,4 @@
-//! An exported file, and the header beside a source in C.
+//! Writing of an exported file and, for C source, its header.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -10,23 +10,23 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_export::ExportError;
 use dashpot_files::output::{self, is_replaceable, write_bytes, write_together};
 
-/// What was written.
+/// Names of the constant and the written files.
 #[derive(Serialize)]
 pub(super) struct Exported {
-    /// Of the constant; `None` for bytes alone.
+    /// Name of the constant; `None` for bytes only.
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<String>,
     output: String,
-    /// Beside a C source that is a file.
+    /// Header file, if C source is written to a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     header: Option<String>,
 }
 
 impl Exported {
-    /// Writes what `content` gives, for the name of a header to include, and where it is C in a file, the header beside it.
+    /// Writes `content`, which receives the name of the header to include, and for C source in a file also the header.
     ///
     /// # Errors
-    /// A constant that cannot be exported, or files that cannot be written; then neither is.
+    /// The constant cannot be exported or a file cannot be written; then neither file is.
     pub(super) fn write(
         arguments: &ExportArguments,
         name: Option<String>,
@@ -53,7 +53,7 @@ impl Exported {
         })
     }
 
-    /// Where what is: the first words of a report.
+    /// Prints the names at the beginning of a report.
     ///
     /// # Errors
     /// The output cannot be written.
@@ -69,12 +69,12 @@ impl Exported {
     }
 }
 
-/// `folder/x.h` for `folder/x.c`.
+/// Returns the path of the header: `folder/x.h` for `folder/x.c`.
 fn header_beside(source: &Path) -> Outcome<PathBuf> {
     let header = source.with_extension("h");
     if header == source {
         return Err(Failure::wrong_use(format!(
-            "--output {}: the header of the source takes this name, allowed with --lang c: another end, such as .c",
+            "--output {}: this is the name of the header; allowed with --lang c: another extension, such as .c",
             source.display()
         )));
     }

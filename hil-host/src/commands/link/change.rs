@@ -1,4 +1,4 @@
-//! What changes at once on a target: `set` a parameter, configure the `loss-of-link`.
+//! Settings of a target that take effect immediately: `set` and `loss-of-link`.
 
 use std::fmt;
 use std::str::FromStr;
@@ -13,19 +13,19 @@ use super::target::Target;
 use crate::commands::failure::Outcome;
 use crate::commands::print::counted;
 
-/// Change the clearance of the damper in a place at once; its state keeps the force.
+/// Change the clearance of the damper in one slot immediately; its force stays continuous.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Example:
   dashpot link --link serial:/dev/ttyACM0 set --place 3 --clearance-m 0.001
 
-The damper's revision changes with it. For any other parameter load a new damper: dashpot link load --help")]
+This also changes the damper's revision. To change any other parameter, load a new damper: dashpot link load --help")]
 pub(super) struct SetArguments {
-    /// Place of the bank, from 0.
+    /// Slot of the bank, from 0.
     #[arg(long, value_parser = places::place())]
     place: u8,
-    /// Clearance 2a, the whole play, m.
+    /// Clearance 2a (total play), m.
     #[arg(
-        help = format!("Clearance 2a, the whole play, m; 0 to {MAX_CLEARANCE_M}"),
+        help = format!("Clearance 2a (total play), m; 0 to {MAX_CLEARANCE_M}"),
         long,
         value_name = "M",
         value_parser = clearance,
@@ -47,7 +47,7 @@ struct Set {
     clearance_m: f32,
 }
 
-/// `set`.
+/// Runs `set`.
 pub(super) fn set(set: &SetArguments, link: &LinkArguments) -> Outcome<()> {
     let (place, clearance_m) = (set.place, set.clearance_m);
     let mut target = Target::open(&link.line)?;
@@ -58,14 +58,14 @@ pub(super) fn set(set: &SetArguments, link: &LinkArguments) -> Outcome<()> {
         value: clearance_m,
     })?;
     link.print(&Set { place, clearance_m }, |out, set| {
-        writeln!(out, "place {}: clearance {} m", set.place, set.clearance_m)
+        writeln!(out, "slot {}: clearance {} m", set.place, set.clearance_m)
     })
 }
 
-/// Configure when the link counts as lost, and what the outputs are then.
+/// Configure when the link counts as lost, and the outputs after that.
 ///
-/// While the tick runs free, the link is lost when no displacement was given for more ticks than that. The outputs then stay
-/// safe until `run`, or until `stop` ends the free-running tick.
+/// In free-running mode, the link counts as lost after more than this number of ticks without a displacement. The
+/// outputs then stay safe until the next `run` or `stop`.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot link --link serial:/dev/ttyACM0 loss-of-link --after-ticks 100 --output ramp=100
@@ -73,15 +73,15 @@ pub(super) fn set(set: &SetArguments, link: &LinkArguments) -> Outcome<()> {
 
 The target's own default is 100 ticks and a ramp of 100.")]
 pub(super) struct LossOfLinkArguments {
-    /// Ticks without a displacement that are still good.
+    /// Number of ticks without a displacement that are tolerated.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     after_ticks: u32,
-    /// The outputs then: hold (the last force), ramp=TICKS (from the last force to zero in so many ticks) or zero.
+    /// Outputs after a loss: hold (the last force), ramp=TICKS (to zero within this number of ticks) or zero.
     #[arg(long, value_name = "OUTPUT")]
     output: SafeOutputChoice,
 }
 
-/// A safe output, as it is named on the command line.
+/// A safe output, parsed from its name on the command line.
 #[derive(Debug, Clone, Copy)]
 struct SafeOutputChoice(SafeOutput);
 
@@ -113,11 +113,11 @@ impl fmt::Display for SafeOutputChoice {
 #[derive(Serialize)]
 struct Loss {
     after_ticks: u32,
-    /// As the option names it.
+    /// Written as the option's value.
     output: String,
 }
 
-/// `loss-of-link`.
+/// Runs `loss-of-link`.
 pub(super) fn loss_of_link(loss: &LossOfLinkArguments, link: &LinkArguments) -> Outcome<()> {
     let request = Request::LossOfLink(LossOfLink {
         after_ticks: loss.after_ticks,
@@ -132,7 +132,7 @@ pub(super) fn loss_of_link(loss: &LossOfLinkArguments, link: &LinkArguments) -> 
         let after = counted(report.after_ticks.into(), "tick");
         writeln!(
             out,
-            "lost after {after} without a displacement; outputs then: {}",
+            "lost after {after} without a displacement; outputs after that: {}",
             report.output
         )
     })

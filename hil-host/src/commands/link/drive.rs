@@ -1,4 +1,4 @@
-//! The free-running tick by hand: `run`, `displace`, `stop`.
+//! Manual control of the free-running mode: `run`, `displace`, `stop`.
 
 use dashpot_core::link::{Reals, Request, Response};
 use serde::Serialize;
@@ -13,7 +13,7 @@ use crate::commands::failure::Outcome;
   dashpot link --link serial:/dev/ttyACM0 run --displacement-m 0
   dashpot link --link serial:/dev/ttyACM0 displace --displacement-m 0.001,0.001,-0.002")]
 pub(super) struct DisplacementArguments {
-    /// Displacement, positive in extension, m; one for all places, or one for each separated by commas.
+    /// Displacement, positive in extension, m: one for all slots, or one per slot, separated by commas.
     #[arg(
         long,
         value_name = "M",
@@ -32,27 +32,27 @@ fn finite(text: &str) -> Result<f32, &'static str> {
         .ok_or("allowed: a finite number in single precision")
 }
 
-/// What the target does from now on.
+/// State of the target after the request.
 #[derive(Serialize)]
 struct Driven {
     running: bool,
-    /// The last tick before that.
+    /// Last tick before the request took effect.
     tick: u32,
-    /// Of each place (m).
+    /// Displacement of each slot (m).
     displacements_m: Vec<f32>,
 }
 
-/// `run`.
+/// Runs `run`.
 pub(super) fn run(run: &DisplacementArguments, link: &LinkArguments) -> Outcome<()> {
     let driven = drive(run, link, |displacements_m| Request::Run {
         displacements_m,
     })?;
     link.print(&driven, |out, _| {
-        writeln!(out, "the tick runs free, every damper from rest")
+        writeln!(out, "free-running; every damper started from rest")
     })
 }
 
-/// `displace`.
+/// Runs `displace`.
 pub(super) fn displace(displace: &DisplacementArguments, link: &LinkArguments) -> Outcome<()> {
     let driven = drive(displace, link, |displacements_m| Request::Displace {
         displacements_m,
@@ -85,10 +85,13 @@ struct Stopped {
     running: bool,
 }
 
-/// `stop`.
+/// Runs `stop`.
 pub(super) fn stop(link: &LinkArguments) -> Outcome<()> {
     Target::open(&link.line)?.order(&Request::Stop)?;
     link.print(&Stopped { running: false }, |out, _| {
-        writeln!(out, "stopped: the host steps, the outputs are 0")
+        writeln!(
+            out,
+            "stopped: the host triggers each step, the outputs are 0"
+        )
     })
 }

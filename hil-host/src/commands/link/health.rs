@@ -1,4 +1,4 @@
-//! `health`: the estimate of a place's real damper: its model loaded, a measurement fed, the reading told.
+//! `health`: loads the model of a real damper into a slot, feeds a measurement and prints the estimates.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -24,35 +24,38 @@ use dashpot_recording::tick_grid::MeasuredGrid;
 use dashpot_recording::{Gaps, Measurement};
 use dashpot_testbench::health::{doubts_in_words, in_words, whole_in_words};
 
-/// Tell the health of the real damper that a place stands for; load its model and feed a measurement first.
+/// Print the health estimates of one slot, optionally after loading a model and feeding a measurement.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot link --link serial:/dev/ttyACM0 health --place 3
-  dashpot link --link serial:/dev/ttyACM0 health --place 3 --damper in-service --displacement-noise-m 60e-6 --force-noise-n 60
+  dashpot link --link serial:/dev/ttyACM0 health --place 3 --damper in-service --displacement-noise-m 60e-6 \\
+      --force-noise-n 60
   dashpot link --link serial:/dev/ttyACM0 health --place 3 --input run7.csv --every-s 1
-  dashpot link --link qemu health --damper my.toml --displacement-noise-m 60e-6 --force-noise-n 60 --input run7.csv
+  dashpot link --link qemu health --damper my.toml --displacement-noise-m 60e-6 --force-noise-n 60 \\
+      --input run7.csv
 
---damper loads the model of that damper and begins the estimate anew; --input goes on with the model that is there.
-Input columns: time_s,displacement_m,force_n in any order, put on the target's ticks; a sample in a gap is left out.")]
+--damper loads the model of that damper and restarts the estimate; --input alone continues with the loaded model.
+The input has the columns time_s,displacement_m,force_n in any order. It is resampled to the target's ticks, without
+the gaps.")]
 pub(super) struct HealthArguments {
-    /// Place of the bank, from 0.
+    /// Slot of the bank, from 0.
     #[arg(long, value_name = "PLACE", value_parser = place(), default_value_t = 0)]
     place: u8,
-    /// The damper as it was built.
-    #[arg(help = damper_help("; its model is loaded"), long, value_name = "NAME|FILE")]
+    /// Damper as designed.
+    #[arg(help = damper_help("; the model to load"), long, value_name = "NAME|FILE")]
     damper: Option<String>,
-    /// Overrides a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
+    /// Override a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "damper")]
     overrides: Vec<String>,
     #[command(flatten)]
     sensors: SensorArguments,
-    /// Displacement and force measured on the real damper, CSV; `-` for standard input.
+    /// Measured displacement and force of the real damper, CSV; `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
-    /// Tell the estimate each time so much of the measurement was fed, s.
+    /// Print the estimate at this interval of the measurement, s.
     #[arg(long, value_name = "S", value_parser = positive, requires = "input")]
     every_s: Option<f64>,
-    /// Clear the status afterwards, what was told before.
+    /// Clear the status after printing it.
     #[arg(long)]
     clear: bool,
     #[command(flatten)]
@@ -66,21 +69,21 @@ fn positive(text: &str) -> Result<f64, &'static str> {
         .ok_or("allowed: a finite number above 0")
 }
 
-/// A reading and when it was.
+/// A reading and its time.
 #[derive(Serialize)]
 struct Timed {
-    /// Time of the last sample before it (s); `None` where none was fed.
+    /// Time of the last sample before the reading (s); `None` if no sample was fed.
     #[serde(skip_serializing_if = "Option::is_none")]
     time_s: Option<f64>,
     #[serde(flatten)]
-    told: Told,
+    values: Told,
 }
 
 impl Timed {
     fn new(time_s: Option<f64>, reading: &HealthReading) -> Self {
         Self {
             time_s,
-            told: reading.into(),
+            values: reading.into(),
         }
     }
 }
@@ -88,19 +91,19 @@ impl Timed {
 #[derive(Serialize)]
 struct Report {
     place: u8,
-    /// The damper whose model was loaded.
+    /// Damper whose model was loaded.
     #[serde(skip_serializing_if = "Option::is_none")]
     damper: Option<String>,
-    /// Samples fed.
+    /// Number of samples fed.
     fed: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     gaps: Option<Gaps>,
-    /// In order of time, the last at the end.
+    /// Readings in chronological order.
     readings: Vec<Timed>,
     cleared: bool,
 }
 
-/// `health`.
+/// Runs `health`.
 pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()> {
     let parameters = match &health.damper {
         None => {
@@ -141,11 +144,11 @@ pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()>
         time_s = Some(nearest_nanosecond(ticks.start_s() + last));
         report.gaps = Some(ticks.measurement().gaps());
     }
-    let told_already = report
+    let has_last_reading = report
         .readings
         .last()
-        .is_some_and(|told| told.time_s == time_s);
-    if !told_already {
+        .is_some_and(|reading| reading.time_s == time_s);
+    if !has_last_reading {
         let reading = target.client().health(health.place)?;
         report.readings.push(Timed::new(time_s, &reading));
     }
@@ -155,7 +158,7 @@ pub(super) fn run(health: &HealthArguments, link: &LinkArguments) -> Outcome<()>
     link.print(&report, print)
 }
 
-/// Feeds all samples, and reads the estimate each time that was asked for.
+/// Feeds all samples, and reads the estimate at the requested interval.
 fn feed(
     health: &HealthArguments,
     target: &mut Target,
@@ -192,7 +195,7 @@ fn feed(
 
 fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if let Some(damper) = &report.damper {
-        writeln!(out, "place {}: model of {damper} loaded", report.place)?;
+        writeln!(out, "slot {}: model of {damper} loaded", report.place)?;
     }
     if report.fed > 0 {
         writeln!(out, "{} fed", counted(report.fed, "sample"))?;
@@ -203,42 +206,42 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
         "{:>10}  {:>15}  {:>17}  {:>15}  {:>15}  {:>9}  status",
-        "time, s", "flow factor", "stiffness, kN/mm", "clearance, mm", "lag, ms", "told"
+        "time, s", "flow factor", "stiffness, kN/mm", "clearance, mm", "lag, ms", "usable"
     )?;
-    for told in &report.readings {
-        let time = told
+    for reading in &report.readings {
+        let time = reading
             .time_s
             .map_or_else(|| "now".into(), |time_s| format!("{time_s:.3}"));
-        let told = &told.told;
+        let values = &reading.values;
         writeln!(
             out,
             "{time:>10}  {:>15}  {:>17}  {:>15}  {:>15}  {:>9}  {}",
-            in_words(told.flow_factor, 1.0),
-            told.stiffness_in_words(),
-            in_words(told.clearance_m, 1e3),
-            in_words(told.lag_s, 1e3),
-            told.samples,
-            if told.status.is_empty() {
+            in_words(values.flow_factor, 1.0),
+            values.stiffness_in_words(),
+            in_words(values.clearance_m, 1e3),
+            in_words(values.lag_s, 1e3),
+            values.samples,
+            if values.status.is_empty() {
                 "none".into()
             } else {
-                told.status.join(", ")
+                values.status.join(", ")
             }
         )?;
-        if told.has(HealthStatus::FORCE_ZERO) {
+        if values.has(HealthStatus::FORCE_ZERO) {
             writeln!(
                 out,
-                "            the zero of the force sensor is off by {} N; the estimates are corrected for it",
-                whole_in_words(told.force_zero_n)
+                "            the force sensor has a zero offset of {} N; the estimates are corrected for it",
+                whole_in_words(values.force_zero_n)
             )?;
         }
-        for doubt in doubts_in_words(told.bits) {
+        for doubt in doubts_in_words(values.bits) {
             writeln!(out, "            {doubt}")?;
         }
-        if told.rejected > 0 {
+        if values.rejected > 0 {
             writeln!(
                 out,
-                "            {} left out",
-                counted(told.rejected.into(), "sample")
+                "            {} rejected",
+                counted(values.rejected.into(), "sample")
             )?;
         }
     }

@@ -1,4 +1,4 @@
-//! What a target is, holds and noticed: `hello`, `status`, `clear`, `counters`, `outputs`.
+//! Identity and state of a target: `hello`, `status`, `clear`, `counters`, `outputs`.
 
 use std::io::{self, Write};
 
@@ -10,7 +10,7 @@ use super::target::{Greeting, Target, step_in_words};
 use crate::commands::failure::Outcome;
 use dashpot_files::status_bits::{self, StatusBit};
 
-/// `hello`.
+/// Runs `hello`.
 pub(super) fn hello(link: &LinkArguments) -> Outcome<()> {
     let target = Target::open(&link.line)?;
     link.print(&target.greeting, print_greeting)
@@ -25,25 +25,25 @@ fn print_greeting(out: &mut dyn Write, greeting: &Greeting) -> io::Result<()> {
     )?;
     writeln!(out, "step      {}", step_in_words(greeting.step_s))?;
     let runs = if greeting.running {
-        "runs free"
+        "free-running"
     } else {
-        "the host steps"
+        "stepped by the host"
     };
     writeln!(out, "tick      {}, {runs}", greeting.tick)?;
     writeln!(out, "clock     {} Hz", greeting.clock_hz)?;
-    writeln!(out, "\nplace    revision")?;
+    writeln!(out, "\n slot    revision")?;
     for (place, revision) in greeting.revisions.iter().enumerate() {
         writeln!(out, "{place:>5}  {revision:#010x}")?;
     }
     Ok(())
 }
 
-/// Status of the damper in a place.
+/// Status of the damper in one slot.
 #[derive(Serialize)]
 struct PlaceStatus {
     place: usize,
     status: Vec<StatusBit>,
-    /// Ticks whose displacement was held or limited, up to 65535.
+    /// Number of ticks whose displacement was held or limited, up to 65535.
     rejected_inputs: u16,
 }
 
@@ -52,13 +52,13 @@ struct BankStatus {
     places: Vec<PlaceStatus>,
 }
 
-/// `status`.
+/// Runs `status`.
 pub(super) fn status(link: &LinkArguments) -> Outcome<()> {
     let status = ask_status(link, &Request::Status)?;
     link.print(&status, print_status)
 }
 
-/// `clear`.
+/// Runs `clear`.
 pub(super) fn clear(link: &LinkArguments) -> Outcome<()> {
     let cleared = ask_status(link, &Request::ClearStatus)?;
     link.print(&cleared, |out, cleared| {
@@ -88,15 +88,19 @@ fn ask_status(link: &LinkArguments, request: &Request<'_>) -> Outcome<BankStatus
 }
 
 fn print_status(out: &mut dyn Write, bank: &BankStatus) -> io::Result<()> {
-    writeln!(out, "place  rejected inputs  status")?;
-    for of in &bank.places {
-        let status = status_bits::in_words(&of.status);
-        writeln!(out, "{:>5}  {:>15}  {status}", of.place, of.rejected_inputs)?;
+    writeln!(out, " slot  rejected inputs  status")?;
+    for slot in &bank.places {
+        let status = status_bits::in_words(&slot.status);
+        writeln!(
+            out,
+            "{:>5}  {:>15}  {status}",
+            slot.place, slot.rejected_inputs
+        )?;
     }
     Ok(())
 }
 
-/// `counters`.
+/// Runs `counters`.
 pub(super) fn counters(link: &LinkArguments) -> Outcome<()> {
     let counters =
         Target::open(&link.line)?.ask(&Request::Counters, |response| match response {
@@ -107,21 +111,24 @@ pub(super) fn counters(link: &LinkArguments) -> Outcome<()> {
 }
 
 fn print_counters(out: &mut dyn Write, counters: &Counters) -> io::Result<()> {
-    writeln!(out, "since power on:")?;
+    writeln!(out, "since power-on:")?;
     for (count, what) in [
-        (counters.accepted, "requests carried out"),
+        (counters.accepted, "requests executed"),
         (counters.refused, "requests refused"),
-        (counters.repeated, "requests repeated and answered again"),
-        (counters.corrupt, "frames broken on the way"),
-        (counters.unreadable, "frames without a request"),
+        (counters.repeated, "repeated requests, answered again"),
+        (counters.corrupt, "frames corrupted in transmission"),
+        (counters.unreadable, "frames without a valid request"),
         (
             counters.no_session,
-            "requests of a session that was not open",
+            "requests from a session that was not open",
         ),
         (counters.out_of_order, "requests out of sequence"),
-        (counters.overruns, "ticks that began late"),
+        (counters.overruns, "ticks that started late"),
         (counters.link_losses, "losses of the link"),
-        (counters.corruptions, "dampers and states damaged in memory"),
+        (
+            counters.corruptions,
+            "dampers and states corrupted in memory",
+        ),
     ] {
         writeln!(out, "{count:>10}  {what}")?;
     }
@@ -130,11 +137,11 @@ fn print_counters(out: &mut dyn Write, counters: &Counters) -> io::Result<()> {
 
 #[derive(Serialize)]
 struct Outputs {
-    /// Of each place (N).
+    /// Output of each slot (N).
     outputs_n: Vec<f32>,
 }
 
-/// `outputs`.
+/// Runs `outputs`.
 pub(super) fn outputs(link: &LinkArguments) -> Outcome<()> {
     let outputs = Target::open(&link.line)?.ask(&Request::Outputs, |response| match response {
         Response::Outputs { outputs_n } => Some(Outputs {
@@ -143,7 +150,7 @@ pub(super) fn outputs(link: &LinkArguments) -> Outcome<()> {
         _ => None,
     })?;
     link.print(&outputs, |out, outputs| {
-        writeln!(out, "place    output_n")?;
+        writeln!(out, " slot    output_n")?;
         for (place, output_n) in outputs.outputs_n.iter().enumerate() {
             writeln!(out, "{place:>5}  {output_n:>10.1}")?;
         }

@@ -1,4 +1,4 @@
-//! `load`: a damper for places of a target, built here for its step or taken from an image.
+//! `load`: loads a damper into slots of a target, built here for its step or taken from an image.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_files::input;
 
-/// Put a damper in places of the bank; their states keep the force. A place that has it already is skipped.
+/// Load a damper into slots of the bank; forces stay continuous. A slot that already holds it is skipped.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot link --link serial:/dev/ttyACM0 load --damper in-service
@@ -24,7 +24,7 @@ use dashpot_files::input;
   dashpot export --damper my.toml --lang bin --output my.bin
   dashpot link --link serial:/dev/ttyACM0 load --image my.bin --place 3")]
 pub(super) struct LoadArguments {
-    /// A preset or a file.
+    /// Preset or file.
     #[arg(
         help = damper_help("; built for the target's step"),
         long,
@@ -33,29 +33,29 @@ pub(super) struct LoadArguments {
         conflicts_with = "image"
     )]
     damper: Option<String>,
-    /// Overrides a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
+    /// Override a key of the damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "image")]
     overrides: Vec<String>,
-    /// A built damper, as `dashpot export --lang bin` writes it, `-` for standard input.
+    /// Damper image written by `dashpot export --lang bin`, `-` for standard input.
     #[arg(long, value_name = "FILE")]
     image: Option<PathBuf>,
     #[command(flatten)]
     places: Places,
 }
 
-/// Where the damper comes from, read and checked.
+/// Source of the damper, read and checked.
 enum Source {
     Parameters(Box<CheckedParameters>),
     Image(Box<Damper<f32>>),
 }
 
 impl LoadArguments {
-    /// The damper's name and the damper.
+    /// Reads the damper and returns it with its name.
     fn read(&self) -> Outcome<(String, Source)> {
         if let Some(path) = &self.image {
             let name = input::name(path);
             let damper = Damper::<f32>::from_image(&input::read(path)?).map_err(|error| {
-                let allowed = "allowed: what `dashpot export --lang bin` writes in f32";
+                let allowed = "allowed: a file written by `dashpot export --lang bin` in f32";
                 FileError::in_file(&name, format!("{error}; {allowed}"))
             })?;
             return Ok((name.display().to_string(), Source::Image(Box::new(damper))));
@@ -67,7 +67,7 @@ impl LoadArguments {
     }
 }
 
-/// The damper for a step of `step_s` (s).
+/// Builds the damper for a step of `step_s` (s).
 fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
     match source {
         Source::Parameters(parameters) => {
@@ -76,7 +76,7 @@ fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
         }
         Source::Image(damper) if damper.step_s() == step_s => Ok(**damper),
         Source::Image(damper) => Err(Failure::new(format!(
-            "{name}: built for a step of {}, the target steps {}; export it for that step \
+            "{name}: built for a step of {}, but the target's step is {}; export it for that step \
              (`--step-us`)",
             step_in_words(damper.step_s()),
             step_in_words(step_s),
@@ -88,13 +88,13 @@ fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
 struct Report {
     damper: String,
     revision: u32,
-    /// Places it was loaded into.
+    /// Slots it was loaded into.
     loaded: Vec<u8>,
-    /// Places that had it already.
+    /// Slots that already held it.
     skipped: Vec<u8>,
 }
 
-/// `load`.
+/// Runs `load`.
 pub(super) fn run(load: &LoadArguments, link: &LinkArguments) -> Outcome<()> {
     let (name, source) = load.read()?;
     let mut target = Target::open(&link.line)?;
@@ -113,9 +113,9 @@ pub(super) fn run(load: &LoadArguments, link: &LinkArguments) -> Outcome<()> {
         target.order(&request).map_err(|failure| {
             let loaded = match &others[..count] {
                 [] => "nothing was loaded".into(),
-                loaded => format!("{} loaded before", named(loaded)),
+                loaded => format!("already loaded: {}", named(loaded)),
             };
-            Failure::new(format!("place {place}: {failure}; {loaded}"))
+            Failure::new(format!("slot {place}: {failure}; {loaded}"))
         })?;
     }
     let report = Report {
@@ -130,7 +130,7 @@ pub(super) fn run(load: &LoadArguments, link: &LinkArguments) -> Outcome<()> {
             writeln!(out, "loaded into {}", named(&report.loaded))?;
         }
         if !report.skipped.is_empty() {
-            writeln!(out, "skipped {}: there already", named(&report.skipped))?;
+            writeln!(out, "skipped {}: already loaded", named(&report.skipped))?;
         }
         Ok(())
     })

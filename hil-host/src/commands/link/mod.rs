@@ -1,4 +1,4 @@
-//! `dashpot link`: requests to a target by hand, one action a run.
+//! `dashpot link`: sends requests to a target manually, one action per run.
 
 mod change;
 mod drive;
@@ -27,7 +27,7 @@ use super::line::LineArguments;
 use super::print::print_report;
 use crate::commands::failure::Outcome;
 
-/// Ask a target by hand: who it is, what it holds and noticed; load, change, run and watch it.
+/// Control a target manually: identify and inspect it; load, change, run and watch its dampers.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot link --link serial:/dev/ttyACM0 hello
@@ -39,49 +39,49 @@ use crate::commands::failure::Outcome;
   dashpot link --link tcp:localhost:5555 watch --place 0 --place 3
   dashpot link --link tcp:localhost:5555 save --output states.toml
 
-The dampers of a target stand in places, numbered from 0; `hello` tells how many there are.
+A target has one damper per slot, numbered from 0; `hello` lists the slots. --place selects a slot.
 
-Every run says hello and so takes the target over from whoever asked it before: a `dashpot pil` under way says hello again \
-and goes on, a `dashpot link watch` ends.
+Every run opens a new session and so takes the target over from any other client: a running `dashpot pil` opens its
+session again and continues, a `dashpot link watch` ends.
 
-With --link qemu every run starts an emulator, which ends with it. To ask the same emulator several times, start it \
-yourself as docs/link.md tells and use --link tcp:HOST:PORT.
+With --link qemu, every run starts an emulator of its own. To use the same emulator several times, start it yourself
+(see docs/link.md) and use --link tcp:HOST:PORT.
 
-Exit code: 0 done, 1 failed or refused by the target, 2 wrong use.")]
+Exit code: 0 success, 1 failed or refused by the target, 2 wrong use.")]
 pub struct LinkArguments {
     #[command(flatten)]
     line: LineArguments,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text, global = true)]
     format: Format,
     #[command(subcommand)]
     action: Action,
 }
 
-/// What to ask.
+/// Requests to a target.
 #[derive(Debug, Clone, clap::Subcommand)]
 enum Action {
-    /// Who answers: version, step, tick, and the revision of the damper in each place.
+    /// Print the target's version, step, tick and damper revisions.
     Hello,
-    /// Status bits and rejected inputs of each damper.
+    /// Print the status bits and rejected inputs of each damper.
     Status,
-    /// Clear status bits and rejected inputs of every damper, and tell what was cleared.
+    /// Clear the status bits and rejected inputs of every damper, and print what was cleared.
     Clear,
-    /// What the target counted since power on.
+    /// Print the target's counters since power-on.
     Counters,
-    /// What the actuators were given last.
+    /// Print the last forces sent to the actuators.
     Outputs,
     Load(LoadArguments),
     Set(SetArguments),
     LossOfLink(LossOfLinkArguments),
-    /// Put every damper at rest at a displacement and let the target's tick run free.
+    /// Put every damper at rest at a displacement and start the free-running mode.
     ///
-    /// The target then counts the link as lost when no displacement comes for the ticks that `loss-of-link` gave, 100 when
-    /// it gave none; `run` ends a lost link.
+    /// The target then counts the link as lost when no displacement arrives for the number of ticks set by
+    /// `loss-of-link` (default 100). Use `run` to recover from a lost link.
     Run(DisplacementArguments),
-    /// Give the dampers of a target whose tick runs free another displacement.
+    /// Send new displacements to the dampers of a free-running target.
     Displace(DisplacementArguments),
-    /// End the free-running tick; the outputs are 0.
+    /// Stop the free-running mode and set the outputs to 0.
     Stop,
     Telemetry(TelemetryArguments),
     Health(Box<HealthArguments>),
@@ -93,7 +93,7 @@ enum Action {
 /// Runs the command.
 ///
 /// # Errors
-/// A file or damper that cannot be used, a target that does not answer, or one that says no.
+/// A file or damper is invalid, or the target does not answer or refuses the request.
 pub fn run(arguments: &LinkArguments) -> Outcome<()> {
     match &arguments.action {
         Action::Hello => inspect::hello(arguments),

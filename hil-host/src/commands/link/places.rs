@@ -1,28 +1,28 @@
-//! Places of a bank, as options name them.
+//! The option `--place`, which selects slots of a bank.
 
 use dashpot_core::link::MAX_DAMPERS;
 
 use super::target::Target;
 use crate::commands::failure::{Failure, Outcome};
 
-/// `--place`, as often as there are places to name.
+/// `--place`, once per slot.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct Places {
-    /// Place of the bank, from 0; once for each place, all places when not given.
+    /// Slot of the bank, from 0; may be repeated; default: all slots.
     #[arg(long = "place", value_name = "PLACE", value_parser = place())]
     places: Vec<u8>,
 }
 
-/// Parses a place that a target may have.
+/// Returns a parser for the slots that a target may have.
 pub(super) fn place() -> clap::builder::RangedI64ValueParser<u8> {
     clap::value_parser!(u8).range(..MAX_DAMPERS as i64)
 }
 
 impl Places {
-    /// The places of `target` that were named, each once, in order.
+    /// Returns the selected slots of `target`, sorted and without duplicates.
     ///
     /// # Errors
-    /// One that the target does not have.
+    /// The target does not have one of the slots.
     pub(super) fn of(&self, target: &Target) -> Outcome<Vec<u8>> {
         if self.places.is_empty() {
             return Ok((0..).take(target.greeting.dampers).collect());
@@ -35,7 +35,7 @@ impl Places {
     }
 }
 
-/// Refuses a place that the target does not have.
+/// Rejects a slot that the target does not have.
 pub(super) fn check(place: u8, target: &Target) -> Outcome<()> {
     let dampers = target.greeting.dampers;
     if usize::from(place) < dampers {
@@ -47,9 +47,9 @@ pub(super) fn check(place: u8, target: &Target) -> Outcome<()> {
     )))
 }
 
-/// `place 0`, `places 0, 2, 3`.
+/// Formats slots: `slot 0`, `slots 0, 2, 3`.
 pub(super) fn named(places: &[u8]) -> String {
     let numbers: Vec<String> = places.iter().map(u8::to_string).collect();
     let plural = if places.len() == 1 { "" } else { "s" };
-    format!("place{plural} {}", numbers.join(", "))
+    format!("slot{plural} {}", numbers.join(", "))
 }

@@ -1,4 +1,4 @@
-//! `save` and `restore`: the states of a bank and its tick, kept in a file.
+//! `save` and `restore`: the states of a bank and its tick in a file.
 
 use std::path::PathBuf;
 
@@ -14,27 +14,28 @@ use dashpot_files::input;
 use dashpot_files::output::{self, cannot_write, write_whole};
 use dashpot_files::states::BankState;
 
-/// Write the states of all dampers and the tick to a file.
+/// Save the states of all dampers and the tick to a file.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Example:
   dashpot link --link serial:/dev/ttyACM0 save --output states.toml
 
-The file is TOML: the tick, and for each place the revision of its damper, displacement, stretch, flow potential, force, \
-status and rejected inputs, to the bit.")]
+The file is TOML: the tick, and for each slot the damper's revision, displacement, stretch, flow potential, force,
+status and rejected inputs, all bit-exact.")]
 pub(super) struct SaveArguments {
     /// File to write, `-` for standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
 }
 
-/// Give all dampers of a target that does not run free the states and the tick of a file.
+/// Restore the states of all dampers and the tick from a file; the target must not be free-running.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Example:
   dashpot link --link serial:/dev/ttyACM0 restore --input states.toml
 
-A state goes with its damper: where the target holds another one, load it first (`load`, and `set` for the clearance).")]
+A state belongs to one damper: if the target holds another one, load the right one first (`load`, then `set` for the
+clearance).")]
 pub(super) struct RestoreArguments {
-    /// File that `save` wrote, `-` for standard input.
+    /// File written by `save`, `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: PathBuf,
 }
@@ -47,7 +48,7 @@ struct Report {
     dampers: usize,
 }
 
-/// `save`.
+/// Runs `save`.
 pub(super) fn save(save: &SaveArguments, link: &LinkArguments) -> Outcome<()> {
     let path = &save.output;
     let mut report = Report {
@@ -72,7 +73,7 @@ pub(super) fn save(save: &SaveArguments, link: &LinkArguments) -> Outcome<()> {
     })
 }
 
-/// `restore`.
+/// Runs `restore`.
 pub(super) fn restore(restore: &RestoreArguments, link: &LinkArguments) -> Outcome<()> {
     let path = &restore.input;
     let bank = BankState::read(path)?;
@@ -95,13 +96,13 @@ pub(super) fn restore(restore: &RestoreArguments, link: &LinkArguments) -> Outco
     })
 }
 
-/// Whether the states are of the dampers of these revisions, or why not.
+/// Checks that the states belong to dampers of these revisions.
 fn check(bank: &BankState, revisions: &[u32]) -> Result<(), String> {
     if bank.places.len() != revisions.len() {
         return Err(format!(
-            "{}, the target has {}; allowed: one state for each place",
+            "{}, but the target has {}; allowed: one state per slot",
             counted(bank.places.len() as u64, "state"),
-            counted(revisions.len() as u64, "place")
+            counted(revisions.len() as u64, "slot")
         ));
     }
     let pairs = bank.places.iter().zip(revisions).enumerate();
@@ -109,7 +110,7 @@ fn check(bank: &BankState, revisions: &[u32]) -> Result<(), String> {
         .filter(|(_, (state, revision))| state.revision != **revision)
         .map(|(place, (state, revision))| {
             format!(
-                "place {place}: state of damper {:#010x}, the target's is {revision:#010x}",
+                "slot {place}: state of damper {:#010x}, but the target holds {revision:#010x}",
                 state.revision
             )
         })
@@ -118,7 +119,7 @@ fn check(bank: &BankState, revisions: &[u32]) -> Result<(), String> {
         Ok(())
     } else {
         Err(format!(
-            "{}; load the dampers that made the states first",
+            "{}; first load the dampers that the states belong to",
             others.join("; ")
         ))
     }

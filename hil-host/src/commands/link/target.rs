@@ -1,4 +1,4 @@
-//! A target that said hello.
+//! A target with an open session.
 
 use dashpot_core::link::{PROTOCOL, Reals, Request, Response};
 use serde::Serialize;
@@ -8,13 +8,13 @@ use crate::commands::line::LineArguments;
 use crate::commands::step_size::StepSize;
 use dashpot_host_link::{Client, Link, LinkError};
 
-/// A target that said hello.
+/// A target with an open session.
 pub(super) struct Target {
     client: Client<Box<dyn Link + Send>>,
     pub(super) greeting: Greeting,
 }
 
-/// What a target says of itself.
+/// Answer of a target to the first request of a session.
 #[derive(Serialize)]
 pub(super) struct Greeting {
     pub(super) core_version: String,
@@ -24,21 +24,21 @@ pub(super) struct Greeting {
     pub(super) step_s: f32,
     /// Last tick.
     pub(super) tick: u32,
-    /// Whether the tick runs free.
+    /// True if the target is free-running.
     pub(super) running: bool,
-    /// Rate of the clock that measures steps (Hz).
+    /// Frequency of the clock that measures steps (Hz).
     pub(super) clock_hz: u32,
-    /// Of the damper in each place.
+    /// Revision of the damper in each slot.
     pub(super) revisions: Vec<u32>,
 }
 
-/// A step as a target or an image has it (s), in words.
+/// Formats the step (s) of a target or an image, in microseconds if it is an allowed step.
 pub(super) fn step_in_words(step_s: f32) -> String {
     StepSize::from_target(step_s).map_or_else(|| format!("{step_s} s"), |step| format!("{step} us"))
 }
 
 impl Target {
-    /// Opens the line and says hello under a session number drawn at random.
+    /// Opens the link and starts a session with a random number.
     pub(super) fn open(line: &LineArguments) -> Outcome<Self> {
         let mut client = Client::new(line.open()?, line.retry_limits(), fastrand::u16(..));
         let welcome = client.hello()?;
@@ -55,12 +55,14 @@ impl Target {
         Ok(Self { client, greeting })
     }
 
-    /// Who asks it.
+    /// Returns the client that sends requests to the target.
     pub(super) fn client(&mut self) -> &mut Client<Box<dyn Link + Send>> {
         &mut self.client
     }
 
-    /// Asks, and takes what `read` finds in the answer; `None` where that is an answer to something else.
+    /// Sends a request and returns the value that `read` extracts from the response.
+    ///
+    /// `read` returns `None` for a response to another kind of request, which is an error.
     pub(super) fn ask<R>(
         &mut self,
         request: &Request<'_>,
@@ -70,22 +72,22 @@ impl Target {
         read(response).ok_or_else(|| LinkError::Unreadable.into())
     }
 
-    /// Asks for something to be done.
+    /// Sends a request whose response carries no data.
     pub(super) fn order(&mut self, request: &Request<'_>) -> Outcome<()> {
         self.ask(request, |response| {
             (response == Response::Done).then_some(())
         })
     }
 
-    /// A value of `option` for each damper, of one for all or one for each.
+    /// Expands the values of `option`, one for all dampers or one per damper, to one per damper.
     pub(super) fn for_each_damper(&self, option: &str, values: &[f32]) -> Outcome<Reals> {
         let dampers = self.greeting.dampers;
         match values {
             [one] => Ok(vec![*one; dampers].into_iter().collect()),
             each if each.len() == dampers => Ok(each.iter().copied().collect()),
             other => Err(Failure::wrong_use(format!(
-                "{option}: {} values, the target has {dampers} places; allowed: 1, for all places, \
-                 or {dampers}, one for each",
+                "{option}: {} values, but the target has {dampers} slots; allowed: 1 value for all slots or \
+                 {dampers} values",
                 other.len()
             ))),
         }

@@ -1,4 +1,4 @@
-//! `telemetry`: the samples that a target kept.
+//! `telemetry`: fetches the samples buffered by a target.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -14,26 +14,26 @@ use crate::commands::print::{counted, print_report_beside};
 use dashpot_files::output::{self, cannot_write_rows, write_whole_if};
 use dashpot_files::status_bits::{self, StatusBit};
 
-/// Answers that hold all the ticks a target keeps; what comes after those is newer than the question.
-const MOST_ANSWERS: usize = KEPT_TICKS / MAX_SAMPLES;
+/// Number of responses that hold all buffered ticks; later samples are newer than the request.
+const MAX_RESPONSES: usize = KEPT_TICKS / MAX_SAMPLES;
 
-/// Take all samples that wait: the last 64 ticks at most of each damper, each sample once.
+/// Fetch the buffered samples: up to 64 ticks per damper. Each sample is sent only once.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot link --link serial:/dev/ttyACM0 telemetry --place 3
   dashpot link --link serial:/dev/ttyACM0 telemetry --output samples.csv
 
---output writes the columns place, tick, displacement_m, force_n, status: the sum of 1 input held, 2 input limited, \
-4 saturated, 8 damper swapped, 16 corrupted.")]
+--output writes the columns place, tick, displacement_m, force_n and status, which is the sum of 1 input held, 2 input
+limited, 4 saturated, 8 damper swapped and 16 corrupted.")]
 pub(super) struct TelemetryArguments {
     #[command(flatten)]
     places: Places,
-    /// The samples as CSV, `-` for standard output; printed when not given.
+    /// Write the samples as CSV, `-` for standard output; default: print them.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
-/// A sample of the damper in a place.
+/// A sample of the damper in one slot.
 #[derive(Serialize)]
 pub(super) struct PlaceSample {
     place: u8,
@@ -54,12 +54,12 @@ impl PlaceSample {
         }
     }
 
-    /// Heads the lines of [`Self::print`].
+    /// Prints the header for the lines of [`Self::print`].
     pub(super) fn print_header(out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "place        tick  displacement_m     force_n  status")
+        writeln!(out, " slot        tick  displacement_m     force_n  status")
     }
 
-    /// Prints a line.
+    /// Prints the sample as one line.
     pub(super) fn print(&self, out: &mut dyn Write) -> io::Result<()> {
         let status = status_bits::in_words(&self.status);
         writeln!(
@@ -70,14 +70,14 @@ impl PlaceSample {
     }
 }
 
-/// An answer of telemetry.
+/// Samples fetched from one slot.
 pub(super) struct Taken {
-    /// Samples of that damper lost to newer ones, since power on.
+    /// Number of samples of this damper overwritten by newer ones since power-on.
     pub(super) overwritten: u32,
     pub(super) samples: Vec<Sample>,
 }
 
-/// The oldest samples of the damper in a place that were not taken yet.
+/// Fetches the oldest buffered samples of the damper in one slot.
 pub(super) fn take(target: &mut Target, place: u8) -> Outcome<Taken> {
     target.ask(
         &Request::Telemetry { damper: place },
@@ -94,13 +94,13 @@ pub(super) fn take(target: &mut Target, place: u8) -> Outcome<Taken> {
     )
 }
 
-/// All samples of the damper in a place that wait.
+/// Fetches all buffered samples of the damper in one slot.
 fn take_all(target: &mut Target, place: u8) -> Outcome<Taken> {
     let mut all = Taken {
         overwritten: 0,
         samples: Vec::new(),
     };
-    for _ in 0..MOST_ANSWERS {
+    for _ in 0..MAX_RESPONSES {
         let taken = take(target, place)?;
         all.overwritten = taken.overwritten;
         all.samples.extend(&taken.samples);
@@ -111,26 +111,26 @@ fn take_all(target: &mut Target, place: u8) -> Outcome<Taken> {
     Ok(all)
 }
 
-/// What was taken of a place.
+/// Telemetry fetched from one slot.
 #[derive(Serialize)]
 struct PlaceReport {
     place: u8,
     taken: usize,
-    /// Since power on.
+    /// Number of samples overwritten since power-on.
     overwritten: u32,
 }
 
 #[derive(Serialize)]
 struct Report {
     places: Vec<PlaceReport>,
-    /// Unless they went to a file.
+    /// `None` if they were written to a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<Vec<PlaceSample>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     output: Option<String>,
 }
 
-/// `telemetry`.
+/// Runs `telemetry`.
 pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outcome<()> {
     let path = telemetry.output.as_deref();
     let mut report = Report {
@@ -138,7 +138,7 @@ pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outco
         samples: path.is_none().then(Vec::new),
         output: path.map(|path| output::name(path).display().to_string()),
     };
-    // The file is opened first: samples taken from a target cannot be taken again.
+    // Open the file first: samples can be fetched from a target only once.
     write_whole_if::<_, Failure>(path, |file| {
         let mut rows = file.map(|(path, file)| (path, csv::Writer::from_writer(file)));
         if let Some((path, rows)) = &mut rows {
@@ -157,8 +157,8 @@ pub(super) fn run(telemetry: &TelemetryArguments, link: &LinkArguments) -> Outco
                 taken
                     .samples
                     .iter()
-                    .try_for_each(|of| {
-                        rows.serialize((place, of.tick, of.displacement_m, of.force_n, of.status))
+                    .try_for_each(|s| {
+                        rows.serialize((place, s.tick, s.displacement_m, s.force_n, s.status))
                     })
                     .map_err(|error| cannot_write_rows(path, error))?;
             }
@@ -181,13 +181,13 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         PlaceSample::print_header(out)?;
         samples.iter().try_for_each(|sample| sample.print(out))?;
     }
-    for of in &report.places {
+    for slot in &report.places {
         writeln!(
             out,
-            "place {}: {} taken, {} overwritten before they were taken since power on",
-            of.place,
-            counted(of.taken as u64, "sample"),
-            of.overwritten
+            "slot {}: {} fetched; {} overwritten before they were fetched, since power-on",
+            slot.place,
+            counted(slot.taken as u64, "sample"),
+            slot.overwritten
         )?;
     }
     report

@@ -1,4 +1,4 @@
-//! `watch`: the samples of a target that steps by itself, as they come.
+//! `watch`: prints the samples of a free-running target as they arrive.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -16,34 +16,34 @@ use crate::commands::print::counted;
 use dashpot_files::input::STANDARD_STREAM;
 use dashpot_files::output::cannot_write;
 
-/// Longest time between questions.
+/// Longest time between requests.
 const LONGEST_PAUSE: Duration = Duration::from_millis(100);
 
-/// Print a line for each new sample of a target whose tick runs free, until interrupted.
+/// Print a line for each new sample of a free-running target, until interrupted.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot link --link serial:/dev/ttyACM0 watch --place 0 --place 3
   dashpot link --link serial:/dev/ttyACM0 --format json watch --samples 1000 > samples.jsonl
 
-With --format json every line is an object of its own. Samples that the target overwrote because the line is too slow for \
-so many places are told on standard error.")]
+With --format json, every line is a separate object. A warning on standard error reports samples that the target
+overwrote because the link is too slow for this number of slots.")]
 pub(super) struct WatchArguments {
     #[command(flatten)]
     places: Places,
-    /// End after so many samples.
+    /// Stop after this number of samples.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     samples: Option<u64>,
 }
 
-/// A place that is watched.
+/// A watched slot.
 struct Watched {
     place: u8,
-    /// Samples overwritten so far; `None` before the first answer.
+    /// Number of samples overwritten so far; `None` before the first response.
     overwritten: Option<u32>,
 }
 
 impl Watched {
-    /// Takes new samples and reports those lost since the last time.
+    /// Fetches new samples and warns about samples lost since the last call.
     fn take(&mut self, target: &mut Target) -> Outcome<Vec<Sample>> {
         let taken = take(target, self.place)?;
         let before = self.overwritten.replace(taken.overwritten);
@@ -55,7 +55,7 @@ impl Watched {
             // Nothing can be done when standard error is closed.
             let _ = writeln!(
                 io::stderr(),
-                "warning: place {}: {lost} overwritten before they were taken",
+                "warning: slot {}: {lost} overwritten before they were fetched",
                 self.place
             );
         }
@@ -63,7 +63,7 @@ impl Watched {
     }
 }
 
-/// `watch`.
+/// Runs `watch`.
 pub(super) fn run(watch: &WatchArguments, link: &LinkArguments) -> Outcome<()> {
     let mut target = Target::open(&link.line)?;
     let places = watch.places.of(&target)?.into_iter();
@@ -96,7 +96,7 @@ pub(super) fn run(watch: &WatchArguments, link: &LinkArguments) -> Outcome<()> {
         }
         if !new && !target.greeting.running {
             return Err(Failure::new(
-                "the target's tick does not run free, so no more samples come; `run` starts it",
+                "the target is not free-running, so no more samples will arrive; start it with `run`",
             ));
         }
         if !new {
@@ -113,7 +113,7 @@ fn print(out: &mut dyn Write, format: Format, place: u8, sample: &Sample) -> io:
     }
 }
 
-/// The time in which an answer fills with samples.
+/// Returns the time in which the samples for one response accumulate.
 fn pause(step_s: f32) -> Duration {
     Duration::try_from_secs_f32(step_s * MAX_SAMPLES as f32)
         .map_or(LONGEST_PAUSE, |pause| pause.min(LONGEST_PAUSE))

@@ -1,4 +1,4 @@
-//! Figures of the page.
+//! Figures of the page of a PIL run.
 
 use plotters::style::RGBColor;
 
@@ -9,11 +9,11 @@ use dashpot_report::plot::envelope::Envelope;
 use dashpot_report::plot::sheet::{Panel, Scale};
 use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
 
-/// Bars of a histogram at most.
-const MOST_BARS: u64 = 40;
+/// Maximum number of bars in a histogram.
+const MAX_BARS: u64 = 40;
 const TIME: &str = "time, s";
 
-/// A curve over time of the samples in `envelope`, times `factor`.
+/// Draws the samples in `envelope` over time, scaled by `factor`.
 fn curve(
     history: &History,
     name: &str,
@@ -26,7 +26,7 @@ fn curve(
     Curve::new(name, colour, points.collect::<Vec<_>>())
 }
 
-/// Marks of faults made and of recoveries, where there were any.
+/// Marks injected faults and recoveries, if there were any.
 fn marks(history: &History) -> Vec<Curve> {
     let kinds = [
         (AMBER_LINE, &history.faults_made),
@@ -43,7 +43,7 @@ fn marks(history: &History) -> Vec<Curve> {
         .collect()
 }
 
-/// A panel over time with the marks.
+/// Creates a panel over time with the marks.
 fn over_time(history: &History, y: &str, scale: Scale, mut curves: Vec<Curve>) -> Panel {
     curves.extend(marks(history));
     Panel {
@@ -52,16 +52,16 @@ fn over_time(history: &History, y: &str, scale: Scale, mut curves: Vec<Curve>) -
     }
 }
 
-/// Forces of target and host at a place; beside them, where any differ, target less host.
-pub(super) fn forces(history: &History, place: &Forces) -> Figure {
+/// Draws the forces of target and host for one slot and, if any differ, target minus host.
+pub(super) fn forces(history: &History, slot: &Forces) -> Figure {
     let curves = vec![
-        curve(history, "host", PALE, &place.host_n, 1e-3).wide(22),
-        curve(history, "target", BLUE_LINE, &place.target_n, 1e-3).wide(6),
+        curve(history, "host", PALE, &slot.host_n, 1e-3).wide(22),
+        curve(history, "target", BLUE_LINE, &slot.target_n, 1e-3).wide(6),
     ];
     let mut panels = vec![over_time(history, "force, kN", Scale::Linear, curves)];
-    if place.differ {
-        let error = curve(history, "", RED_LINE, &place.difference_n, 1.0);
-        panels.push(panel(TIME, "target less host, N", vec![error.wide(6)]));
+    if slot.differ {
+        let error = curve(history, "", RED_LINE, &slot.difference_n, 1.0);
+        panels.push(panel(TIME, "target minus host, N", vec![error.wide(6)]));
     }
     Figure {
         panels,
@@ -70,7 +70,7 @@ pub(super) fn forces(history: &History, place: &Forces) -> Figure {
     }
 }
 
-/// Clock ticks that a tick of the bank took: how often, and over time.
+/// Draws the clock ticks per tick of the bank: histogram and course over time.
 pub(super) fn clock_ticks(history: &History) -> Figure {
     let over = curve(history, "", BLUE_LINE, &history.clock_ticks, 1.0).wide(5);
     Figure {
@@ -86,24 +86,24 @@ pub(super) fn clock_ticks(history: &History) -> Figure {
     }
 }
 
-/// The histogram's outline.
+/// Returns the outline of the histogram.
 fn bars(history: &History) -> Curve {
     let spread = &history.clock_spread;
-    let (least, most) = (spread.min(), spread.max());
-    let width = (most - least + 1).div_ceil(MOST_BARS).max(1);
+    let (min, max) = (spread.min(), spread.max());
+    let width = (max - min + 1).div_ceil(MAX_BARS).max(1);
     let mut points = Vec::new();
-    let bars = (most - least) / width + 1;
+    let bars = (max - min) / width + 1;
     for bar in 0..bars {
-        let from = least + bar * width;
+        let from = min + bar * width;
         let count = spread.count_between(from, from + width - 1) as f64;
-        // A whole number stands in the middle of its bar.
+        // Each integer is at the middle of its bar.
         let (left, right) = (from as f64 - 0.5, (from + width) as f64 - 0.5);
         points.extend([(left, 0.0), (left, count), (right, count), (right, 0.0)]);
     }
     Curve::new("", BLUE_LINE, points).filled().wide(4)
 }
 
-/// Round trips over time, and the step where ticks were `paced`.
+/// Draws round trips over time, with the step if ticks were `paced`.
 pub(super) fn round_trip(history: &History, paced: bool) -> Figure {
     let trips = curve(
         history,

@@ -1,28 +1,28 @@
-//! What the page shows of a run's ticks, of bounded size however long the run is.
+//! History of a run for its page, with bounded memory for runs of any length.
 
 use hdrhistogram::Histogram;
 
 use dashpot_host_link::{Event, TickRecord};
 use dashpot_report::plot::envelope::Envelope;
 
-/// Forces at one place (N).
+/// Forces of one slot (N).
 #[derive(Default)]
 pub(super) struct Forces {
     pub(super) target_n: Envelope,
     pub(super) host_n: Envelope,
-    /// Target less host.
+    /// Target minus host.
     pub(super) difference_n: Envelope,
-    /// Whether any two differ.
+    /// True if any two forces differ.
     pub(super) differ: bool,
 }
 
-/// A run over its ticks.
+/// History of a run over its ticks.
 pub(super) struct History {
     start_s: f64,
     step_s: f64,
     pub(super) places: Vec<Forces>,
     pub(super) clock_ticks: Envelope,
-    /// How often a tick of the bank took how many clock ticks.
+    /// Distribution of clock ticks per tick of the bank.
     pub(super) clock_spread: Histogram<u64>,
     pub(super) round_trip_ns: Envelope,
     pub(super) faults_made: Envelope,
@@ -30,14 +30,14 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Of a run that has yet to begin.
+    /// Creates an empty history.
     pub(super) fn new(places: usize, start_s: f64, step_s: f64) -> Self {
         Self {
             start_s,
             step_s,
             places: (0..places).map(|_| Forces::default()).collect(),
             clock_ticks: Envelope::default(),
-            // All 32 bits of a count in three digits: within the bounds allowed.
+            // 32-bit counts with three digits are within the allowed bounds.
             clock_spread: Histogram::new_with_bounds(1, u64::from(u32::MAX), 3)
                 .expect("constant bounds are valid"),
             round_trip_ns: Envelope::default(),
@@ -46,7 +46,7 @@ impl History {
         }
     }
 
-    /// Takes a tick.
+    /// Records one tick.
     pub(super) fn record(&mut self, record: &TickRecord<'_>) {
         let tick = record.tick;
         let forces = record.target_forces_n.iter().zip(record.host_forces_n);
@@ -60,7 +60,7 @@ impl History {
         self.clock_ticks.record(tick, f64::from(record.clock_ticks));
         self.clock_spread
             .saturating_record(record.clock_ticks.into());
-        // Drawn in decades, which have no zero.
+        // Drawn on a logarithmic scale, which has no zero.
         let round_trip_ns = record.round_trip_ns.max(1);
         self.round_trip_ns.record(tick, round_trip_ns as f64);
         if record.events.iter().any(|event| event.is_made()) {
@@ -71,12 +71,12 @@ impl History {
         }
     }
 
-    /// Time of a tick along the recording (s).
+    /// Returns the time of a tick in the recording (s).
     pub(super) fn time_s(&self, tick: u32) -> f64 {
         self.start_s + (f64::from(tick) - 1.0) * self.step_s
     }
 
-    /// Step (s).
+    /// Returns the step (s).
     pub(super) fn step_s(&self) -> f64 {
         self.step_s
     }

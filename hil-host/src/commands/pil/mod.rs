@@ -1,4 +1,4 @@
-//! `dashpot pil`: processor in the loop.
+//! `dashpot pil`: processor-in-the-loop comparison of a target with this host.
 
 mod figures;
 mod history;
@@ -28,7 +28,7 @@ use dashpot_realtime::pacing::Pacer;
 use dashpot_recording::Recording;
 use dashpot_recording::tick_grid::TickGrid;
 
-/// Drive dampers on a target and compare every force with this host's, bit for bit.
+/// Run dampers on a target and compare every force with this host, bit for bit.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot pil --link qemu --damper in-service --input data/excitations/ride_made.csv --page pil.html
@@ -36,29 +36,34 @@ use dashpot_recording::tick_grid::TickGrid;
   dashpot pil --link tcp:localhost:5555 --damper a.toml --damper b.toml --input run7.csv
   dashpot pil --link qemu --input run7.csv --faults drop=0.01,corrupt=0.01,reset=0.001 --seed 7
 
-A damper given once is loaded into every place of the target's bank; given once for each place, the first goes into \
-place 0, the second into place 1 and so on. Place i runs i ticks behind place 0.
+A single --damper is loaded into every slot of the target. With one --damper per slot, the first goes into slot 0, the
+second into slot 1 and so on. Slot i runs i ticks behind slot 0.
 
---paced sends each tick when it is due, one step after the last; a tick answered after the next was due has missed its \
-deadline. Without it a tick is sent as soon as the last is answered.
+--paced sends each tick when it is due, one step after the previous one; a tick misses its deadline if the response
+arrives after the next tick is due. Without --paced, a tick is sent as soon as the previous response arrives.
 
---output writes a row for each tick: tick, time_s; for each place i displacement_m_i, target_force_n_i, host_force_n_i \
-and status_i (the target's status bits); clock_ticks of the target for the whole bank, round_trip_ns, and event: empty \
-or words separated by spaces: repeat (a request sent again), recovery (dampers and states given again), late (deadline \
-missed), mismatch, and the faults made: drop, corrupt, delay, duplicate, reorder, reset.
+--output writes one row per tick: tick, time_s; for each slot i displacement_m_i, target_force_n_i, host_force_n_i and
+status_i (the target's status bits); clock_ticks of the target for the whole bank; round_trip_ns; and event, which is
+empty or a list of words separated by spaces: repeat (request repeated), recovery (dampers and states restored), late
+(deadline missed), mismatch, and the injected faults drop, corrupt, delay, duplicate, reorder and reset.
 
-Faults are probabilities per frame: drop, corrupt, delay, duplicate, reorder, reset.
+--faults sets probabilities per frame: drop, corrupt, delay, duplicate, reorder, reset.
 
-An emulator of your own for --link tcp:localhost:5555, without Nagle's delay:
+To start your own emulator for --link tcp:localhost:5555, without Nagle's delay:
   qemu-system-arm -M mps2-an500 -cpu cortex-m7 -nographic -monitor none -icount shift=0 \\
     -serial tcp:127.0.0.1:5555,server=on,nodelay=on -kernel IMAGE
 
-Exit code 1 when a force differs; the files are written all the same.")]
+The exit code is 1 if a force differs; the files are written in any case.")]
 pub struct PilArguments {
     /// Presets or files.
-    #[arg(help = damper_help("; once for all places of the target, or once for each"), long = "damper", default_value = "paper", value_name = "NAME|FILE")]
+    #[arg(
+        help = damper_help("; once for all slots of the target, or once per slot"),
+        long = "damper",
+        default_value = "paper",
+        value_name = "NAME|FILE"
+    )]
     dampers: Vec<String>,
-    /// Overrides a key of every damper: table.key=value, such as mount.clearance_m=1e-3.
+    /// Override a key of every damper: table.key=value, such as mount.clearance_m=1e-3.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
     #[command(flatten)]
@@ -71,10 +76,10 @@ pub struct PilArguments {
     /// Displacements, forces and events of every tick, CSV; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// A page that shows the run, one self-contained HTML file; `-` for standard output.
+    /// Page of the run, a self-contained HTML file; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     page: Option<PathBuf>,
-    /// Ticks at most; the whole recording when not given.
+    /// Maximum number of ticks [default: the whole recording].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     ticks: Option<u32>,
     /// Send each tick when it is due and report missed deadlines.
@@ -82,13 +87,13 @@ pub struct PilArguments {
     paced: bool,
     #[command(flatten)]
     realtime: RealtimeArguments,
-    /// Faults to make on the link: kind=probability, separated by commas.
+    /// Faults to inject on the link: kind=probability, separated by commas.
     #[arg(long, value_name = "FAULTS")]
     faults: Option<FaultRates>,
-    /// Seed of the faults.
+    /// Seed of the injected faults.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -96,8 +101,7 @@ pub struct PilArguments {
 /// Runs the command.
 ///
 /// # Errors
-/// A damper, recording, target or file that cannot be used, a target lost for good, or a force that
-/// differs.
+/// A damper, recording, target or file cannot be used, the target is lost for good, or a force differs.
 pub fn run(arguments: &PilArguments) -> Outcome<()> {
     arguments.check_files()?;
     arguments
@@ -110,7 +114,7 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
         .map(load)
         .collect::<Result<_, _>>()?;
     let recording = Recording::open_with(&arguments.input, &arguments.recording.channels())?;
-    // Both files are opened before the run, so that a file that cannot be written costs no run.
+    // Open both files before the run, so that an unwritable file is reported early.
     let found = write_whole_if::<_, Failure>(arguments.page.as_deref(), |page| {
         let (found, history) = write_whole_if(arguments.output.as_deref(), |file| {
             drive(arguments, &parameters, recording, file)
@@ -133,7 +137,7 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
     let report = &found.report;
     if report.mismatches > 0 || report.state_mismatches > 0 {
         return Err(Failure::new(format!(
-            "{} forces or status words and {} states differ from the host's",
+            "{} forces or status words and {} states differ from those of the host",
             report.mismatches, report.state_mismatches
         )));
     }
@@ -141,7 +145,7 @@ pub fn run(arguments: &PilArguments) -> Outcome<()> {
 }
 
 impl PilArguments {
-    /// The files to write.
+    /// Returns the output files.
     fn files(&self) -> impl Iterator<Item = &Path> {
         [&self.output, &self.page]
             .into_iter()
@@ -149,7 +153,7 @@ impl PilArguments {
             .map(PathBuf::as_path)
     }
 
-    /// Refuses one file for two purposes.
+    /// Rejects one file for two purposes.
     fn check_files(&self) -> Outcome<()> {
         let dampers = self
             .dampers
@@ -169,7 +173,7 @@ impl PilArguments {
     }
 }
 
-/// Runs the recording through the target; each tick goes to `file`, where there is one.
+/// Runs the recording through the target and writes each tick to `file`, if given.
 fn drive(
     arguments: &PilArguments,
     parameters: &[CheckedParameters],

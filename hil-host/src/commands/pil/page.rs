@@ -1,4 +1,4 @@
-//! The page of a run.
+//! HTML page of a PIL run.
 
 use maud::{Markup, html};
 
@@ -9,7 +9,7 @@ use dashpot_realtime::timing::{optional_span, span};
 use dashpot_report::DrawError;
 use dashpot_report::page::{document, figure, footer, tiles};
 
-/// The run as HTML.
+/// Returns the run as HTML.
 ///
 /// # Errors
 /// A figure cannot be drawn.
@@ -18,10 +18,10 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
     let is_paced = report.pacing.is_some();
     let clock_ticks = html! {
         "Clock ticks of " (f64::from(report.target.clock_hz) * 1e-6)
-        " MHz that one tick of the whole bank took: how often (first) and over time (second)."
+        " MHz per tick of the whole bank: histogram (first) and course over time (second)."
     };
     let round_trip = html! {
-        "From a step's request to its answer, repeated requests and recoveries included."
+        "From the request of a step to its response, including repeated requests and recoveries."
         @if is_paced { " Dashed: one step." }
     };
     let body = html! {
@@ -31,11 +31,11 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
         (summary(found))
         h2 { "Forces" }
         p {
-            "Displacement and force are positive in extension; place i runs i ticks behind place 0."
+            "Displacement and force are positive in extension; slot i runs i ticks behind slot 0."
         }
         (legend_of_marks(found))
-        @for (place, forces) in history.places.iter().enumerate() {
-            h3 { "Place " (place) ": " (found.damper(place)) }
+        @for (slot, forces) in history.places.iter().enumerate() {
+            h3 { "Slot " (slot) ": " (found.damper(slot)) }
             (figure(&figures::forces(history, forces), &forces_caption(forces))?)
         }
         h2 { "Cost on the target" }
@@ -43,8 +43,8 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
         h2 { "Round trip" }
         (figure(&figures::round_trip(history, is_paced), &round_trip)?)
         (footer(&html! {
-            "A long run is thinned to the lowest and highest value of each stretch of ticks, so every peak is shown. \
-             Faults made and recoveries stand as marks on the time axes."
+            "For a long run, curves show the minimum and maximum of each group of ticks, so every peak is visible. \
+             Injected faults and recoveries are marked on the time axes."
         }))
     };
     Ok(document("Dashpot: processor in the loop", &body))
@@ -53,21 +53,21 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
 fn forces_caption(forces: &Forces) -> Markup {
     html! {
         @if forces.differ {
-            "Some forces differ from the host's. Red, on axes of its own: target less host."
+            "Some forces differ from those of the host. Red, on separate axes: target minus host."
         } @else {
-            "Every force has the host's bits."
+            "Every force is bit-identical to that of the host."
         }
     }
 }
 
-/// What the marks on the time axes are, where there are any.
+/// Explains the marks on the time axes, if there are any.
 fn legend_of_marks(found: &Found) -> Markup {
     let has_faults = found.injected_faults.unwrap_or_default() != Default::default();
     let kinds = [
-        (has_faults, "amber a fault made"),
+        (has_faults, "amber for an injected fault"),
         (
             found.report.recoveries > 0,
-            "red a recovery, when the target was given its dampers and states again",
+            "red for a recovery, in which dampers and states were restored on the target",
         ),
     ];
     let kinds: Vec<&str> = kinds
@@ -87,28 +87,29 @@ fn headline(found: &Found) -> Markup {
     let last = match &report.pacing {
         Some(pacing) => (
             html! { (format!("{:.2} %", 1e2 * pacing.missed_share)) },
-            "of the ticks missed their deadline: answered after the next was due".into(),
+            "of the ticks missed their deadline: the response came after the next tick was due"
+                .into(),
         ),
         None => (
             html! { (report.recoveries) },
-            "recoveries: the target was given its dampers and states again".into(),
+            "recoveries, in which dampers and states were restored on the target".into(),
         ),
     };
     tiles(&[
         (
             html! { (differing) },
-            "forces, status words and states that differ from the host's, in bits".into(),
+            "forces, status words and states that differ from those of the host in any bit".into(),
         ),
         (
             html! { (optional_span(report.round_trip.p50_ns)) },
             format!(
-                "round trip at the median, {} at most",
+                "median round trip; maximum {}",
                 span(report.round_trip.worst_ns)
             ),
         ),
         (
             html! { (format!("{:.0}", report.clock_ticks.max)) },
-            "clock ticks of the target at most for one tick of the whole bank".into(),
+            "maximum clock ticks of the target per tick of the whole bank".into(),
         ),
         last,
     ])

@@ -1,4 +1,4 @@
-//! The report of `dashpot pil`.
+//! Report of `dashpot pil`.
 
 use std::io::{self, Write};
 
@@ -10,10 +10,10 @@ use dashpot_host_link::{FaultCounts, Report};
 use dashpot_realtime::timing::{optional_span, span};
 use dashpot_recording::Gaps;
 
-/// A run and what it was of.
+/// Results of a run with its inputs.
 #[derive(Serialize)]
 pub(super) struct Found {
-    /// One for all places, or one for each.
+    /// One for all slots, or one per slot.
     pub(super) dampers: Vec<String>,
     pub(super) step_us: f64,
     #[serde(flatten)]
@@ -23,18 +23,18 @@ pub(super) struct Found {
     pub(super) injected_faults: Option<FaultCounts>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) seed: Option<u64>,
-    /// Files written.
+    /// Output files.
     pub(super) files: Vec<String>,
 }
 
 impl Found {
-    /// The damper at a place.
-    pub(super) fn damper(&self, place: usize) -> &str {
-        let place = if self.dampers.len() == 1 { 0 } else { place };
-        self.dampers.get(place).map_or("", String::as_str)
+    /// Returns the name of the damper in a slot.
+    pub(super) fn damper(&self, slot: usize) -> &str {
+        let slot = if self.dampers.len() == 1 { 0 } else { slot };
+        self.dampers.get(slot).map_or("", String::as_str)
     }
 
-    /// What was run.
+    /// Describes the run in one line.
     pub(super) fn title(&self) -> String {
         let target = &self.report.target;
         let dampers = match &self.dampers[..] {
@@ -49,7 +49,7 @@ impl Found {
         )
     }
 
-    /// The results: what each is, and the result.
+    /// Returns the results as pairs of label and text.
     pub(super) fn lines(&self) -> Vec<(&'static str, String)> {
         let report = &self.report;
         let mut lines = vec![("mismatches", self.mismatches())];
@@ -63,11 +63,11 @@ impl Found {
                 first.host_force_n,
                 first.host_status
             );
-            lines.push(("  the first at", text));
+            lines.push(("  first at", text));
         }
         let trip = &report.round_trip;
         let text = format!(
-            "{} at the median, {} at 99 %, {} at 99.9 %, {} at most",
+            "median {}, 99 % {}, 99.9 % {}, maximum {}",
             optional_span(trip.p50_ns),
             optional_span(trip.p99_ns),
             optional_span(trip.p99_9_ns),
@@ -83,7 +83,7 @@ impl Found {
     fn mismatches(&self) -> String {
         let report = &self.report;
         match report.mismatches + report.state_mismatches as u64 {
-            0 => "none: every force, status and state has the host's bits".into(),
+            0 => "none: every force, status and state is bit-identical to the host's".into(),
             _ => format!(
                 "{} forces or status words, {} states",
                 report.mismatches, report.state_mismatches
@@ -96,13 +96,13 @@ impl Found {
             return Vec::new();
         };
         let missed = format!(
-            "{} of {}, {:.2} %: answered after the next tick was due",
+            "{} of {}, {:.2} %: the response came after the next tick was due",
             pacing.missed_deadlines,
             counted(self.report.ticks.into(), "tick"),
             1e2 * pacing.missed_share
         );
         let sent = format!(
-            "{} at the median, {} at 99 %, {} at most",
+            "median {}, 99 % {}, maximum {}",
             optional_span(pacing.lateness.p50_ns),
             optional_span(pacing.lateness.p99_ns),
             span(pacing.lateness.worst_ns)
@@ -123,7 +123,7 @@ impl Found {
         let mut lines = vec![("step of the bank", text)];
         if let Some(instructions) = &report.instructions {
             let text = format!(
-                "{:.0} ({:.0} to {:.0}), {:.1} a damper",
+                "{:.0} ({:.0} to {:.0}), {:.1} per damper",
                 instructions.mean,
                 instructions.min,
                 instructions.max,
@@ -140,7 +140,7 @@ impl Found {
             (
                 "link faults seen",
                 format!(
-                    "{} timeouts, {} broken requests, {} broken answers, {} stale answers, {} lost sessions",
+                    "{} timeouts, {} corrupt requests, {} corrupt responses, {} stale responses, {} lost sessions",
                     seen.timeouts,
                     seen.corrupt_requests,
                     seen.corrupt_answers,
@@ -166,13 +166,13 @@ impl Found {
                 made.reordered,
                 made.resets
             );
-            lines.push(("link faults made", text));
+            lines.push(("injected link faults", text));
         }
         lines
     }
 }
 
-/// The results for people.
+/// Prints the results as text.
 pub(super) fn print(out: &mut dyn Write, found: &Found) -> io::Result<()> {
     writeln!(out, "{}", found.title())?;
     write_gaps(out, &found.gaps)?;

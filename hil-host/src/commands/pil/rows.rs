@@ -1,4 +1,4 @@
-//! A run as CSV, a row for each tick.
+//! CSV output of a run, one row per tick.
 
 use std::io::Write;
 use std::path::Path;
@@ -8,7 +8,7 @@ use dashpot_files::FileError;
 use dashpot_files::output::cannot_write_rows;
 use dashpot_host_link::{Event, TickRecord};
 
-/// Rows of a run, being written.
+/// Writer of the rows of a run.
 pub(super) struct Rows<'a> {
     path: &'a Path,
     rows: csv::Writer<&'a mut dyn Write>,
@@ -17,7 +17,7 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// The header for `places`, to `file` at `path`; tick 1 is at `start_s` (s).
+    /// Writes the header for `places` slots to `file` at `path`; tick 1 is at `start_s` (s).
     pub(super) fn new(
         path: &'a Path,
         file: &'a mut dyn Write,
@@ -26,13 +26,13 @@ impl<'a> Rows<'a> {
         step_s: f64,
     ) -> Result<Self, FileError> {
         let mut rows = csv::Writer::from_writer(file);
-        let of_place = (0..places).flat_map(|place| {
+        let of_slots = (0..places).flat_map(|slot| {
             ["displacement_m", "target_force_n", "host_force_n", "status"]
-                .map(|name| format!("{name}_{place}"))
+                .map(|name| format!("{name}_{slot}"))
         });
         let before = ["tick", "time_s"].map(String::from);
         let after = ["clock_ticks", "round_trip_ns", "event"].map(String::from);
-        rows.write_record(before.into_iter().chain(of_place).chain(after))
+        rows.write_record(before.into_iter().chain(of_slots).chain(after))
             .map_err(|error| cannot_write_rows(path, error))?;
         Ok(Self {
             path,
@@ -67,7 +67,7 @@ impl<'a> Rows<'a> {
             .map_err(|error| cannot_write_rows(self.path, error))
     }
 
-    /// All rows are handed over.
+    /// Flushes all rows.
     pub(super) fn finish(mut self) -> Result<(), FileError> {
         self.rows
             .flush()

@@ -1,4 +1,4 @@
-//! `dashpot replay --health`: what the damper has become whose force was measured on the recorded motion.
+//! `dashpot replay --health`: estimates the health of a damper from its recorded motion and measured force.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -20,26 +20,26 @@ use dashpot_testbench::health::{
     History, Noise, alarm_in_words, alarm_name, doubts_in_words, in_words, watch, whole_in_words,
 };
 
-/// Samples that the noise is found from, where it is not given.
+/// Number of samples used to estimate the noise if it is not given.
 const NOISE_SAMPLES: usize = 20_000;
 
-/// Options of the health.
+/// Options of the health estimate.
 #[derive(Debug, Clone, Default, clap::Args)]
-#[command(next_help_heading = "Health, from the force that was measured")]
+#[command(next_help_heading = "Health estimate from the measured force")]
 pub(super) struct HealthArguments {
-    /// Page of the damper's health over time, HTML; its measured force is the recording's channel of the force.
+    /// HTML page with the damper's health over time. The recording must contain the measured force.
     #[arg(long, value_name = "FILE")]
     health: Option<PathBuf>,
-    /// What it is compared with: the report of a healthy run, as --format json prints it; the damper as it is named where not given.
+    /// Baseline: report of a healthy run, printed by --format json [default: the damper given by --damper].
     #[arg(long, value_name = "FILE", requires = "health")]
     health_baseline: Option<PathBuf>,
-    /// Noise that is not given is found in the recording.
+    /// Noise that is not given is estimated from the recording.
     #[command(flatten)]
     sensors: SensorArguments,
 }
 
 impl HealthArguments {
-    /// The file of the baseline.
+    /// Returns the path of the baseline.
     pub(super) fn baseline(&self) -> Option<&Path> {
         self.health_baseline.as_deref()
     }
@@ -53,18 +53,18 @@ struct Alarm {
     sentence: String,
 }
 
-/// What was found.
+/// Report of the health estimate.
 #[derive(Serialize)]
 pub(super) struct HealthReport {
     displacement_noise_m: f64,
     force_noise_n: f64,
     #[serde(flatten)]
-    told: Told,
+    values: Told,
     alarms: Vec<Alarm>,
     page: String,
 }
 
-/// The estimates of a baseline, among all else that a report has.
+/// The part of an earlier report that is used as the baseline.
 #[derive(Deserialize)]
 struct Earlier {
     health: EarlierHealth,
@@ -77,7 +77,7 @@ struct EarlierHealth {
     clearance_m: Estimate,
 }
 
-/// A recording that was watched, its page not yet written.
+/// A finished health estimate whose page is not yet written.
 pub(super) struct Watched {
     page: PathBuf,
     text: String,
@@ -85,11 +85,11 @@ pub(super) struct Watched {
 }
 
 impl Watched {
-    /// The health of the damper of which the recording has the force; `None` where none was asked for.
+    /// Estimates the health of the recorded damper; `None` without `--health`.
     ///
     /// # Errors
-    /// A recording without a force, or that cannot be read twice; a setting out of its range; a baseline that is none.
-    pub(super) fn of(
+    /// The recording has no force or cannot be read twice, a setting is out of range, or the baseline is invalid.
+    pub(super) fn estimate(
         arguments: &ReplayArguments,
         parameters: &CheckedParameters,
     ) -> Outcome<Option<Self>> {
@@ -100,11 +100,13 @@ impl Watched {
         };
         if input::is_standard_stream(&arguments.input) {
             return Err(Failure::wrong_use(
-                "--health: the recording is read more than once; allowed for --input: a file, not standard input",
+                "--health: the recording is read more than once; --input must be a file, not standard input",
             ));
         }
         if input::is_standard_stream(page_path) {
-            return Err(Failure::wrong_use("--health -: allowed: a file"));
+            return Err(Failure::wrong_use(
+                "--health -: give a file; the page cannot go to standard output",
+            ));
         }
         for input in arguments.inputs() {
             streams::refuse_input("--health", page_path, input)?;
@@ -122,7 +124,9 @@ impl Watched {
         }
         let history = history(arguments, &model)?;
         let Some(last) = history.last() else {
-            return Err(Failure::new("nothing was watched"));
+            return Err(Failure::new(
+                "the recording has no samples to estimate from",
+            ));
         };
         let title = format!(
             "{} on {}",
@@ -136,18 +140,18 @@ impl Watched {
         }))
     }
 
-    /// The page and its text.
+    /// Returns the path and the text of the page.
     pub(super) fn page(&self) -> (&Path, &str) {
         (&self.page, &self.text)
     }
 
-    /// The report.
+    /// Returns the report.
     pub(super) fn report(self) -> HealthReport {
         self.report
     }
 }
 
-/// The noise that is given, or that the first samples have.
+/// Returns the given noise, or estimates it from the first samples.
 fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
     let sensors = &arguments.health.sensors;
     if let Some(noise) = sensors.noise() {
@@ -168,7 +172,7 @@ fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
     let found = found.filter(|noise| noise.displacement_m > 0.0 && noise.force_n > 0.0);
     let found = found.ok_or_else(|| {
         Failure::new(format!(
-            "{}: no noise is found in what does not move, or in less than 100 samples without a gap; \
+            "{}: cannot estimate the noise: this needs motion and at least 100 samples without a gap; \
              give --displacement-noise-m and --force-noise-n",
             input::name(&arguments.input).display()
         ))
@@ -179,7 +183,7 @@ fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
     })
 }
 
-/// What the report of an earlier run has found.
+/// Reads the baseline from the report of an earlier run.
 fn baseline(path: &Path) -> Outcome<Baseline> {
     let earlier: Result<Earlier, _> = serde_json::from_str(&input::read_text(path)?);
     let EarlierHealth {
@@ -200,12 +204,12 @@ fn baseline(path: &Path) -> Outcome<Baseline> {
 
 fn no_baseline(path: &Path, reason: impl std::fmt::Display) -> Failure {
     Failure::new(format!(
-        "{}: {reason}; allowed: the report of a healthy run, `dashpot replay --health FILE --format json`",
+        "{}: {reason}; allowed: the report of a healthy run, from `dashpot replay --health FILE --format json`",
         input::name(path).display()
     ))
 }
 
-/// The estimates along the recording.
+/// Returns the estimates along the recording.
 fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History> {
     let step_s = arguments.step_us.step_s();
     let measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
@@ -239,48 +243,52 @@ impl HealthReport {
         Self {
             displacement_noise_m: noise.displacement_m,
             force_noise_n: noise.force_n,
-            told: last.into(),
+            values: last.into(),
             alarms: alarms.collect(),
             page,
         }
     }
 
-    /// For people.
+    /// Prints the report as text.
     ///
     /// # Errors
     /// The output cannot be written.
     pub(super) fn print(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(
             out,
-            "\nhealth at the end, of the force measured (noise {:.3} mm, {:.0} N), with standard deviations",
+            "\nhealth at the end of the recording (noise {:.3} mm, {:.0} N), with standard deviations",
             self.displacement_noise_m * 1e3,
             self.force_noise_n
         )?;
-        for (name, told, unit) in [
+        for (name, value, unit) in [
             (
                 "damping over nominal",
-                in_words(self.told.damping_factor, 1.0),
+                in_words(self.values.damping_factor, 1.0),
                 "",
             ),
             (
                 "effective stiffness",
-                self.told.stiffness_in_words(),
+                self.values.stiffness_in_words(),
                 " MN/m",
             ),
-            ("clearance 2a", in_words(self.told.clearance_m, 1e3), " mm"),
-            ("lag of the force", in_words(self.told.lag_s, 1e3), " ms"),
             (
-                "zero of the force",
-                whole_in_words(self.told.force_zero_n),
+                "clearance 2a",
+                in_words(self.values.clearance_m, 1e3),
+                " mm",
+            ),
+            ("force lag", in_words(self.values.lag_s, 1e3), " ms"),
+            (
+                "force sensor zero",
+                whole_in_words(self.values.force_zero_n),
                 " N",
             ),
             (
                 "added friction",
-                whole_in_words(self.told.added_friction_n),
+                whole_in_words(self.values.added_friction_n),
                 " N",
             ),
         ] {
-            writeln!(out, "{name:<22} {told:>20}{unit}")?;
+            writeln!(out, "{name:<22} {value:>20}{unit}")?;
         }
         for alarm in &self.alarms {
             writeln!(
@@ -292,19 +300,20 @@ impl HealthReport {
         if self.alarms.is_empty() {
             writeln!(out, "no alarm")?;
         }
-        for doubt in doubts_in_words(self.told.bits) {
+        for doubt in doubts_in_words(self.values.bits) {
             writeln!(out, "warning: {doubt}")?;
         }
-        if self.told.has(HealthStatus::LITTLE_EXCITATION) {
+        if self.values.has(HealthStatus::LITTLE_EXCITATION) {
             writeln!(
                 out,
-                "note: too little motion in contact at the end for an alarm"
+                "note: too little motion in contact at the end to raise an alarm"
             )?;
         }
-        if self.told.has(HealthStatus::RESTARTED) {
+        if self.values.has(HealthStatus::RESTARTED) {
             writeln!(
                 out,
-                "warning: the force contradicted the damper for long and the estimate began anew: is it the force of this damper?"
+                "warning: the force contradicted the damper model for a long time and the estimate was restarted: \
+                 check that the force is of this damper"
             )?;
         }
         writeln!(out, "wrote {}", self.page)

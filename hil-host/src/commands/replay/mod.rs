@@ -1,4 +1,4 @@
-//! `dashpot replay`: force over a recorded motion.
+//! `dashpot replay`: computes the force over a recorded motion.
 
 mod health;
 
@@ -28,10 +28,10 @@ use dashpot_recording::{Gaps, Recording};
 use dashpot_testbench::replay::{Summary, replay};
 use health::{HealthArguments, HealthReport};
 
-/// Columns that are written.
+/// Output columns.
 const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
 
-/// Force of a damper over a recorded motion.
+/// Compute the force of a damper over a recorded motion.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot replay --damper paper --input data/excitations/ride_made.csv --output force.csv
@@ -41,11 +41,13 @@ const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("fo
   dashpot replay --damper in-service --input run8.mf4 --output f.csv --health health.html
   dashpot replay --input messung.csv.gz --time Zeit --displacement Weg --displacement-unit mm --output - | head
 
-`dashpot channels FILE` lists the channels and what to type. Uneven times are allowed, other channels passed over; text may have any
-separator, decimal comma and unit row, and is found to be UTF-8, UTF-16 or Windows-1252, compressed with gzip or not.
-With --health the recording has the force that was measured, too: flow, stiffness and clearance of that damper are estimated against
---damper (docs/health.md).
-Output columns: time_s,displacement_m,force_n at ticks from the first sample on, the displacement linear between samples.")]
+`dashpot channels FILE` lists the channels and the matching options. Sampling may be uneven, and other channels are
+ignored. Text may use any separator, decimal commas and a unit row; UTF-8, UTF-16, Windows-1252 and gzip compression
+are detected.
+With --health, the recording must also contain the measured force. Flow, stiffness and clearance of the recorded
+damper are then estimated relative to --damper (docs/health.md).
+Output columns: time_s,displacement_m,force_n at ticks from the first sample on. The displacement is interpolated
+linearly between samples.")]
 pub struct ReplayArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -54,10 +56,11 @@ pub struct ReplayArguments {
     input: PathBuf,
     #[command(flatten)]
     recording: MeasurementArguments,
-    /// Force over time: CSV, or by its name Parquet (.parquet) or MDF4 (.mf4); written whole or not at all, `-` is CSV to standard output.
+    /// Force over time: CSV, or Parquet (.parquet) or MDF4 (.mf4) by extension; no partial file is left after an
+    /// error; `-` writes CSV to standard output.
     #[arg(long, value_name = "FILE")]
     output: PathBuf,
-    /// The step, us.
+    /// Step, us.
     #[arg(help = step_size::help("Step", ""), 
         long,
         default_value = "1000",
@@ -68,20 +71,21 @@ pub struct ReplayArguments {
     /// Floating-point type of the step.
     #[arg(long, value_parser = named_values::scalar(), default_value_t = Scalar::F32)]
     scalar: Scalar,
-    /// Replay in real ticks and report lateness and missed deadlines; exit code 1 when more than one deadline in a thousand was missed.
+    /// Replay in real time and report lateness and missed deadlines; exit code 1 if more than one deadline in a
+    /// thousand is missed.
     #[arg(long)]
     realtime: bool,
     #[command(flatten)]
     options: RealtimeArguments,
     #[command(flatten)]
     health: HealthArguments,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
 impl ReplayArguments {
-    /// The files that are read.
+    /// Returns the input files.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
         let damper = Path::new(&self.damper.damper);
         let inputs = [self.input.as_path(), damper].into_iter();
@@ -116,7 +120,7 @@ struct Report {
 /// Runs the command.
 ///
 /// # Errors
-/// A damper, recording or output file that cannot be used.
+/// A damper, recording or output file cannot be used.
 pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
     let parameters = arguments.damper.load()?;
@@ -126,7 +130,7 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
-    let health = health::Watched::of(arguments, &parameters)?;
+    let health = health::Watched::estimate(arguments, &parameters)?;
     let mut pacer = if arguments.realtime {
         Some(Pacer::new(arguments.step_us.step_s(), &options)?)
     } else {
@@ -233,29 +237,28 @@ fn print(
         writeln!(
             out,
             "warning: input held at {}: not finite in single precision, farther from zero than \
-             limits.displacement_m, or jumped too far to catch up with",
+             limits.displacement_m, or too large a jump to catch up with",
             counted(report.held_inputs, "tick")
         )?;
     }
     if report.input_limited {
         writeln!(
             out,
-            "warning: input limited at {}: faster than limits.rate_m_per_s = {rate_m_per_s}, followed at \
-             that rate",
+            "warning: input rate-limited at {}: faster than limits.rate_m_per_s = {rate_m_per_s}",
             counted(report.limited_inputs, "tick")
         )?;
     }
     if report.restarts > 0 {
         writeln!(
             out,
-            "warning: the damper restarted at rest at {}: the displacement jumped too far to catch up with",
+            "warning: the damper restarted at rest at {}: the displacement jump was too large to catch up with",
             counted(report.restarts, "tick")
         )?;
     }
     if let Some(first_s) = report.first_rejected_s {
         writeln!(
             out,
-            "  the first at {} s; forces and energy are of the motion followed",
+            "  first at {} s; forces and energy are those of the motion that the damper actually followed",
             nearest_nanosecond(first_s)
         )?;
     }

@@ -1,4 +1,4 @@
-//! Dampers that differ by one number.
+//! Dampers that differ in one parameter.
 
 use std::str::FromStr;
 
@@ -8,7 +8,7 @@ use super::ResponseArguments;
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::damper::{DamperError, Keyed};
 
-/// `KEY=VALUE,VALUE,...`.
+/// A parameter with values, written `KEY=VALUE,VALUE,...`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Family {
     pub(super) key: String,
@@ -30,16 +30,16 @@ impl FromStr for Family {
     }
 }
 
-/// One of the family, with the value that it has.
+/// A damper of the family with its parameter value.
 pub(super) struct Member {
     pub(super) value: Option<f64>,
     pub(super) damper: CheckedParameters,
 }
 
-/// The dampers that are asked for.
+/// Builds the requested dampers.
 ///
 /// # Errors
-/// A damper, a key or a value that is refused.
+/// The damper, the key or a value is invalid.
 pub(super) fn dampers(arguments: &ResponseArguments) -> Outcome<Vec<Member>> {
     let damper = arguments.damper.load()?;
     let Some(Family { key, values }) = &arguments.over else {

@@ -1,4 +1,4 @@
-//! `dashpot response`: dynamic stiffness and loss angle over frequency and amplitude.
+//! `dashpot response`: computes dynamic stiffness and loss angle over frequency and amplitude.
 
 mod family;
 mod page;
@@ -17,7 +17,7 @@ use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::{cannot_write, write_whole_if};
 use dashpot_testbench::response::frequencies;
 
-/// Dynamic stiffness, loss angle and damping over frequency and amplitude, beside the linearised damper.
+/// Compute dynamic stiffness, loss angle and damping over frequency and amplitude, also for the linearised damper.
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
@@ -25,22 +25,26 @@ use dashpot_testbench::response::frequencies;
   dashpot response --damper in-service --amplitude-m 0.6e-3,1e-3,5e-3 --output response.csv --page response.html
   dashpot response --damper in-service --swept --octaves-per-minute 0.5 --format json
 
-The amplitude-frequency characteristics of the paper, Figs. 13b and 18b:
-  dashpot response --damper reduced-vertical --over mount.stiffness_n_per_m=2e6,6e6,10e6 --amplitude-m 2e-3 --page fig13b.html
-  dashpot response --damper reduced-lateral --over mount.clearance_m=0.5e-3,1e-3,2e-3 --amplitude-m 5e-3 --page fig18b.html
+Amplitude-frequency characteristics of the paper, Figs. 13b and 18b:
+  dashpot response --damper reduced-vertical --over mount.stiffness_n_per_m=2e6,6e6,10e6 --amplitude-m 2e-3 \\
+      --page fig13b.html
+  dashpot response --damper reduced-lateral --over mount.clearance_m=0.5e-3,1e-3,2e-3 --amplitude-m 5e-3 \\
+      --page fig18b.html
 
-Of x = A sin wt the force has the first harmonic A (K' sin wt + K\" cos wt): dynamic stiffness is its magnitude over A, loss angle the phase by
-which it leads the displacement (0 of a spring, 90 degrees of a dashpot), damping K\"/w. Harmonic values are of the periodic force at one
-frequency after the other. The linearised damper is that at a peak velocity of 0.1 mm/s with its clearance taken up. Swept values are of one
-motion through all frequencies, demodulated under a Bartlett window of 2 cycles about each; the difference is told from the harmonic one.
+For x = A sin wt, the first harmonic of the force is A (K' sin wt + K\" cos wt). Dynamic stiffness is its magnitude over
+A; the loss angle is the phase by which it leads the displacement (0 for a spring, 90 degrees for a dashpot); damping
+is K\"/w. Harmonic values come from the periodic force at one frequency after the other. Linearised values apply to a
+peak velocity of 0.1 mm/s with the clearance taken up. Swept values come from one motion through all frequencies,
+demodulated with a Bartlett window of 2 cycles around each frequency, and are compared with the harmonic values.
 
-Columns of --output: response (harmonic, linearised or swept), the number of --over, amplitude_m, frequency_hz, dynamic_stiffness_n_per_m,
-loss_angle_deg, storage_n_per_m (K'), loss_n_per_m (K\"), damping_n_s_per_m, difference (of a swept value, over the harmonic stiffness)."
+Columns of --output: response (harmonic, linearised or swept), the parameter of --over, amplitude_m, frequency_hz,
+dynamic_stiffness_n_per_m, loss_angle_deg, storage_n_per_m (K'), loss_n_per_m (K\"), damping_n_s_per_m, difference (of
+swept from harmonic stiffness, over the harmonic stiffness)."
 )]
 pub struct ResponseArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// A number of the damper, and values of it to compare: table.key=value,value.
+    /// Damper parameter and its values to compare: table.key=value,value.
     #[arg(long, value_name = "KEY=VALUE,..")]
     over: Option<Family>,
     /// Amplitudes of the motion, m.
@@ -57,13 +61,13 @@ pub struct ResponseArguments {
     /// Last frequency, Hz.
     #[arg(long, default_value_t = 20.0, value_name = "HZ")]
     to_hz: f64,
-    /// Frequencies, with equal ratios.
+    /// Number of frequencies, with equal ratios.
     #[arg(long, default_value_t = 41, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=10_000))]
     points: u16,
-    /// Sweep through the frequencies too.
+    /// Also run a sweep through the frequencies.
     #[arg(long)]
     swept: bool,
-    /// How fast the frequency rises in the sweep.
+    /// Sweep rate, octaves per minute.
     #[arg(
         long,
         default_value_t = 1.0,
@@ -71,13 +75,13 @@ pub struct ResponseArguments {
         requires = "swept"
     )]
     octaves_per_minute: f64,
-    /// Every value, CSV; `-` for standard output.
+    /// Write all values as CSV; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// A page that shows them, one self-contained HTML file; `-` for standard output.
+    /// Page, a self-contained HTML file; `-` for standard output.
     #[arg(long, value_name = "FILE")]
     page: Option<PathBuf>,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -85,12 +89,12 @@ pub struct ResponseArguments {
 /// Runs the command.
 ///
 /// # Errors
-/// A damper, a motion or a file that is refused, or a force that does not repeat.
+/// The damper, the motion or a file is invalid, or the force does not become periodic.
 pub fn run(arguments: &ResponseArguments) -> Outcome<()> {
     arguments.check_files()?;
     let dampers = family::dampers(arguments)?;
     let frequencies_hz = arguments.frequencies_hz()?;
-    // Both files are opened before the run, so that a file that cannot be written costs no run.
+    // Open both files before the run, so that an unwritable file is reported early.
     let report = write_whole_if::<_, Failure>(arguments.page.as_deref(), |page| {
         let report = write_whole_if::<_, Failure>(arguments.output.as_deref(), |file| {
             let bar = progress::bar(0, "responses");
@@ -117,7 +121,7 @@ pub fn run(arguments: &ResponseArguments) -> Outcome<()> {
 }
 
 impl ResponseArguments {
-    /// The files to write.
+    /// Returns the output files.
     fn files(&self) -> impl Iterator<Item = &Path> {
         [&self.output, &self.page]
             .into_iter()

@@ -1,9 +1,9 @@
-//! The page of `dashpot response`.
+//! HTML page of `dashpot response`.
 
 use maud::{Markup, html};
 use plotters::style::RGBColor;
 
-use super::report::{Kind, Report, Series, told};
+use super::report::{Kind, Report, Series, formatted};
 use crate::commands::failure::Outcome;
 use dashpot_files::study::shown;
 use dashpot_report::DrawError;
@@ -16,7 +16,7 @@ use dashpot_report::plot::style::AMBER_LINE;
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;
 
-/// The page.
+/// Returns the page.
 ///
 /// # Errors
 /// A figure cannot be drawn.
@@ -27,18 +27,18 @@ pub(super) fn write(report: &Report) -> Outcome<String> {
             let all: Vec<&Series> = report.series.iter().collect();
             figures.push((String::new(), part(report, &all)?));
         }
-        // Values of the number side by side, an amplitude after the other.
+        // One figure per amplitude that compares the parameter values.
         Some(_) => {
             let harmonic = |series: &&Series| series.response == Kind::Harmonic;
             let first = report.series.first().and_then(|series| series.value);
             let amplitudes = report.series.iter().filter(harmonic);
             let amplitudes = amplitudes.filter(|series| series.value == first);
             for amplitude_m in amplitudes.filter_map(|series| series.amplitude_m) {
-                let is_of =
+                let belongs =
                     |series: &&Series| series.amplitude_m.is_none_or(|other| other == amplitude_m);
-                let of: Vec<&Series> = report.series.iter().filter(is_of).collect();
+                let chosen: Vec<&Series> = report.series.iter().filter(belongs).collect();
                 let title = format!("Amplitude {} mm", shown(amplitude_m * 1e3));
-                figures.push((title, part(report, &of)?));
+                figures.push((title, part(report, &chosen)?));
             }
         }
     }
@@ -46,8 +46,8 @@ pub(super) fn write(report: &Report) -> Outcome<String> {
         h1 { "Frequency response of a damper" }
         p.lead {
             (report.damper) @for change in &report.overrides { " " (change) }
-            ": the first harmonic of the settled force over that of the displacement"
-            @if let Some(key) = &report.over { ", over " (key) }
+            ": ratio of the first harmonics of settled force and displacement"
+            @if let Some(key) = &report.over { ", for several values of " (key) }
             "."
         }
         @for (title, figure) in &figures {
@@ -55,31 +55,31 @@ pub(super) fn write(report: &Report) -> Outcome<String> {
             (figure)
         }
         (differences(report))
-        (footer(&html! { "What is what: docs/model.md, frequency response." }))
+        (footer(&html! { "Definitions: docs/model.md, frequency response." }))
     };
     Ok(document("Dashpot: frequency response", &body))
 }
 
-/// Dynamic stiffness, loss angle and damping of these series.
+/// Draws dynamic stiffness, loss angle and damping of `series`.
 fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
     let harmonic = series
         .iter()
         .filter(|series| series.response == Kind::Harmonic);
     let colours: Vec<_> = ramp(harmonic.clone().count());
     let coloured: Vec<(&&Series, RGBColor)> = harmonic.zip(colours).collect();
-    let colour = |of: &Series| {
+    let colour = |wanted: &Series| {
         let is_same = |other: &Series| {
-            other.value == of.value
-                && (report.over.is_some() || other.amplitude_m == of.amplitude_m)
+            other.value == wanted.value
+                && (report.over.is_some() || other.amplitude_m == wanted.amplitude_m)
         };
         let found = coloured.iter().find(|(other, _)| is_same(other));
         found.map_or(AMBER_LINE, |(_, colour)| *colour)
     };
     let mut panels = response::panels(Scale::Decades);
     for series in series {
-        // Dashes and points have their line's colour; they are named once.
+        // Dashed and dotted curves have the colour of their line; only one of them is labelled.
         let name = match (series.response, &report.over, series.value) {
-            (Kind::Harmonic, Some(_), Some(value)) => told(value),
+            (Kind::Harmonic, Some(_), Some(value)) => formatted(value),
             (Kind::Harmonic, ..) => series.name(),
             (Kind::Linearised, None, _) => "linearised".into(),
             (Kind::Linearised | Kind::Swept, ..) => String::new(),
@@ -89,18 +89,19 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
             panel.curves.push(drawn(series.response, curve));
         }
     }
-    let of_panels = Figure {
+    let drawing = Figure {
         panels: panels.into(),
         height: HEIGHT,
         shares: Some("frequency"),
     };
     let caption = html! {
-        "Lines: harmonic, periodic at each frequency. Dashes: linearised, at a peak velocity of 0.1 mm/s with the clearance taken up."
+        "Lines: harmonic, periodic at each frequency. Dashes: linearised, at a peak velocity of 0.1 mm/s with the "
+        "clearance taken up."
         @if report.swept_sine.is_some() { " Points: swept." }
-        " The loss angle is the phase by which the force leads the displacement, damping the part of force over velocity in phase with the \
-         velocity."
+        " The loss angle is the phase by which the force leads the displacement. Damping is the ratio of force to "
+        "velocity, in phase with the velocity."
     };
-    figure(&of_panels, &caption)
+    figure(&drawing, &caption)
 }
 
 fn drawn(kind: Kind, curve: Curve) -> Curve {
@@ -111,7 +112,7 @@ fn drawn(kind: Kind, curve: Curve) -> Curve {
     }
 }
 
-/// Swept beside harmonic.
+/// Compares swept with harmonic values.
 fn differences(report: &Report) -> Markup {
     let swept: Vec<&Series> = report
         .series
@@ -120,18 +121,27 @@ fn differences(report: &Report) -> Markup {
         .collect();
     html! {
         @if let Some(sweep) = &report.swept_sine {
-            h2 { "Swept beside harmonic" }
+            h2 { "Swept compared with harmonic" }
             p {
-                "One motion of constant amplitude through all frequencies, " (sweep.octaves_per_minute) " octaves a minute; each value by \
-                 synchronous demodulation under a " (sweep.window) " window of " (sweep.window_cycles) " cycles."
+                "One motion of constant amplitude through all frequencies at " (sweep.octaves_per_minute)
+                " octaves per minute; each value by synchronous demodulation with a " (sweep.window) " window of "
+                (sweep.window_cycles) " cycles."
             }
             div.wide {
                 table {
-                    tr { th { "curve" } th { "largest difference of the complex stiffness," br; "% of the harmonic one" } }
+                    tr {
+                        th { "curve" }
+                        th { "largest difference in complex stiffness," br; "% of the harmonic stiffness" }
+                    }
                     @for series in swept {
                         tr {
                             td { (series.name()) }
-                            td { @match series.largest_difference { Some(largest) => (format!("{:.3}", largest * 100.0)), None => "no force" } }
+                            td {
+                                @match series.largest_difference {
+                                    Some(largest) => (format!("{:.3}", largest * 100.0)),
+                                    None => "no force",
+                                }
+                            }
                         }
                     }
                 }

@@ -1,4 +1,4 @@
-//! The report of `dashpot response`.
+//! Report of `dashpot response`.
 
 use std::io::{self, Write};
 
@@ -12,7 +12,7 @@ use dashpot_files::study::shown;
 use dashpot_testbench::response::{Response, at_amplitude, linearised};
 use dashpot_testbench::swept_sine::{self, WINDOW, WINDOW_CYCLES};
 
-/// How a response was found.
+/// Method of computing a response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Kind {
@@ -31,17 +31,17 @@ impl Kind {
     }
 }
 
-/// A value at a frequency.
+/// Values at one frequency.
 #[derive(Serialize)]
 pub(super) struct Row {
     pub(super) frequency_hz: f64,
     pub(super) dynamic_stiffness_n_per_m: f64,
-    /// `None` without force.
+    /// `None` if there is no force.
     pub(super) loss_angle_deg: Option<f64>,
     pub(super) storage_n_per_m: f64,
     pub(super) loss_n_per_m: f64,
     pub(super) damping_n_s_per_m: f64,
-    /// Of a swept value, from the harmonic one over it.
+    /// Difference of a swept value from the harmonic one, relative to the latter.
     pub(super) difference: Option<f64>,
 }
 
@@ -49,18 +49,18 @@ pub(super) struct Row {
 #[derive(Serialize)]
 pub(super) struct Series {
     pub(super) response: Kind,
-    /// The value of what is compared.
+    /// Value of the compared parameter.
     pub(super) value: Option<f64>,
-    /// That of the motion; none of the linearised damper.
+    /// Amplitude of the motion; `None` for the linearised damper.
     pub(super) amplitude_m: Option<f64>,
-    /// Of swept values.
+    /// Largest difference of swept from harmonic values.
     pub(super) largest_difference: Option<f64>,
     pub(super) rows: Vec<Row>,
     #[serde(skip)]
     pub(super) responses: Vec<Response>,
 }
 
-/// How the sweep went.
+/// Settings of the sweep.
 #[derive(Serialize)]
 pub(super) struct SweptSine {
     pub(super) octaves_per_minute: f64,
@@ -68,12 +68,12 @@ pub(super) struct SweptSine {
     pub(super) window_cycles: u32,
 }
 
-/// What was found.
+/// The whole report.
 #[derive(Serialize)]
 pub(super) struct Report {
     pub(super) damper: String,
     pub(super) overrides: Vec<String>,
-    /// The key whose values are compared.
+    /// Key of the compared parameter.
     pub(super) over: Option<String>,
     pub(super) swept_sine: Option<SweptSine>,
     pub(super) series: Vec<Series>,
@@ -111,21 +111,21 @@ impl Series {
         }
     }
 
-    /// What a curve is called: what distinguishes it.
+    /// Returns the label of a curve.
     pub(super) fn name(&self) -> String {
         let amplitude = match self.amplitude_m {
             Some(amplitude_m) => format!("{} mm", shown(amplitude_m * 1e3)),
             None => self.response.name().to_owned(),
         };
         match self.value {
-            Some(value) => format!("{}, {amplitude}", told(value)),
+            Some(value) => format!("{}, {amplitude}", formatted(value)),
             None => amplitude,
         }
     }
 }
 
-/// A value of a number of the damper, which may be large or small.
-pub(super) fn told(value: f64) -> String {
+/// Formats a parameter value, in scientific notation if it is very large or small.
+pub(super) fn formatted(value: f64) -> String {
     match value.abs() {
         1e-2..1e4 | 0.0 => shown(value),
         _ => format!("{value:e}"),
@@ -180,11 +180,11 @@ impl Report {
         let damper = [std::slice::from_ref(&report.damper), &report.overrides].concat();
         writeln!(
             out,
-            "{}: first harmonic of the force over that of the displacement",
+            "{}: ratio of the first harmonics of force and displacement",
             damper.join(" ")
         )?;
         if let Some(key) = &report.over {
-            writeln!(out, "values of {key} and amplitudes of the motion")?;
+            writeln!(out, "for values of {key} and amplitudes of the motion")?;
         }
         writeln!(
             out,
@@ -196,9 +196,10 @@ impl Report {
             for at in [0, last / 2, last] {
                 let row = &series.rows[at];
                 let (name, kind) = match at {
-                    0 if series.response == Kind::Linearised => {
-                        (series.value.map(told).unwrap_or_default(), "linearised")
-                    }
+                    0 if series.response == Kind::Linearised => (
+                        series.value.map(formatted).unwrap_or_default(),
+                        "linearised",
+                    ),
                     0 => (series.name(), series.response.name()),
                     _ => (String::new(), ""),
                 };
@@ -216,7 +217,7 @@ impl Report {
             if let Some(largest) = series.largest_difference {
                 writeln!(
                     out,
-                    "  {:<24}differs from harmonic by {:.3} % at most",
+                    "  {:<24}differs from harmonic by at most {:.3} %",
                     "",
                     largest * 100.0
                 )?;
@@ -225,12 +226,12 @@ impl Report {
         if let Some(sweep) = &report.swept_sine {
             writeln!(
                 out,
-                "\nswept: {} octaves a minute, each value under a {} window of {} cycles",
+                "\nswept: {} octaves per minute, {} window of {} cycles",
                 sweep.octaves_per_minute, sweep.window, sweep.window_cycles
             )?;
         }
         if !report.files.is_empty() {
-            writeln!(out, "\nwritten: {}", report.files.join(", "))?;
+            writeln!(out, "\nwrote {}", report.files.join(", "))?;
         }
         Ok(())
     }

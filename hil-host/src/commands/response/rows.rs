@@ -1,4 +1,4 @@
-//! Every value as CSV.
+//! CSV output of all values.
 
 use std::io::Write;
 use std::path::Path;
@@ -7,7 +7,7 @@ use super::report::Report;
 use crate::commands::failure::Outcome;
 use dashpot_files::output::{cannot_write, cannot_write_rows};
 
-/// Writes a row for each value.
+/// Writes one row per value.
 ///
 /// # Errors
 /// The file at `path` cannot be written.
@@ -43,7 +43,7 @@ pub(super) fn write(path: &Path, file: &mut dyn Write, report: &Report) -> Outco
                 row.difference,
             ];
             let cells = value.into_iter().chain(numbers);
-            // The shortest text that reads as the same number.
+            // Display of f64 gives the shortest text that parses to the same number.
             let cells = cells.map(|cell| cell.map_or_else(String::new, |cell| cell.to_string()));
             let kind = series.response.name().to_owned();
             rows.write_record([kind].into_iter().chain(cells))

@@ -1,4 +1,4 @@
-//! `dashpot rig`: the bench test and its indices, or all tests of a sheet.
+//! `dashpot rig`: simulates a bench test and its indices, or all tests of a sheet.
 
 mod sheet;
 
@@ -22,7 +22,7 @@ use dashpot_testbench::published::{
     NominalCharacteristic, NominalIndex, nominal_characteristic, nominal_indices,
 };
 
-/// Bench test: a made harmonic motion until the force repeats, indices and loops of one settled cycle.
+/// Simulate a bench test: a harmonic motion until the force is periodic, with indices and loops of one settled cycle.
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
@@ -32,11 +32,12 @@ use dashpot_testbench::published::{
   dashpot rig --damper in-service --sheet example --page sheet.html
   dashpot rig --damper my.toml --sheet acceptance.toml --page sheet.html --format json > sheet.json
 
-A sheet is a file of tests and of the limits that their indices must keep, with the clause that each limit is from; data/sheets/example.toml is
-one, docs/rig.md has every key. Exit code 1 when a limit is not kept; the sheet is written all the same."
+A sheet is a file of tests with limits for their indices and the clause that each limit comes from. See
+data/sheets/example.toml for an example and docs/rig.md for all keys. The exit code is 1 if a limit is violated; the
+page is written in any case."
 )]
 pub struct RigArguments {
-    /// The damper.
+    /// Damper.
     #[command(flatten)]
     pub damper: DamperArguments,
     /// Amplitude of the motion, m.
@@ -45,20 +46,24 @@ pub struct RigArguments {
     /// Frequency of the motion, Hz.
     #[arg(long, default_value_t = Harmonic::TABLE_5.frequency_hz, value_name = "HZ")]
     pub frequency_hz: f64,
-    /// The step, us.
-    #[arg(help = step_size::help("Step", "; shortened to a whole number of steps a cycle"), long, default_value = "100", value_name = "US")]
+    /// Step, us.
+    #[arg(
+        help = step_size::help("Step", "; shortened to give a whole number of steps per cycle"),
+        long,
+        default_value = "100",
+        value_name = "US"
+    )]
     pub step_us: StepSize,
-    /// Folder the loops of force over displacement and velocity are written to, as force-loops.svg; none
-    /// when not given.
+    /// Write loops of force over displacement and velocity to this folder as force-loops.svg.
     #[arg(long, value_name = "FOLDER")]
     pub plots: Option<PathBuf>,
-    /// Tests and limits to go through in place of one motion: a sheet that ships or a TOML file, `-` for standard input.
+    /// Run the tests of a sheet instead of a single motion: built-in name or TOML file, `-` for standard input.
     #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["amplitude_m", "frequency_hz", "plots"])]
     pub sheet: Option<String>,
-    /// The sheet as a page to keep or to print, one self-contained HTML file; `-` for standard output.
+    /// Page of the sheet for archiving or printing, a self-contained HTML file; `-` for standard output.
     #[arg(long, value_name = "FILE", requires = "sheet")]
     pub page: Option<PathBuf>,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }
@@ -73,18 +78,18 @@ struct Report<'a> {
     cycles: usize,
     #[serde(flatten)]
     indices: Indices,
-    /// Table 5 of the paper, where the motion is that of the table.
+    /// Table 5 of the paper, if the motion is that of the table.
     published: Option<NominalCharacteristic>,
     plots: Vec<String>,
 }
 
-/// An index here, and its row of Table 5.
+/// A computed index and its row of Table 5.
 type Row = (String, NominalIndex);
 
 /// Runs the bench test and prints its indices.
 ///
 /// # Errors
-/// A damper, a motion or a sheet that is refused, a force that does not repeat, or a limit of the sheet that is not kept.
+/// The damper, motion or sheet is invalid, the force does not become periodic, or a limit of the sheet is violated.
 pub fn run(arguments: &RigArguments) -> Outcome<()> {
     if let Some(name) = &arguments.sheet {
         return sheet::run(arguments, name);
@@ -124,8 +129,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
     })
 }
 
-/// Writes the loops of a cycle called `name` into `folder`, with the largest forces measured where they
-/// are published; returns their path.
+/// Writes the loops of a cycle to `folder`, with the measured maximum forces if they are published; returns the path.
 fn draw(
     folder: &Path,
     name: &str,
@@ -140,7 +144,7 @@ fn draw(
         let (x, v) = (motion.amplitude_m * 1e3, motion.peak_velocity_m_per_s());
         for (name, force_n) in [
             (
-                "largest forces measured (Table 5)",
+                "measured maximum forces (Table 5)",
                 test.max_extension_force_n,
             ),
             ("", -test.max_compression_force_n),
@@ -156,7 +160,7 @@ fn draw(
     panels[0].legend = Some(SeriesLabelPosition::MiddleMiddle);
     for (panel, over) in panels.iter_mut().zip(["displacement", "velocity"]) {
         panel.title = format!(
-            "Force over {over}, made motion of ±{:.3} mm at {} Hz",
+            "Force over {over}, harmonic motion of ±{:.3} mm at {} Hz",
             motion.amplitude_m * 1e3,
             motion.frequency_hz
         );
@@ -165,7 +169,7 @@ fn draw(
     Ok(write_folder(folder, &[("force-loops.svg", drawing)])?)
 }
 
-/// Whether the motion is that of Table 5.
+/// True if the motion is that of Table 5.
 fn is_nominal(motion: &Harmonic) -> bool {
     let nominal = Harmonic::TABLE_5;
     let same = |a: f64, b: f64| (a - b).abs() <= 1e-6 * b;
@@ -175,7 +179,7 @@ fn is_nominal(motion: &Harmonic) -> bool {
 fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row]) -> io::Result<()> {
     writeln!(
         out,
-        "{}: made motion of +-{:.3} mm at {} Hz, peak velocity {:.4} m/s; cycle {} repeats, step {:.2} us\n",
+        "{}: harmonic motion of +-{:.3} mm at {} Hz, peak velocity {:.4} m/s; periodic from cycle {}, step {:.2} us\n",
         report.damper,
         report.amplitude_m * 1e3,
         report.frequency_hz,
@@ -208,7 +212,7 @@ fn print(out: &mut dyn Write, report: &Report<'_>, rows: &[Row]) -> io::Result<(
     if nominal {
         writeln!(
             out,
-            "\npaper: Table 5, same motion. Its equations with its Tables 2-4 do not give its Table 5 \
+            "\npaper: Table 5, same motion. The paper's equations with its Tables 2-4 do not reproduce its Table 5 \
              (docs/validation.md)."
         )?;
     }

@@ -1,4 +1,4 @@
-//! `dashpot shims`: the shim packs of a damper, theory beside published and used.
+//! `dashpot shims`: compares the shim packs of a damper in theory, as published and as used.
 
 mod fe;
 mod plots;
@@ -17,7 +17,7 @@ use dashpot_files::damper;
 use dashpot_files::output::write_folder;
 use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, erratum};
 
-/// Shim packs: Cw over radius, equivalent thickness, lift under pressure by theory, as published and as used, flow.
+/// Analyse the shim packs of a damper: Cw, equivalent thickness, lift (theory, published, used) and flow.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot shims --damper paper
@@ -26,33 +26,33 @@ use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, erratum};
   dashpot shims --fe --valve piston-extension --bosses 6 --boss-share 0.4 --loaded-radii-m 0.019,0.026
   dashpot shims --fe --valve foot-compression --loaded-radii-m 0.005,0.0104 --decay-radii-m 0.005,0.011")]
 pub struct ShimsArguments {
-    /// The damper.
+    /// Damper.
     #[command(flatten)]
     pub damper: DamperArguments,
-    /// Folder the plots are written to.
+    /// Output folder for plots.
     #[arg(long, default_value = "shims-plots", value_name = "FOLDER")]
     pub plots: PathBuf,
-    /// Write no plots.
+    /// Do not write plots.
     #[arg(long)]
     pub no_plots: bool,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
-    /// The shims as plates.
+    /// Plate analysis.
     #[command(flatten)]
     pub plates: PlateArguments,
 }
 
-/// Prints the shim packs of a damper and draws them.
+/// Prints and draws the shim packs of a damper.
 ///
 /// # Errors
-/// A damper that is refused or has no shim packs, or a plot that cannot be written.
+/// The damper is invalid or has no shim packs, or a plot cannot be written.
 pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
     let name = &arguments.damper.damper;
     let parameters = arguments.damper.load()?;
     let Element::Physical(hydraulics) = &parameters.element else {
         return Err(Failure::new(format!(
-            "{name}: a reduced damper has no shim packs; allowed: a damper with [valves], such as `paper`"
+            "{name}: a reduced damper has no shim packs; use a damper with [valves], such as `paper`"
         )));
     };
     let characteristic = Characteristic::new(&parameters);

@@ -1,4 +1,4 @@
-//! Drawings of `dashpot shims`: edge lift over pressure, deflection over radius, flow over pressure.
+//! Plots of `dashpot shims`: edge lift over pressure, deflection over radius, flow over pressure.
 
 use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Hydraulics;
@@ -12,15 +12,15 @@ use dashpot_report::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
 use dashpot_testbench::published::Deflection;
 use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
-/// Steps of pressure in a curve.
+/// Number of pressure steps in a curve.
 const STEPS: u32 = 200;
-/// Pressures drawn (MPa): from zero to the end of the published tables or to twice the preload.
+/// Returns the plotted pressures (MPa), from zero to the end of the published tables or to twice the preload.
 fn pressures_mpa(tables_end_pa: f64, preload_pa: f64) -> impl Iterator<Item = f64> {
     let end_mpa = 1e-6 * tables_end_pa.max(2.0 * preload_pa);
     (0..=STEPS).map(move |i| end_mpa * f64::from(i) / f64::from(STEPS))
 }
 
-/// Name and text of each drawing.
+/// Returns file name and SVG text of each plot.
 pub(super) fn draw(
     hydraulics: &Hydraulics,
     valves: &[ValveReport],
@@ -50,12 +50,12 @@ pub(super) fn draw(
     Ok(drawings)
 }
 
-/// Edge lift over pressure: the disc theory, the published table and what the damper works with.
+/// Plots edge lift over pressure: disc theory, published table and the lift that the damper model uses.
 fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> Panel {
     let line = |m_per_pa: f64, preload_pa: f64| {
         let lift_mm = move |mpa: f64| (mpa * 1e6 - preload_pa) * m_per_pa * 1e3;
         let pressures = pressures_mpa(tables_end_pa, report.preload_pa);
-        // The logarithm of a closed valve's lift does not exist, and that of one about to open is rounding.
+        // The scale is logarithmic: skip closed valves, and lifts just above opening, which are rounding errors.
         let open = pressures.filter(move |mpa| mpa * 1e6 > 1.01 * preload_pa && *mpa > 0.0);
         open.map(move |mpa| (mpa, lift_mm(mpa)))
     };
@@ -65,9 +65,9 @@ fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> P
         curves.push(Curve::new(name, BLUE_LINE, line(theory, 0.0)));
     }
     if let Some(published) = report.published() {
-        let points = |of: fn(&Deflection) -> f64| {
+        let points = |value: fn(&Deflection) -> f64| {
             let rows = published.iter();
-            rows.map(move |row| (row.pressure_mpa, of(row) * 1e3))
+            rows.map(move |row| (row.pressure_mpa, value(row) * 1e3))
         };
         if let Some(row) = published.last() {
             let slope = rate(row.theory_uniform_m() / row.pressure_pa());
@@ -88,7 +88,7 @@ fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> P
     Panel {
         title: format!("{} valve{table}", capital(location.name)),
         x_label: "pressure, MPa".into(),
-        y_label: "lift of the edge, mm".into(),
+        y_label: "edge lift, mm".into(),
         legend: Some(SeriesLabelPosition::LowerRight),
         sides: false,
         x_scale: Scale::Linear,
@@ -98,7 +98,7 @@ fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> P
     }
 }
 
-/// Points with straight lines between them, in ten parts each: on a scale of decades a line is a bow.
+/// Interpolates linearly between points, ten parts each, because a straight line is curved on a logarithmic scale.
 fn between(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let parts = points.windows(2).flat_map(|pair| {
         let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
@@ -110,14 +110,14 @@ fn between(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     parts.chain(points.last().copied()).collect()
 }
 
-/// A compliance (m/Pa) in mm/MPa, to three significant digits.
+/// Formats a compliance (m/Pa) in mm/MPa with three significant digits.
 fn rate(m_per_pa: f64) -> String {
     let mm_per_mpa = m_per_pa * 1e9;
     let digits = (2.0 - mm_per_mpa.log10().floor()).clamp(0.0, 9.0) as usize;
     format!("{mm_per_mpa:.digits$} mm/MPa")
 }
 
-/// Deflection over radius by the disc theory, a curve for each published pressure.
+/// Plots deflection over radius by disc theory, one curve per published pressure.
 fn deflection(
     location: &ValveLocation,
     report: &ValveReport,
@@ -146,7 +146,7 @@ fn deflection(
     }))
 }
 
-/// Flow over pressure with the lift the damper works with.
+/// Plots flow over pressure with the lift that the damper model uses.
 fn flow(
     location: &ValveLocation,
     report: &ValveReport,
@@ -171,7 +171,7 @@ fn flow(
     }
 }
 
-/// `name` with a capital first letter.
+/// Capitalises the first letter.
 pub(super) fn capital(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| {

@@ -1,4 +1,4 @@
-//! The report of `dashpot shims` on each valve, beside the published deflections.
+//! Report of `dashpot shims`: each valve, compared with the published deflections.
 
 use std::io::{self, Write};
 
@@ -28,11 +28,11 @@ struct PackReport {
 #[derive(Serialize)]
 pub(super) struct Row {
     pub(super) pressure_pa: f64,
-    /// Disc theory at the edge, uniform pressure.
+    /// Edge deflection by disc theory under uniform pressure.
     theory_uniform_m: Option<f64>,
     published_uniform_m: Option<f64>,
     published_real_m: Option<f64>,
-    /// Lift the damper works with: `k_w (P - P_0)+`.
+    /// Lift used by the damper model: `k_w (P - P_0)+`.
     lift_m: f64,
     flow_m3_per_s: f64,
 }
@@ -43,32 +43,32 @@ pub(super) struct ValveReport {
     clamp_radius_m: f64,
     free_radius_m: f64,
     shims_m: Vec<f64>,
-    /// `None` when the file gives a compliance and no shims.
+    /// `None` if the file gives a compliance instead of shims.
     pack: Option<PackReport>,
     given_edge_compliance_m_per_pa: Option<f64>,
     equivalent_pressure_factor: f64,
     pub(super) effective_edge_compliance_m_per_pa: f64,
     pub(super) preload_pa: f64,
-    /// Theory over published deflection, for a pack of the paper.
+    /// Ratio of theoretical to published deflection; only for a pack of the paper.
     theory_over_published: Option<f64>,
     pub(super) pressures: Vec<Row>,
-    /// The published table, for a pack of the paper.
+    /// Published table; only for a pack of the paper.
     #[serde(skip)]
     published: Option<Vec<Deflection>>,
 }
 
 impl ValveReport {
-    /// Edge compliance by disc theory under uniform pressure (m/Pa).
+    /// Returns the edge compliance by disc theory under uniform pressure (m/Pa).
     pub(super) fn theory_m_per_pa(&self) -> Option<f64> {
         self.pack.as_ref().map(|pack| pack.edge_compliance_m_per_pa)
     }
 
-    /// The published table, for a pack of the paper.
+    /// Published table; only for a pack of the paper.
     pub(super) fn published(&self) -> Option<&[Deflection]> {
         self.published.as_deref()
     }
 
-    /// Where the lift that the damper works with comes from.
+    /// Returns the source of the lift used by the damper model.
     pub(super) fn source(&self) -> &'static str {
         match self.given_edge_compliance_m_per_pa {
             Some(_) => "given compliance",
@@ -82,14 +82,14 @@ pub(super) struct Report<'a> {
     damper: &'a str,
     valves: Vec<ValveReport>,
     erratum: String,
-    /// With `--fe`.
+    /// Only with `--fe`.
     #[serde(skip_serializing_if = "Option::is_none")]
     plates: Option<PlateReport>,
     plots: Vec<String>,
 }
 
 impl<'a> Report<'a> {
-    /// Of the damper called `damper`, its valves, the published damper's erratum and the files drawn.
+    /// Creates the report on `damper` from its valves, the paper's erratum and the plot files.
     pub(super) fn new(
         damper: &'a str,
         valves: Vec<ValveReport>,
@@ -102,7 +102,7 @@ impl<'a> Report<'a> {
             valves,
             erratum: format!(
                 "{erratum} A damper file may give the edge compliance instead of the pack; the preset \
-                 `paper` gives the tabulated ones."
+                 `paper` uses the tabulated values."
             ),
             plates,
             plots,
@@ -110,13 +110,13 @@ impl<'a> Report<'a> {
     }
 }
 
-/// Radii from clamp to edge, `parts` equal parts.
+/// Returns radii from clamp to edge in `parts` equal parts.
 pub(super) fn radii(valve: &Valve, parts: u32) -> impl Iterator<Item = f64> + use<> {
     let (clamp, free) = (valve.clamp_radius_m, valve.free_radius_m);
     (0..=parts).map(move |i| clamp + (free - clamp) * f64::from(i) / f64::from(parts))
 }
 
-/// Cw from clamp to edge, four equal parts; a clamp's rounding counts as the zero it is.
+/// Returns Cw from clamp to edge in four equal parts; rounding errors at the clamp become zero.
 fn coefficients(pack: &Pack, valve: &Valve) -> Vec<Coefficient> {
     let cw = |radius_m| pack.disc().deflection_coefficient(radius_m);
     let rounding = 1e-12 * cw(valve.free_radius_m);
@@ -130,7 +130,7 @@ fn coefficients(pack: &Pack, valve: &Valve) -> Vec<Coefficient> {
         .collect()
 }
 
-/// What a valve does beside its published deflections, which `paper` was described with.
+/// Computes the report of a valve, with the published deflections of the pack in `paper`.
 pub(super) fn valve_report(
     location: &ValveLocation,
     hydraulics: &Hydraulics,
@@ -141,7 +141,7 @@ pub(super) fn valve_report(
     let pack = location.pack(hydraulics)?;
     let theory = location.theory_m_per_pa(hydraulics)?;
     let table = location.published()?;
-    // The published deflections stand beside the pack they were published for only.
+    // Compare the published deflections only with the pack they were published for.
     let published = pack.is_some() && pack == location.pack(paper)?;
     let effective = edge_compliance_m_per_pa(location.section, valve)?;
     let pressures: Vec<Row> = table
@@ -183,7 +183,7 @@ pub(super) fn valve_report(
     })
 }
 
-/// The report for people.
+/// Prints the report as text.
 pub(super) fn print(out: &mut dyn Write, report: &Report<'_>) -> io::Result<()> {
     writeln!(out, "shim packs of {}", report.damper)?;
     for valve in &report.valves {
@@ -233,7 +233,7 @@ fn print_valve(out: &mut dyn Write, valve: &ValveReport) -> io::Result<()> {
     }
     writeln!(
         out,
-        "  the damper works with {:.4e} m/Pa: {} x Ce {}, preload {:.2} MPa",
+        "  used by the damper model: {:.4e} m/Pa ({} x Ce {}), preload {:.2} MPa",
         valve.effective_edge_compliance_m_per_pa,
         valve.source(),
         valve.equivalent_pressure_factor,
@@ -260,7 +260,7 @@ fn print_valve(out: &mut dyn Write, valve: &ValveReport) -> io::Result<()> {
         )?;
     }
     if let Some(ratio) = valve.theory_over_published {
-        writeln!(out, "  theory over published: {ratio:.1}")?;
+        writeln!(out, "  ratio of theory to published: {ratio:.1}")?;
     }
     Ok(())
 }

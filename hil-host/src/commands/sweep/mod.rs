@@ -1,4 +1,4 @@
-//! `dashpot sweep`: the cases of a study, a row each, and their page.
+//! `dashpot sweep`: runs the cases of a study and writes one row per case and a page.
 
 mod page;
 mod report;
@@ -20,7 +20,7 @@ use dashpot_study::sweep::ROW_DIGEST;
 use dashpot_study::sweep::rows::{Rows, RowsError};
 use dashpot_study::sweep::{self, Journal, Row, RunError, Shard, Study};
 
-/// A study: many cases of a vehicle on a track, one row of indices each, and a page.
+/// Run a study: many cases of a vehicle on a track, with one row of indices per case and a page.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot sweep paper
@@ -28,75 +28,73 @@ use dashpot_study::sweep::{self, Journal, Row, RunError, Shard, Study};
   dashpot sweep paper --shard 3 --shards 8 --output results --no-page
   dashpot merge paper results/rows-*-of-8.csv --output results
 
-Written into the folder of --output: rows.csv, a row a case with its values, its seed, its indices, and what study and version it is of;
-report.html, the page. Of a shard only rows-I-of-N.csv. The rows are the same, bit for bit, on any number of threads and shards. A case
-that derails, overturns, leaves the tables or has a wheel load over 50 times that at standstill has that in its column `ending` and no
-indices. Observe `wheel_load_over_static` and `wheel_lift_longest_s` to find rows that need a second look (docs/studies.md).
+Writes rows.csv to --output: one row per case with parameter values, seed, indices, study ID and version; and
+report.html, the page. A shard writes only rows-I-of-N.csv. The rows are bit-identical for any number of threads and
+shards. A case that derails, overturns, leaves the contact tables or has a wheel load above 50 times the static load
+has no indices; its column `ending` gives the reason. Observe `wheel_load_over_static` and `wheel_lift_longest_s` to
+find rows that need a second look (docs/studies.md).
 
-An interrupted command keeps its rows in a file .partial; the same command goes on with the cases that are missing.
-Rows of another study, version or physics are refused, and with --anew overwritten. Each row carries a digest of its
-cells: an altered row is refused.")]
+An interrupted command keeps its rows in a .partial file; the same command resumes with the missing cases. Rows from
+another study, version or physics are an error, unless --anew overwrites them. Each row has a digest of its cells, so
+an altered row is detected.")]
 pub struct SweepArguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// Folder that results are written to [default: dashpot- and the name of the study].
+    /// Output folder [default: dashpot- and the name of the study].
     #[arg(long, value_name = "FOLDER")]
     output: Option<PathBuf>,
-    /// Threads [default: one a core].
+    /// Number of threads [default: one per core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Runs only one part of the cases, counted from 0; with --shards.
+    /// Run only one shard of the cases, counted from 0; needs --shards.
     #[arg(long, value_name = "I", requires = "shards")]
     shard: Option<u64>,
-    /// How many parts there are; with --shard.
+    /// Total number of shards; needs --shard.
     #[arg(long, value_name = "N", requires = "shard", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     shards: Option<u64>,
-    /// Begins anew, whatever rows there are; a file of rows keeps them as rows.csv.old.
+    /// Start over; existing results are kept as rows.csv.old.
     #[arg(long)]
     anew: bool,
-    /// Tells the cases and runs none.
+    /// List the cases without running them.
     #[arg(long, conflicts_with_all = ["shard", "anew"])]
     list: bool,
     #[command(flatten)]
     results: ResultArguments,
 }
 
-/// Which study, over how many seeds.
+/// A study and its number of seeds.
 #[derive(Debug, Clone, clap::Args)]
 pub struct StudyArguments {
-    /// A study.
+    /// Study.
     #[arg(help = study_help(), value_name = "STUDY")]
     study: String,
-    /// Seeds 1 to N in place of those of the study, where it has some.
+    /// Use seeds 1 to N instead of the seeds of the study, for sweeps that have seeds.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     seeds: Option<u64>,
 }
 
-/// What is made of the rows.
+/// Options for results derived from the rows.
 #[derive(Debug, Clone, clap::Args)]
 pub struct ResultArguments {
-    /// Writes no page.
+    /// Do not write the page.
     #[arg(long)]
     no_page: bool,
-    /// Writes rows.parquet too; only in a build with the feature `parquet`.
+    /// Also write rows.parquet. Needs a build with the feature `parquet`.
     #[arg(long)]
     parquet: bool,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
-/// The help of an argument that names a study.
+/// Returns the help text of the study argument.
 fn study_help() -> String {
     let names = STUDIES.map(|(name, _)| name);
-    format!(
-        "Study: the name of one that ships ({}) or a TOML file",
-        names.join(", ")
-    )
+    format!("Study: built-in name ({}) or TOML file", names.join(", "))
 }
 
 impl StudyArguments {
-    /// The study, read and checked.
+    /// Reads and checks the study.
     pub(super) fn read(&self) -> Outcome<Study> {
         let parameters = StudyParameters::load(&self.study)?;
         Ok(Study::new(match self.seeds {
@@ -105,22 +103,22 @@ impl StudyArguments {
         })?)
     }
 
-    /// The folder of `output`, or that of the study's name.
+    /// Returns `output`, or the default folder, which is named after the study.
     pub(super) fn folder(&self, output: Option<&PathBuf>) -> PathBuf {
-        let of_name = || {
+        let default_folder = || {
             let path = Path::new(&self.study);
             let stem = path.file_stem().filter(|_| !is_standard_stream(path));
             let stem = stem.map_or("study".into(), |stem| stem.to_string_lossy());
             PathBuf::from(format!("dashpot-{stem}"))
         };
-        output.cloned().unwrap_or_else(of_name)
+        output.cloned().unwrap_or_else(default_folder)
     }
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// A study that is refused; rows of another study; files that cannot be written; an interruption.
+/// The study is invalid, existing rows belong to another study, a file cannot be written, or the user interrupts.
 pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
@@ -128,7 +126,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         (Some(number), Some(of)) if number < of => Some(Shard { number, of }),
         (Some(number), Some(of)) => {
             return Err(Failure::wrong_use(format!(
-                "--shard {number}, allowed: 0 to {} with --shards {of}",
+                "--shard {number}: allowed with --shards {of}: 0 to {}",
                 of - 1
             )));
         }
@@ -166,11 +164,11 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         arguments.threads,
     );
     let took = started.elapsed();
-    // Rows of files before and after a change would not be told apart.
+    // Rows from before and after a change of the files could not be distinguished.
     if !study.is_unchanged().unwrap_or(false) {
         journal.take_away(&study, &missing)?;
         return Err(Failure::new(format!(
-            "{}: the study's files were changed while it ran; the rows of this run are not kept",
+            "{}: a file of the study was changed during the run; the rows of this run are discarded",
             study.parameters.file
         )));
     }
@@ -183,7 +181,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
             "the same command"
         };
         return Err(Failure::new(format!(
-            "interrupted: {done} of {} cases are done; {command} goes on with the rest",
+            "interrupted: {done} of {} cases are done; {command} resumes with the rest",
             part.len()
         )));
     }
@@ -196,7 +194,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     print_report(results.format, &report, print)
 }
 
-/// Runs the cases that are missing and adds their rows, until all are there or the user wants it to end.
+/// Runs the missing cases and adds their rows, until all are done or the user interrupts.
 fn run_missing(
     study: &Study,
     journal: &mut Journal,
@@ -219,19 +217,20 @@ fn run_missing(
     done
 }
 
-/// Rows that a study cannot go on with, and the way on.
+/// Reports existing rows that the study cannot resume from, with a remedy.
 fn refused(error: RowsError) -> Failure {
-    let way_on = match &error {
+    let remedy = match &error {
         RowsError::File(_) => return error.into(),
         RowsError::Damaged { line, .. } => format!(
-            "delete line {line} of this file, and the same command runs its case again; or start over with --anew"
+            "delete line {line} of this file and repeat the command to run its case again, or start over with --anew"
         ),
         RowsError::Foreign(_) => {
-            "start over with --anew, or keep these rows and write elsewhere with --output".into()
+            "start over with --anew, or keep these rows and write to another folder with --output"
+                .into()
         }
         _ => return Failure::new(error.to_string()),
     };
-    Failure::new(format!("{error}; {way_on}"))
+    Failure::new(format!("{error}; {remedy}"))
 }
 
 impl From<RowsError> for Failure {
@@ -244,22 +243,22 @@ impl From<RowsError> for Failure {
 }
 
 impl ResultArguments {
-    /// Refuses what this build has not.
+    /// Rejects options that this build does not support.
     pub(super) fn check(&self) -> Outcome<()> {
         if self.parquet && !cfg!(feature = "parquet") {
             return Err(Failure::wrong_use(
-                "--parquet is left out of this build; build dashpot-hil with the feature `parquet`",
+                "--parquet is not available in this build; build dashpot-hil with the feature `parquet`",
             ));
         }
         Ok(())
     }
 
-    /// How results are printed.
+    /// Returns the output format.
     pub(super) fn format(&self) -> Format {
         self.format
     }
 
-    /// Refuses figures that cannot be drawn.
+    /// Checks that the figures can be drawn.
     pub(super) fn check_figures(&self, study: &Study) -> Outcome<()> {
         if self.no_page {
             Ok(())
@@ -268,7 +267,7 @@ impl ResultArguments {
         }
     }
 
-    /// Writes what is made of all rows into the folder, and names it in the report.
+    /// Writes the results derived from all rows to the folder and lists the files in the report.
     pub(super) fn write(
         &self,
         study: &Study,

@@ -1,4 +1,4 @@
-//! What is told of a study.
+//! Report of a study.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -14,35 +14,35 @@ use dashpot_files::output;
 use dashpot_study::sweep::rows::Rows;
 use dashpot_study::sweep::{Arithmetic, Study, VERSION, physics};
 
-/// What is told of a study.
+/// Report of a study.
 #[derive(Serialize)]
-pub(crate) struct Report {
+pub(in crate::commands) struct Report {
     study: String,
     digest: String,
     version: &'static str,
-    /// Digest of the behaviour of the model.
+    /// Digest of the physical behaviour of the model.
     pub(super) physics: &'static str,
-    /// Rows there are.
+    /// Total number of rows.
     rows: usize,
-    /// Cases run now.
+    /// Number of cases run by this command.
     run_now: usize,
-    /// Time of those, s.
+    /// Time of this command's runs, s.
     took_s: f64,
-    /// Cases that did not come to their end, by how they ended.
+    /// Cases that did not complete, by reason.
     not_completed: BTreeMap<String, Vec<u64>>,
-    /// Cases that `merge --check` ran again, with the same bits.
+    /// Cases that `merge --check` repeated with bit-identical results.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) checked: Option<Checked>,
-    pub(crate) files: Vec<PathBuf>,
+    pub(in crate::commands) checked: Option<Checked>,
+    pub(in crate::commands) files: Vec<PathBuf>,
 }
 
-/// Rows that were run again.
+/// Rows that were checked by repeating their runs.
 #[derive(Serialize)]
-pub(crate) struct Checked {
-    /// Numbers of their cases.
-    pub(crate) cases: Vec<u64>,
-    /// Seed of the choice.
-    pub(crate) seed: u64,
+pub(in crate::commands) struct Checked {
+    /// Case numbers.
+    pub(in crate::commands) cases: Vec<u64>,
+    /// Seed of the random selection.
+    pub(in crate::commands) seed: u64,
 }
 
 impl Report {
@@ -73,21 +73,21 @@ impl Report {
         }
     }
 
-    /// What is told of cases that did not come to their end.
+    /// Describes the cases that did not complete.
     pub(super) fn not_completed(&self) -> Option<String> {
-        let told = self.not_completed.iter().map(|(reason, cases)| {
+        let lines = self.not_completed.iter().map(|(reason, cases)| {
             let count = counted(cases.len() as u64, "case");
             let first: Vec<String> = cases.iter().take(8).map(u64::to_string).collect();
             let more = if cases.len() > 8 { ", ..." } else { "" };
             let first = first.join(", ");
-            format!("{count} did not come to the end ({reason}), without indices: {first}{more}")
+            format!("{count} did not complete ({reason}; no indices): {first}{more}")
         });
-        let told: Vec<String> = told.collect();
-        (!told.is_empty()).then(|| told.join("; "))
+        let lines: Vec<String> = lines.collect();
+        (!lines.is_empty()).then(|| lines.join("; "))
     }
 }
 
-/// Why a case ended, without its place, which is in the row.
+/// Returns the reason for the end of a case, without the position, which is in the row.
 fn reason(ending: &str) -> &str {
     const LEFT: &str = "left the tables of the contact";
     const BEYOND: &str = "beyond the model";
@@ -99,7 +99,7 @@ fn reason(ending: &str) -> &str {
     ending.split([':', ' ']).next().unwrap_or_default()
 }
 
-pub(crate) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let Report {
         study,
         digest,
@@ -121,8 +121,8 @@ pub(crate) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         0 => writeln!(out, "{rows}, none run now")?,
         run_now => writeln!(out, "{rows}, {run_now} run now in {took_s:.1} s")?,
     }
-    if let Some(told) = report.not_completed() {
-        writeln!(out, "{told}")?;
+    if let Some(note) = report.not_completed() {
+        writeln!(out, "{note}")?;
     }
     if let Some(Checked { cases, seed }) = checked {
         let count = counted(cases.len() as u64, "case");
@@ -130,7 +130,7 @@ pub(crate) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         let numbers = numbers.join(", ");
         writeln!(
             out,
-            "{count} run again (--check-seed {seed}), the same bits: {numbers}"
+            "{count} repeated with bit-identical results (--check-seed {seed}): {numbers}"
         )?;
     }
     writeln!(out)?;
@@ -140,7 +140,7 @@ pub(crate) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     Ok(())
 }
 
-/// The cases of a study, without running them.
+/// List of the cases of a study.
 #[derive(Serialize)]
 struct List {
     study: String,
@@ -159,7 +159,7 @@ struct Listed {
     seeds: usize,
 }
 
-/// Tells the cases of a study.
+/// Prints the list of cases of a study.
 pub(super) fn list(study: &Study, format: Format) -> Outcome<()> {
     let sweeps = study.parameters.sweeps.iter().map(|sweep| {
         let first = study.numbers(sweep, 0).start;
@@ -198,7 +198,7 @@ pub(super) fn list(study: &Study, format: Format) -> Outcome<()> {
                     sweep.parameters.join(" x ")
                 },
                 match sweep.seeds {
-                    0 => "the track's own seed".into(),
+                    0 => "the seed of the track".into(),
                     seeds => counted(seeds as u64, "seed"),
                 }
             )?;

@@ -1,4 +1,4 @@
-//! `dashpot vehicle --check`: the step against the reference solution.
+//! `dashpot vehicle --check`: compares the step with the reference solution.
 
 use std::io::{self, Write};
 
@@ -24,10 +24,10 @@ struct Report {
     deviations: Deviations<Worst>,
     bounds: Deviations<f64>,
     with_half_the_inner_step: Deviations<Worst>,
-    /// Where a bound is not kept: how far two reference solutions of different tolerances part.
+    /// If a bound is exceeded: difference between two reference solutions of different tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     parting: Option<Deviations<Worst>>,
-    /// Of a chaotic case: its indices over seeds of the irregularity.
+    /// Indices over seeds of the irregularity, for a chaotic case.
     #[serde(skip_serializing_if = "Option::is_none")]
     over_seeds: Option<OverSeeds>,
     is_within_bounds: bool,
@@ -36,20 +36,20 @@ struct Report {
 /// Runs the check.
 ///
 /// # Errors
-/// A case that is refused, has faults or does not come to its end; deviations out of bounds.
+/// The case is invalid, has faults or does not complete, or a deviation is out of bounds.
 pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
     for (has, what, without) in [
         (
             !case.faults.is_empty(),
-            "changes dampers on the way",
+            "changes dampers during the run",
             "faults",
         ),
-        (case.rails.is_some(), "has rails that give way", "[rails]"),
+        (case.rails.is_some(), "has flexible rails", "[rails]"),
         (case.push_m != 0.0, "starts with a push", "push_m"),
     ] {
         if has {
             return Err(Failure::wrong_use(format!(
-                "--check: {} {what}, which the reference does not; give a case without {without}",
+                "--check: {} {what}, which the reference does not support; give a case without {without}",
                 case.name
             )));
         }
@@ -67,9 +67,9 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
         }
     };
     let whole = traced(1)?;
-    // Ticks so short that their one step is half as long as those inside a tick of the case.
+    // Ticks short enough that their single step is half as long as the steps inside a tick of the case.
     let half = traced((2.0 * case.step_s / whole.inner_step_s()).round() as u64)?;
-    bar.set_message("reference, a second or more for each second");
+    bar.set_message("reference, at least one second per simulated second");
     let solution = reference(case, &whole, TOLERANCE).map_err(failed)?;
     let deviations = whole.deviations(&solution);
     let is_within_bounds = deviations.is_within_bounds();
@@ -80,12 +80,12 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
         let looser = reference(case, &whole, 100.0 * TOLERANCE).map_err(failed)?;
         Some(looser.deviations(&solution))
     };
-    // Where even two references part by more than the bounds.
+    // Even two reference solutions differ by more than the bounds.
     let is_chaotic = parting
         .as_ref()
         .is_some_and(|parting| !parting.is_within_bounds());
     let over_seeds = if is_chaotic {
-        bar.set_message("both with other seeds, for their means");
+        bar.set_message("both with other seeds, to compare means");
         over_seeds(case).map_err(failed)?
     } else {
         None
@@ -117,7 +117,7 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
 fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
-        "{}: step of {:.0} us against the reference of tolerance {:e}, worst of all",
+        "{}: step of {:.0} us against the reference with tolerance {:e}, worst values",
         report.case,
         1e6 * report.step_s,
         report.reference_tolerance
@@ -150,7 +150,7 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     ];
     writeln!(
         out,
-        "\n{:<28} {:>9} {:>9} {:>9}  of",
+        "\n{:<28} {:>9} {:>9} {:>9}  in",
         "", "deviation", "allowed", "half step*"
     )?;
     for (what, factor, worst, half, bound) in rows {
@@ -163,12 +163,12 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             worst.of
         )?;
     }
-    writeln!(out, "* steps of half the length inside the ticks")?;
+    writeln!(out, "* with steps of half the length inside the ticks")?;
     if let Some(parting) = &report.parting {
         writeln!(
             out,
-            "\ntwo references, the second of tolerance {:e}, part by {:.4} %, {:.4} um, {:.4} kN, {:.4} %: where that is as much, \
-             the case is chaotic",
+            "\na second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %: differences as \
+             large as the deviations above mean that the case is chaotic",
             100.0 * report.reference_tolerance,
             1e2 * parting.acceleration.deviation,
             1e6 * parting.lateral_m.deviation,
@@ -180,8 +180,8 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         let [by_step, by_reference] = found.means;
         writeln!(
             out,
-            "over {} seeds of the irregularity the means of all indices differ by {:.1} standard errors at most (allowed {STANDARD_ERRORS}): {}, {by_step:.4} by \
-             the step and {by_reference:.4} by the reference",
+            "over {} seeds of the irregularity, the means of all indices differ by at most {:.1} standard errors \
+             (allowed {STANDARD_ERRORS}): {}, {by_step:.4} with the step and {by_reference:.4} with the reference",
             found.seeds, found.greatest, found.of
         )?;
     }

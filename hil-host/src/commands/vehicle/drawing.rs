@@ -1,9 +1,9 @@
-//! The vehicle from its side, its axles, bodies and dampers named.
+//! Side view of the vehicle with labelled axles, bodies and dampers.
 
 use dashpot_rail::vehicle::{Body, Element, Law, VehicleParameters};
 use maud::{Markup, html};
 
-/// Pixels of a metre.
+/// Pixels per metre.
 const SCALE: f64 = 44.0;
 const MARGIN: f64 = 30.0;
 /// Half the height of a frame between wheelsets, m.
@@ -11,7 +11,7 @@ const HALF_FRAME_M: f64 = 0.17;
 /// Height of the sheet above the rails, m.
 const SKY_M: f64 = 4.4;
 
-/// From metres, forward to the right, to pixels.
+/// Conversion from metres (forward is to the right) to pixels.
 struct Sheet {
     rear_m: f64,
     width: f64,
@@ -28,7 +28,7 @@ impl Sheet {
     }
 }
 
-/// Whether an end of an element is on a part of this name.
+/// True if an end of the element is attached to the part called `name`.
 fn is_on(element: &Element, name: &str) -> bool {
     element
         .ends
@@ -36,19 +36,19 @@ fn is_on(element: &Element, name: &str) -> bool {
         .any(|end| end.on.as_deref() == Some(name))
 }
 
-/// Least and greatest place of what is attached to a body, m.
+/// Returns the rearmost and foremost position of the elements attached to a body (m).
 fn reach(parameters: &VehicleParameters, body: &Body) -> [f64; 2] {
     let elements = parameters
         .elements
         .iter()
         .filter(|element| is_on(element, &body.name));
-    let places = elements.flat_map(|element| element.ends.iter().map(|end| end.at_m[0]));
-    places.fold([body.x_m, body.x_m], |[least, greatest], x| {
-        [least.min(x), greatest.max(x)]
+    let positions = elements.flat_map(|element| element.ends.iter().map(|end| end.at_m[0]));
+    positions.fold([body.x_m, body.x_m], |[min, max], x| {
+        [min.min(x), max.max(x)]
     })
 }
 
-/// Whether a body carries wheelsets, as a bogie does.
+/// True if the body carries wheelsets, as a bogie frame does.
 fn is_frame(parameters: &VehicleParameters, body: &Body) -> bool {
     let is_wheelset = |element: &Element| {
         let mut wheelsets = parameters.wheelsets.iter();
@@ -59,10 +59,11 @@ fn is_frame(parameters: &VehicleParameters, body: &Body) -> bool {
         && elements.any(|element| is_on(element, &body.name) && is_wheelset(element))
 }
 
-/// The vehicle seen from its right side, running to the right.
+/// Draws the vehicle from its right side, running to the right.
 pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
-    let places = parameters.wheelsets.iter().map(|wheelset| wheelset.x_m);
-    let [rear, front] = places.fold([0.0_f64; 2], |[rear, front], x| [rear.min(x), front.max(x)]);
+    let positions = parameters.wheelsets.iter().map(|wheelset| wheelset.x_m);
+    let [rear, front] =
+        positions.fold([0.0_f64; 2], |[rear, front], x| [rear.min(x), front.max(x)]);
     let sheet = Sheet {
         rear_m: rear - 2.2,
         width: SCALE * (front - rear + 4.4) + 2.0 * MARGIN,
@@ -99,7 +100,8 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
                 stroke="#263238" stroke-width="3" {}
             @for (number, wheelset) in parameters.wheelsets.iter().enumerate() {
                 @let (x, y) = (sheet.x(wheelset.x_m), sheet.y(wheelset.radius_m));
-                circle cx=(px(x)) cy=(px(y)) r=(px(SCALE * wheelset.radius_m)) fill="#fff" stroke="#455a64" stroke-width="3" {}
+                circle cx=(px(x)) cy=(px(y)) r=(px(SCALE * wheelset.radius_m))
+                    fill="#fff" stroke="#455a64" stroke-width="3" {}
                 text x=(px(x)) y=(px(y + 5.0)) text-anchor="middle" font-weight="bold" { (number + 1) }
                 text x=(px(x)) y=(px(sheet.y(-0.45))) text-anchor="middle" { (wheelset.name) }
             }
@@ -113,13 +115,15 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
                     circle cx=(px(sheet.x(at))) cy=(px(sheet.y(height + 0.25))) r="6" fill="#c62828" {}
                 }
             }
-            text x=(px(sheet.width - MARGIN)) y=(px(sheet.y(-0.95))) text-anchor="end" { "runs this way →" }
-            text x=(px(MARGIN)) y=(px(sheet.y(-0.95))) { "blue: vertical dampers, red: lateral and longitudinal ones" }
+            text x=(px(sheet.width - MARGIN)) y=(px(sheet.y(-0.95))) text-anchor="end" { "direction of travel →" }
+            text x=(px(MARGIN)) y=(px(sheet.y(-0.95))) {
+                "blue: vertical dampers; red: lateral and longitudinal dampers"
+            }
         }
     }
 }
 
-/// A tenth of a pixel.
+/// Formats a length to a tenth of a pixel.
 fn px(value: f64) -> String {
     format!("{value:.1}")
 }

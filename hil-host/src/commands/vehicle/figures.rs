@@ -11,7 +11,7 @@ use dashpot_report::plot::style::{BLUE_LINE, PALE, RED_LINE};
 use dashpot_study::verification::Forces;
 use dashpot_vehicle_run::signals::slug;
 
-/// All figures over time share their cursor.
+/// Group of figures over time, which share one cursor.
 const TIME: &str = "time";
 const HEIGHT: u32 = 300;
 
@@ -19,7 +19,7 @@ fn over_time(history: &History, signal: &str, factor: f64, name: &str, colour: R
     Curve::new(name, colour, history.over_time(signal, factor)).wide(5)
 }
 
-/// Accelerations of a body to the side and up and down.
+/// Lateral and vertical accelerations of a body.
 pub(super) fn accelerations(history: &History, body: &str) -> Figure {
     let one = |direction: &str, colour| {
         let signal = format!("{}_{direction}_acceleration_m_per_s2", slug(body));
@@ -33,7 +33,7 @@ pub(super) fn accelerations(history: &History, body: &str) -> Figure {
     }
 }
 
-/// A signal of every wheelset, the leading one darkest.
+/// One signal of every wheelset; the leading wheelset is darkest.
 fn of_wheelsets(
     history: &History,
     wheelsets: &[String],
@@ -43,7 +43,7 @@ fn of_wheelsets(
 ) -> Panel {
     let mut colours = ramp(wheelsets.len());
     colours.reverse();
-    // The leading one on top.
+    // Draw the leading wheelset on top.
     let curves = wheelsets.iter().zip(colours).rev().map(|(name, colour)| {
         over_time(
             history,
@@ -56,7 +56,7 @@ fn of_wheelsets(
     panel("time, s", y, curves.collect())
 }
 
-/// Two signals of every wheelset, each with its factor and what its axis says.
+/// Two signals of every wheelset, each with its factor and axis label.
 fn of_both(history: &History, names: &[String], signals: [(&str, f64, &str); 2]) -> Figure {
     let panels = signals.map(|(what, factor, y)| of_wheelsets(history, names, what, factor, y));
     Figure {
@@ -72,7 +72,7 @@ pub(super) fn wheelsets(history: &History, names: &[String]) -> Figure {
     of_both(history, names, [lateral, ("yaw_rad", 1e3, "yaw, mrad")])
 }
 
-/// Loads of the wheels, left and right.
+/// Vertical forces of the left and right wheels.
 pub(super) fn loads(history: &History, names: &[String]) -> Figure {
     let left = ("left_load_n", 1e-3, "Q left, kN");
     of_both(
@@ -82,7 +82,7 @@ pub(super) fn loads(history: &History, names: &[String]) -> Figure {
     )
 }
 
-/// `Y/Q` of the wheels, left and right.
+/// `Y/Q` of the left and right wheels.
 pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
     let left = ("left_derailment", 1.0, "Y/Q left");
     of_both(
@@ -92,7 +92,7 @@ pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
     )
 }
 
-/// Force of a damper outside and inside, and the difference.
+/// Force of an external damper, of the same damper simulated internally, and their difference.
 pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
     let over_time = |values: &mut dyn Iterator<Item = f64>, name: &str, colour| {
         Curve::new(name, colour, thinned(values, step_s))
@@ -105,13 +105,13 @@ pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
     let both = vec![
         over_time(
             &mut inside_n.iter().map(|force| force * 1e-3),
-            "inside",
+            "internal",
             PALE,
         )
         .wide(16),
         over_time(
             &mut outside_n.iter().map(|force| force * 1e-3),
-            "outside",
+            "external",
             BLUE_LINE,
         )
         .wide(5),
@@ -121,14 +121,14 @@ pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
     Figure {
         panels: vec![
             panel("time, s", "force, kN", both),
-            panel("time, s", "outside less inside, N", vec![difference]),
+            panel("time, s", "external minus internal, N", vec![difference]),
         ],
         height: HEIGHT,
         shares: Some(TIME),
     }
 }
 
-/// Force over displacement of dampers, two a panel.
+/// Force over displacement of dampers, two dampers per panel.
 pub(super) fn loops(history: &History, dampers: &[&str]) -> Figure {
     let colours = [BLUE_LINE, RED_LINE];
     let panels = dampers.chunks(2).map(|pair| {

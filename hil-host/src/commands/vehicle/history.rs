@@ -1,15 +1,15 @@
-//! What a run's page shows of its ticks, of bounded size however long the run is.
+//! History of a run for its page, with bounded memory for runs of any length.
 
 use dashpot_report::plot::envelope::{Envelope, time_s};
 use dashpot_vehicle_run::signals::Signal;
 
-/// Rows kept at most; of a longer run every second, third, ...
-const MOST: u64 = 12_000;
+/// Maximum number of rows kept. A longer run keeps every second, third, ... row.
+const MAX_ROWS: u64 = 12_000;
 
-/// Signals over time as envelopes, so that no peak vanishes; over one another as rows.
+/// Signals of a run: envelopes over time, which keep every peak, and rows for plots of one signal over another.
 pub(super) struct History {
     signals: Vec<Signal>,
-    /// Of each signal, by ticks.
+    /// Envelope of each signal over ticks.
     envelopes: Vec<Envelope>,
     step_s: f64,
     stride: u64,
@@ -18,19 +18,19 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Of a run of so many ticks.
+    /// Creates an empty history for a run of `ticks` ticks.
     pub(super) fn new(signals: Vec<Signal>, ticks: u64, step_s: f64) -> Self {
         Self {
             envelopes: signals.iter().map(|_| Envelope::default()).collect(),
             signals,
             step_s,
-            stride: ticks.div_ceil(MOST).max(1),
+            stride: ticks.div_ceil(MAX_ROWS).max(1),
             seen: 0,
             rows: Vec::new(),
         }
     }
 
-    /// Adds the row of a tick.
+    /// Adds the row of one tick.
     pub(super) fn add(&mut self, row: &[f64]) {
         for (envelope, value) in self.envelopes.iter_mut().zip(row) {
             envelope.record(self.seen, *value);
@@ -45,7 +45,7 @@ impl History {
         self.signals.iter().position(|signal| signal.name() == name)
     }
 
-    /// Points of a signal over another, each times a factor; none where there is no such signal.
+    /// Returns points of signal `y` over signal `x`, each scaled by its factor; empty for an unknown signal.
     pub(super) fn points(&self, [x, y]: [&str; 2], [by_x, by_y]: [f64; 2]) -> Vec<(f64, f64)> {
         let (Some(x), Some(y)) = (self.number(x), self.number(y)) else {
             return Vec::new();
@@ -56,8 +56,8 @@ impl History {
             .collect()
     }
 
-    /// Points of a signal times a factor over time (s), the lowest and highest of each stretch of ticks; none where there is no
-    /// such signal.
+    /// Returns points of a scaled signal over time (s): the minimum and maximum of each group of ticks. Empty for an
+    /// unknown signal.
     pub(super) fn over_time(&self, name: &str, factor: f64) -> Vec<(f64, f64)> {
         let envelope = self.number(name).map(|number| &self.envelopes[number]);
         let samples = envelope.into_iter().flat_map(Envelope::samples);

@@ -1,4 +1,4 @@
-//! `dashpot vehicle`: a vehicle on a track, its histories, indices and page.
+//! `dashpot vehicle`: simulates a vehicle on a track and writes histories, indices and a page.
 
 mod check;
 mod drawing;
@@ -34,7 +34,7 @@ use dashpot_vehicle_run::{
     Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals,
 };
 
-/// A vehicle on a track: time histories, indices and a page.
+/// Simulate a vehicle on a track: time histories, indices and a page.
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
@@ -47,61 +47,66 @@ use dashpot_vehicle_run::{
   dashpot vehicle --case curve-r600 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --realtime
   dashpot vehicle --case straight-180 --outside \"rear vertical damper 2=force.csv\"
 
-Written into the folder of --output: history.csv, a row a tick, with --parquet history.parquet too; spectra.csv, power spectral densities at
-the ride points and of the leading wheels' Y/Q; indices.json; report.html, a page to send.
-Displacements are from where the vehicle stands, relative to the track, to the right and down positive; Q is down on the rail, Y towards
-the middle of the track. Exit code 1 and the reason when the vehicle derails, overturns or diverges, a wheel load passes 50 times that at
-standstill, the run is interrupted, or a link to a damper outside is lost: what was computed is kept. A wheel load over 10 times that at
-standstill, and a wheel without load for more than 50 ms, are warnings with time and place.
+Files in the --output folder: history.csv, one row per tick (with --parquet also history.parquet); spectra.csv, power
+spectral densities at the ride points and of the leading wheels' Y/Q; indices.json; report.html, a self-contained page.
 
---realtime steps on a thread of its own and writes on another; everything between two ticks is timed. Exit code 1 when more than one
-deadline in a thousand was missed.
+Displacements are relative to the position at standstill in the track frame, positive to the right and down. Q acts
+down on the rail, Y towards the track centre. The exit code is 1 if the vehicle derails, overturns or diverges, if a
+wheel load exceeds 50 times the static load, if the run is interrupted, or if the link to an external damper is lost;
+the results up to then are kept. A wheel load above 10 times the static load and a wheel unloaded for more than 50 ms
+are reported as warnings with time and position.
 
-A damper outside is given its displacement at the end of a tick; the force that it answers acts at the end of the next, one tick late. The
-same run with all dampers inside is computed after it, and the difference told. A recorded force acts at its time; its file must last as long as
-the run."
+--realtime steps on one thread and writes on another; all work of a tick is timed. The exit code is 1 if more than one
+deadline in a thousand is missed.
+
+--outside sends a damper's displacement at the end of a tick; the returned force acts at the end of the next tick, one
+tick late. The run is then repeated with all dampers simulated internally, and the difference is reported. A recorded
+force is applied at its own time; the recording must cover the whole run."
 )]
 pub struct VehicleArguments {
     #[command(flatten)]
     case: CaseArguments,
-    /// Folder that results are written to.
+    /// Output folder.
     #[arg(long, default_value = "dashpot-vehicle", value_name = "FOLDER")]
     output: PathBuf,
-    /// Writes no page.
+    /// Do not write the page.
     #[arg(long)]
     no_page: bool,
-    /// Writes history.parquet too, the columns of history.csv as float64; only in a build with the feature `parquet`.
+    /// Also write history.parquet, with the columns of history.csv as float64. Needs a build with the feature
+    /// `parquet`.
     #[arg(long)]
     parquet: bool,
-    /// Holds the run against the reference solution, and fails where it is out of bounds; takes some hundred times as long.
+    /// Compare the run with the reference solution and fail if it is out of bounds. Takes about a hundred times as
+    /// long.
     #[arg(long, conflicts_with = "realtime")]
     check: bool,
-    /// Runs in real ticks and reports missed deadlines; exit code 1 when more than one in a thousand was missed.
+    /// Run in real time and report missed deadlines; exit code 1 if more than one in a thousand is missed.
     #[arg(long)]
     realtime: bool,
     #[command(flatten)]
     options: RealtimeArguments,
     #[command(flatten)]
     outside: OutsideArguments,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
-/// Ticks between two updates of the progress bar.
-const TICKS_A_LOOK: u64 = 256;
+/// Number of ticks between updates of the progress bar.
+const TICKS_PER_UPDATE: u64 = 256;
 
 /// Runs the command.
 ///
 /// # Errors
-/// A case that is refused; a folder that cannot be written; a run that does not come to its end or whose ticks are late; a check that fails.
+/// The case is invalid, the folder cannot be written, the run does not complete or misses too many deadlines, or the
+/// check fails.
 pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
     if arguments.parquet && !cfg!(feature = "parquet") {
         return Err(Failure::wrong_use(
-            "--parquet is left out of this build; build dashpot-hil with the feature `parquet`",
+            "--parquet is not available in this build; build dashpot-hil with the feature `parquet`",
         ));
     }
     let case = arguments.case.case()?;
@@ -165,29 +170,28 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     }
 }
 
-/// Says before the run, which may take long, that it will have no indices of ride. The report goes to standard
-/// output, this beside it.
+/// Prints a note to standard error, before a possibly long run, if the run will have no ride indices.
 fn note_missing_ride(case: &Case) {
     let Err(reason) = check_ride(case) else {
         return;
     };
-    let way_on = match reason {
-        NoRide::Short { .. } => "--duration-s makes it longer",
-        NoRide::Step { .. } => "--step-us sets another step",
+    let remedy = match reason {
+        NoRide::Short { .. } => "use --duration-s for a longer run",
+        NoRide::Step { .. } => "use --step-us for another step",
     };
     let note = format!(
-        "note: {reason}; the report will have no Sperling's index and no mean comfort; {way_on}\n"
+        "note: {reason}; the report will have no Sperling's index and no mean comfort; {remedy}\n"
     );
     let _ = io::stderr().lock().write_all(note.as_bytes());
 }
 
-/// Records that a tick may be ahead of the file that is written: 2 s at 1 ms, some 20 MB for a locomotive.
+/// Capacity of the buffer between stepping and writing, in ticks: 2 s at 1 ms, about 20 MB for a locomotive.
 const RECORDS: usize = 2048;
 
-/// Whether real ticks can be had as asked for: a thread that ends at once becomes real-time.
+/// Checks that the real-time options can be applied, on a short-lived thread.
 ///
 /// # Errors
-/// As [`Pacer::new`].
+/// See [`Pacer::new`].
 fn check_realtime(step_s: f64, options: RealtimeOptions) -> Outcome<()> {
     let tried = std::thread::spawn(move || Pacer::new(step_s, &options).map(drop));
     match tried.join() {
@@ -196,7 +200,8 @@ fn check_realtime(step_s: f64, options: RealtimeOptions) -> Outcome<()> {
     }
 }
 
-/// Runs to the end on a thread of its own, and writes a row for each tick on this one: a real-time thread has no report to make.
+/// Runs the case on a separate thread and writes one row per tick on this one, so that the real-time thread does no
+/// I/O.
 fn follow(
     case: &Case,
     run: &mut Run,
@@ -224,9 +229,9 @@ fn follow(
                 .name("ticks".into())
                 .spawn_scoped(scope, || step_through(case, run, exchange, realtime, giver));
             let stepping = stepping.map_err(|error| {
-                Failure::new(format!("the thread of the ticks cannot start: {error}"))
+                Failure::new(format!("cannot start the stepping thread: {error}"))
             })?;
-            // Dropped on an error, which ends the other thread.
+            // Dropped on an error, which stops the stepping thread.
             let taker = taker;
             let mut written = Ok(());
             while written.is_ok()
@@ -244,14 +249,14 @@ fn follow(
                     }
                 })
             {
-                if ticks.is_multiple_of(TICKS_A_LOOK) {
+                if ticks.is_multiple_of(TICKS_PER_UPDATE) {
                     bar.set_position(ticks);
                 }
             }
             drop(taker);
             let joined = stepping.join();
             written.map_err(failed)?;
-            joined.map_err(|_| Failure::new("the thread of the ticks failed"))?
+            joined.map_err(|_| Failure::new("the stepping thread failed"))?
         })?;
         rows.flush().map_err(|error| failed(error.into()))?;
         Ok(driven)
@@ -262,7 +267,7 @@ fn follow(
     Ok((history, report))
 }
 
-/// Takes every tick; on the thread that becomes real-time.
+/// Runs every tick, on the thread that becomes real-time.
 fn step_through(
     case: &Case,
     run: &mut Run,

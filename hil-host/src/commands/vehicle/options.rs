@@ -1,4 +1,4 @@
-//! Options that make a case.
+//! Options that define a case.
 
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::{CASES, Case, CaseParts};
@@ -6,44 +6,57 @@ use dashpot_files::track::TRACKS;
 use dashpot_files::vehicle::{Replacement, VEHICLES};
 use dashpot_vehicle_run::VehicleRunError;
 
-/// The case, by its name or by its parts; a part that is given changes that of the case.
+/// The case, by name or by its parts; a given part overrides that of the case.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct CaseArguments {
-    /// A case.
-    #[arg(long, help = format!("Case: the name of one that ships ({}) or a TOML file", names(&CASES)), value_name = "CASE")]
+    /// Case.
+    #[arg(
+        long,
+        help = format!("Case: built-in name ({}) or TOML file", names(&CASES)),
+        value_name = "CASE"
+    )]
     case: Option<String>,
-    /// A vehicle.
-    #[arg(long, help = format!("Vehicle: the name of one that ships ({}) or a TOML file", names(&VEHICLES)), value_name = "VEHICLE")]
+    /// Vehicle.
+    #[arg(
+        long,
+        help = format!("Vehicle: built-in name ({}) or TOML file", names(&VEHICLES)),
+        value_name = "VEHICLE"
+    )]
     vehicle: Option<String>,
-    /// A track.
-    #[arg(long, help = format!("Track: the name of one that ships ({}) or a TOML file", names(&TRACKS)), value_name = "TRACK")]
+    /// Track.
+    #[arg(
+        long,
+        help = format!("Track: built-in name ({}) or TOML file", names(&TRACKS)),
+        value_name = "TRACK"
+    )]
     track: Option<String>,
     /// Speed, km/h.
     #[arg(long, value_name = "KM/H")]
     speed_km_h: Option<f64>,
-    /// Time that is computed, s.
+    /// Simulated time, s.
     #[arg(long, value_name = "S")]
     duration_s: Option<f64>,
-    /// Distance along the track at which the vehicle's middle starts, m.
+    /// Initial position of the vehicle's centre along the track, m.
     #[arg(long, value_name = "M")]
     start_m: Option<f64>,
-    /// Friction coefficient of wheel and rail.
+    /// Friction coefficient between wheel and rail.
     #[arg(long, value_name = "MU")]
     friction: Option<f64>,
-    /// Damping of wheel on rail along the normal over the load (Hunt and Crossley), s/m.
+    /// Normal contact damping per load (Hunt and Crossley), s/m.
     #[arg(long, value_name = "S/M")]
     normal_damping_s_per_m: Option<f64>,
     /// Step, us.
     #[arg(long, value_name = "US")]
     step_us: Option<f64>,
-    /// By how much bogies and wheelsets stand to the right at the start, m.
+    /// Initial lateral offset of bogies and wheelsets to the right, m.
     #[arg(long, value_name = "M")]
     push_m: Option<f64>,
-    /// Replaces dampers: those along vertical, lateral or longitudinal, or of a name, by a preset or file; may be given several times.
+    /// Replace dampers by a preset or file: all vertical, lateral or longitudinal ones, or those of one name. May be
+    /// repeated.
     #[arg(long = "damper", value_name = "WHICH=DAMPER")]
     dampers: Vec<Replacement>,
-    /// Changes a value of the vehicle's file: part.key=value, such as body.mass_kg=70e3, or of its dampers: dampers.table.key=value,
-    /// such as vertical.mount.clearance_m=2e-3; may be given several times.
+    /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3, or a value of its dampers:
+    /// dampers.table.key=value, such as vertical.mount.clearance_m=2e-3. May be repeated.
     #[arg(long = "set", value_name = "PART.KEY=VALUE")]
     overrides: Vec<String>,
 }
@@ -54,10 +67,11 @@ fn names(shipped: &[(&str, &str)]) -> String {
 }
 
 impl CaseArguments {
-    /// The case that the options make.
+    /// Builds the case from the options.
     ///
     /// # Errors
-    /// Neither a case nor vehicle, track and speed; what [`CaseOptions::case`](dashpot_files::case::CaseOptions::case) refuses.
+    /// Neither a case nor a track with a speed is given, or
+    /// [`CaseOptions::case`](dashpot_files::case::CaseOptions::case) fails.
     pub(super) fn case(&self) -> Outcome<Case> {
         let parts = CaseParts {
             case: self.case.as_deref(),
@@ -85,7 +99,7 @@ impl CaseArguments {
     }
 }
 
-/// What a case's vehicle or track is refused for.
+/// Reports an invalid vehicle or track of a case.
 pub(super) fn refused(case: &Case, error: &VehicleRunError) -> Failure {
     Failure::new(format!("{}: {error}", case.name))
 }

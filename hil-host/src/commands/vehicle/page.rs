@@ -1,4 +1,4 @@
-//! The page of a run.
+//! HTML page of a run.
 
 use maud::{Markup, html};
 
@@ -13,10 +13,10 @@ use dashpot_study::verification::Forces;
 use dashpot_vehicle_run::spectra::Spectrum;
 use dashpot_vehicle_run::{Ending, Indices, RideIndices, Run};
 
-/// Dampers whose loops share a figure.
+/// Number of dampers whose loops share a figure.
 const LOOPS: usize = 4;
 
-/// The run as HTML.
+/// Returns the run as HTML.
 ///
 /// # Errors
 /// A figure cannot be drawn.
@@ -40,11 +40,11 @@ pub(super) fn write(
             (format!("{:.0}", 1e6 * report.step_s)) " µs."
         }
         @if report.ending != Ending::Completed {
-            p { strong { "The run did not come to its end: " (report.ending) "." } }
+            p { strong { "The run did not complete: " (report.ending) "." } }
         }
         @if !report.warnings.is_empty() {
             div.note {
-                p { strong { "Results beyond what the model means:" } }
+                p { strong { "Results outside the validity of the model:" } }
                 @for found in &report.warnings { p { (found.message) "." } }
             }
         }
@@ -56,32 +56,35 @@ pub(super) fn write(
         @if let Some(body) = bodies.first() {
             h2 { "Accelerations of the " (body) }
             (figure(&figures::accelerations(history, body), &html! {
-                "At the centre of gravity, in the track's axes, as an accelerometer there has them: right and down positive."
+                "At the centre of gravity, in the track frame, as an accelerometer there would measure them; positive "
+                "to the right and down."
             })?)
         }
         h2 { "Wheelsets" }
         (figure(&figures::wheelsets(history, wheelsets), &html! {
-            "Relative to the nominal track: right and nose to the right positive."
+            "Relative to the nominal track; positive to the right and for yaw to the right."
         })?)
         h2 { "Wheel loads" }
-        (figure(&figures::loads(history, wheelsets), &html! { "Vertical force Q of the wheels on the rails." })?)
+        (figure(&figures::loads(history, wheelsets), &html! { "Vertical force Q of each wheel on the rail." })?)
         h2 { "Derailment coefficient" }
         (figure(&figures::derailment(history, wheelsets), &html! {
-            "Lateral over vertical force, positive where the rail pushes the wheel to the middle of the track."
+            "Lateral over vertical force, positive if the rail pushes the wheel towards the track centre."
         })?)
         (spectra::section(densities)?)
         @if !dampers.is_empty() {
             h2 { "Dampers" }
             @for some in dampers.chunks(LOOPS) {
-                (figure(&figures::loops(history, some), &html! { "Extension and its resistance are positive." })?)
+                (figure(&figures::loops(history, some), &html! {
+                    "Extension and the force that resists it are positive."
+                })?)
             }
         }
         @if let Some(outside) = &report.outside {
-            h2 { "Dampers outside" }
+            h2 { "External dampers" }
             @for forces in forces {
                 h3 { (forces.damper) }
                 (figure(&figures::outside(forces, report.step_s), &html! {
-                    "Inside: in the same run with all dampers inside."
+                    "Internal: the same run with all dampers simulated internally."
                 })?)
             }
             div.wide { table {
@@ -91,7 +94,8 @@ pub(super) fn write(
         h2 { "Figures" }
         (tables(report))
         (footer(&html! {
-            "Curves over time are thinned to the lowest and highest value of each stretch, so every peak is shown; history.csv has every tick. Dragging enlarges, a double click shows all."
+            "Curves over time show the minimum and maximum of each group of ticks, so every peak is visible; "
+            "history.csv has every tick. Drag to zoom, double-click to reset."
         }))
     };
     Ok(document(&format!("Dashpot: {}", case.name), &body))
@@ -121,7 +125,7 @@ fn headline(report: &Report) -> Markup {
             facts.push((
                 html! { (format!("{:.2}", wheel.derailment_greatest)) },
                 format!(
-                    "greatest Y/Q, mean over 2 m: {}, {}",
+                    "maximum Y/Q, mean over 2 m: {}, {}",
                     wheelset.wheelset, wheel.side
                 ),
             ));
@@ -131,7 +135,7 @@ fn headline(report: &Report) -> Markup {
         {
             facts.push((
                 html! { (format!("{:.0}", 1e-3 * wheel.load_least_n)) " kN" },
-                format!("least wheel load: {}, {}", wheelset.wheelset, wheel.side),
+                format!("minimum wheel load: {}, {}", wheelset.wheelset, wheel.side),
             ));
         }
     }
@@ -150,7 +154,7 @@ fn tables(report: &Report) -> Markup {
         @match &report.indices {
             Some(indices) => {
                 div.wide { table {
-                    tr { th { "m/s²" } th { "lateral rms" } th { "greatest" } th { "vertical rms" } th { "greatest" } }
+                    tr { th { "m/s²" } th { "lateral rms" } th { "max" } th { "vertical rms" } th { "max" } }
                     @for body in &indices.bodies {
                         tr {
                             td.text { (body.body) }
@@ -161,7 +165,7 @@ fn tables(report: &Report) -> Markup {
                         }
                     }
                     tr {
-                        td.text { "unbalanced, of the layout" }
+                        td.text { "unbalanced, from the layout" }
                         td { (format!("{:.3}", indices.unbalanced.rms_m_per_s2)) }
                         td { (format!("{:.2}", indices.unbalanced.greatest_m_per_s2)) }
                         td {} td {}
@@ -196,7 +200,9 @@ fn tables(report: &Report) -> Markup {
                         tr {
                             td.text { (wheelset.wheelset) }
                             @for wheel in &wheelset.wheels {
-                                td { (format!("{:.0} to {:.0}", 1e-3 * wheel.load_least_n, 1e-3 * wheel.load_greatest_n)) }
+                                td {
+                                    (format!("{:.0} to {:.0}", 1e-3 * wheel.load_least_n, 1e-3 * wheel.load_greatest_n))
+                                }
                             }
                             @for wheel in &wheelset.wheels {
                                 td { (format!("{:.2}", wheel.derailment_greatest)) }
@@ -206,20 +212,22 @@ fn tables(report: &Report) -> Markup {
                         }
                     }
                 } }
-                p { "Y/Q and lateral force: greatest mean over 2 m. Wear number: mean power of creep over the speed." }
+                p {
+                    "Y/Q and lateral force: maximum of the mean over 2 m. Wear number: mean creep power over the speed."
+                }
                 (limits(indices))
             }
-            None => { p { "No figures are given of a run that ended before its time." } }
+            None => { p { "A run that did not complete has no indices." } }
         }
     }
 }
 
-/// Of what the ride is.
+/// Caption explaining which windows the ride indices cover.
 fn ride_note(ride: &RideIndices) -> String {
     let ([from, to], [low, high]) = (ride.sperling_band_hz, ride.comfort_band_hz);
     format!(
-        "Of {}. Sperling's index: {from} to {to} Hz, mean of the windows. N_MV, mean comfort of EN 12299: {low} to {high} Hz, 95th percentile of \
-         the windows, along the track nothing accelerates; the standard takes five minutes.",
+        "From {}. Sperling's index: {from} to {to} Hz, mean of the windows. N_MV, mean comfort of EN 12299: {low} to \
+         {high} Hz, 95th percentile of the windows, without longitudinal acceleration; the standard uses five minutes.",
         counted_windows(ride)
     )
 }
@@ -229,8 +237,8 @@ fn limits(indices: &Indices) -> Markup {
     html! {
         div.wide { table {
             tr {
-                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "of Nadal's, %" }
-                th { "beyond, m" } th { "of Prud'homme's, %" } th { "wear rms, N" } th { "greatest" }
+                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "Nadal, %" }
+                th { "beyond, m" } th { "Prud'homme, %" } th { "wear rms, N" } th { "max" }
             }
             @for wheelset in &indices.wheelsets {
                 @let worse = Limits::of(wheelset);
@@ -248,10 +256,12 @@ fn limits(indices: &Indices) -> Markup {
             }
         } }
         p {
-            "Unloading from the load at standstill, at once and of the mean over 2 m; Y/Q of Nadal's limit, mean over 2 m, and the longest distance beyond it; \
-             lateral force of Prud'homme's limit, mean over 2 m. Nadal's is "
-            (format!("{:.2}", indices.nadal.limit)) " for a flange of " (format!("{:.1}", indices.nadal.flange_angle_rad.to_degrees()))
-            "° and friction " (indices.nadal.friction) ", Prud'homme's 10 kN and a third of the axle's load at standstill."
+            "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Y/Q as % of Nadal's "
+            "limit, mean over 2 m, and the longest distance beyond it. Lateral force as % of Prud'homme's limit, mean "
+            "over 2 m. Nadal's limit is "
+            (format!("{:.2}", indices.nadal.limit)) " for a flange of "
+            (format!("{:.1}", indices.nadal.flange_angle_rad.to_degrees()))
+            "° and friction " (indices.nadal.friction) "; Prud'homme's is 10 kN plus a third of the static axle load."
         }
     }
 }

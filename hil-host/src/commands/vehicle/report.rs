@@ -1,4 +1,4 @@
-//! What is told of a run.
+//! Report of a run.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::span;
 use dashpot_vehicle_run::{Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices};
 
-/// What is told of a run.
+/// Report of a run.
 #[derive(Serialize)]
 pub(super) struct Report {
     pub(super) case: String,
@@ -27,24 +27,24 @@ pub(super) struct Report {
     pub(super) step_s: f64,
     pub(super) ticks: u64,
     pub(super) ending: Ending,
-    /// What the run computed beyond what the model means, with time and place.
+    /// Results outside the validity of the model, with time and position.
     pub(super) warnings: Vec<Found>,
-    /// `None` where [`Ending::has_indices`] is false.
+    /// `None` if [`Ending::has_indices`] is false.
     pub(super) indices: Option<Indices>,
-    /// Mean time of a tick's computation, s.
+    /// Mean computing time per tick, s.
     pub(super) mean_tick_s: f64,
-    /// Of a run in real ticks.
+    /// Timing of a real-time run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) realtime: Option<Paced>,
     #[serde(skip)]
     pub(super) pacing: Option<PacingReport>,
-    /// Where some are.
+    /// `None` if all dampers are simulated internally.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) outside: Option<OutsideReport>,
     pub(super) files: Vec<PathBuf>,
 }
 
-/// A warning and its words.
+/// A warning with its message.
 #[derive(Serialize)]
 pub(super) struct Found {
     #[serde(flatten)]
@@ -65,7 +65,7 @@ impl Report {
             message: warning.to_string(),
             warning,
         };
-        let paced = |pacing| Paced::of_report(pacing, driven.waits);
+        let paced = |pacing| Paced::with_waits(pacing, driven.waits);
         Self {
             case: case.name.clone(),
             vehicle: case.vehicle.name.clone(),
@@ -109,7 +109,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(out)?;
         writeln!(
             out,
-            "acceleration, m/s^2        lateral rms  greatest  vertical rms  greatest"
+            "acceleration, m/s^2        lateral rms       max  vertical rms       max"
         )?;
         for body in &indices.bodies {
             writeln!(
@@ -124,7 +124,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         }
         writeln!(
             out,
-            "unbalanced, of the layout  {:11.3} {:9.2}",
+            "unbalanced, from layout    {:11.3} {:9.2}",
             indices.unbalanced.rms_m_per_s2, indices.unbalanced.greatest_m_per_s2
         )?;
         print_ride(out, &indices.ride)?;
@@ -151,7 +151,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 wheelset.wear_number_n
             )?;
         }
-        writeln!(out, "Y/Q and lateral force: greatest mean over 2 m")?;
+        writeln!(out, "Y/Q and lateral force: maximum of the mean over 2 m")?;
         print_limits(out, indices)?;
     }
     if let Some(realtime) = &report.realtime {
@@ -167,18 +167,18 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     Ok(())
 }
 
-/// Of a run that has a window.
+/// Prints ride indices, if the run is long enough for a window.
 fn print_ride(out: &mut dyn Write, all: &[RideIndices]) -> io::Result<()> {
-    let told = all.iter().filter_map(|ride| {
+    let complete = all.iter().filter_map(|ride| {
         let sperling = (ride.sperling_lateral?, ride.sperling_vertical?);
         Some((ride, sperling, ride.mean_comfort?))
     });
-    for (number, (ride, (lateral, vertical), comfort)) in told.enumerate() {
+    for (number, (ride, (lateral, vertical), comfort)) in complete.enumerate() {
         if number == 0 {
             let [from, to] = ride.sperling_band_hz;
             writeln!(
                 out,
-                "\nride in {}, Sperling's index of {from} to {to} Hz and mean comfort of EN 12299",
+                "\nride in {}: Sperling's index from {from} to {to} Hz, and mean comfort of EN 12299",
                 counted_windows(ride)
             )?;
             writeln!(
@@ -195,16 +195,16 @@ fn print_ride(out: &mut dyn Write, all: &[RideIndices]) -> io::Result<()> {
     Ok(())
 }
 
-/// The windows of a ride, in words.
+/// Formats the number and length of the windows.
 pub(super) fn counted_windows(ride: &RideIndices) -> String {
     format!("{} of {} s", counted(ride.windows, "window"), ride.window_s)
 }
 
-/// Forces against their limits.
+/// Prints forces relative to their limits.
 fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     writeln!(
         out,
-        "\n%, worse wheel             unloaded  mean  lifted  of Nadal's  of Prud'homme's  wear rms, N  greatest"
+        "\n%, worse wheel             unloaded  mean  lifted       Nadal       Prud'homme  wear rms, N       max"
     )?;
     for wheelset in &indices.wheelsets {
         let limits = Limits::of(wheelset);
@@ -223,15 +223,16 @@ fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     }
     writeln!(
         out,
-        "unloaded at once and in the mean over 2 m, from the load at standstill; Y/Q of Nadal's limit, {:.2} for a flange of {:.1} degrees\n\
-         and friction {}; lateral force of Prud'homme's for the load at standstill",
+        "unloading relative to the static load: instantaneous, and of the mean over 2 m; Y/Q as % of Nadal's limit,\n\
+         {:.2} for a flange of {:.1} degrees and friction {}; lateral force as % of Prud'homme's limit for the \
+         static load",
         indices.nadal.limit,
         indices.nadal.flange_angle_rad.to_degrees(),
         indices.nadal.friction
     )
 }
 
-/// The worse of both wheels.
+/// Values of the worse of both wheels.
 pub(super) struct Limits {
     pub(super) unloading: Option<f64>,
     pub(super) unloading_of_mean: Option<f64>,
@@ -243,22 +244,22 @@ pub(super) struct Limits {
 impl Limits {
     pub(super) fn of(wheelset: &WheelsetIndices) -> Self {
         let wheels = &wheelset.wheels;
-        let greatest = |of: &dyn Fn(&WheelIndices) -> Option<f64>| {
-            wheels.iter().filter_map(of).reduce(f64::max)
+        let max = |value: &dyn Fn(&WheelIndices) -> Option<f64>| {
+            wheels.iter().filter_map(value).reduce(f64::max)
         };
-        let greatest_or_none =
-            |of: &dyn Fn(&WheelIndices) -> f64| greatest(&|wheel| Some(of(wheel))).unwrap_or(0.0);
+        let max_or_zero =
+            |value: &dyn Fn(&WheelIndices) -> f64| max(&|wheel| Some(value(wheel))).unwrap_or(0.0);
         Self {
-            unloading: greatest(&|wheel| wheel.unloading_greatest),
-            unloading_of_mean: greatest(&|wheel| wheel.unloading_of_mean_greatest),
-            lifted_share: greatest_or_none(&|wheel| wheel.lifted_share),
-            over_nadal: greatest_or_none(&|wheel| wheel.derailment_over_nadal),
-            longest_over_nadal_m: greatest_or_none(&|wheel| wheel.longest_over_nadal_m),
+            unloading: max(&|wheel| wheel.unloading_greatest),
+            unloading_of_mean: max(&|wheel| wheel.unloading_of_mean_greatest),
+            lifted_share: max_or_zero(&|wheel| wheel.lifted_share),
+            over_nadal: max_or_zero(&|wheel| wheel.derailment_over_nadal),
+            longest_over_nadal_m: max_or_zero(&|wheel| wheel.longest_over_nadal_m),
         }
     }
 }
 
-/// In whole percent.
+/// Formats a part in whole percent.
 pub(super) fn percent(part: Option<f64>) -> String {
     part.map_or_else(|| "-".into(), |part| format!("{:.0}", 1e2 * part))
 }

@@ -1,4 +1,4 @@
-//! Spectra of a run: spectra.csv and their figures.
+//! Spectra of a run: spectra.csv and its figures.
 
 use std::path::Path;
 
@@ -14,10 +14,10 @@ use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::sheet::{Panel, Scale};
 use dashpot_vehicle_run::spectra::{SHOWN_HZ, Spectrum, WINDOW_S, signals};
 
-/// Spectra of a case that has not run.
+/// Creates empty spectra for a case.
 ///
 /// # Errors
-/// A step that there are no spectra for.
+/// The step does not allow spectra.
 pub(super) fn of_case(case: &Case) -> Outcome<Vec<Spectrum>> {
     let signals = signals(&case.vehicle).into_iter();
     let spectra = signals.map(|signal| Spectrum::new(signal, case.step_s));
@@ -26,10 +26,10 @@ pub(super) fn of_case(case: &Case) -> Outcome<Vec<Spectrum>> {
         .map_err(|error| Failure::new(error.to_string()))
 }
 
-/// Adds the history at `from`: it is read once the run is over, so that no tick has to wait for a transform.
+/// Adds the history at `from`. It is read after the run, so that no tick waits for a transform.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// The file cannot be read.
 pub(super) fn add_history(spectra: &mut [Spectrum], from: &Path) -> Outcome<()> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
@@ -47,10 +47,10 @@ pub(super) fn add_history(spectra: &mut [Spectrum], from: &Path) -> Outcome<()> 
     Ok(())
 }
 
-/// Writes a row for each frequency; none where the run has no spectra.
+/// Writes one row per frequency.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// The file cannot be written.
 pub(super) fn write(spectra: &[Spectrum], to: &Path) -> Outcome<()> {
     let densities: Vec<_> = spectra.iter().map(Spectrum::density).collect();
     write_whole::<_, Failure>(to, |file| {
@@ -62,30 +62,33 @@ pub(super) fn write(spectra: &[Spectrum], to: &Path) -> Outcome<()> {
         let lines = densities.first().map_or(0, Vec::len);
         for line in 0..lines {
             let frequency_hz = densities[0][line][0];
-            let of_line = densities.iter().map(|density| density[line][1]);
-            let row: Vec<f64> = std::iter::once(frequency_hz).chain(of_line).collect();
+            let densities_here = densities.iter().map(|density| density[line][1]);
+            let row: Vec<f64> = std::iter::once(frequency_hz)
+                .chain(densities_here)
+                .collect();
             rows.serialize(row).map_err(failed)?;
         }
         Ok(rows.flush().map_err(|error| failed(error.into()))?)
     })
 }
 
-/// Their part of the page; nothing of a run without spectra.
+/// Returns the section of the page with the spectra; empty for a run without spectra.
 ///
 /// # Errors
 /// A figure cannot be drawn.
 pub(super) fn section(spectra: &[Spectrum]) -> Result<Markup, DrawError> {
-    let is_told =
+    let is_nonzero =
         |spectrum: &Spectrum| spectrum.density().iter().any(|[_, density]| *density > 0.0);
-    // On ideal track nothing moves, and nothing has no decades.
-    if spectra.is_empty() || !spectra.iter().all(is_told) {
+    // On ideal track nothing moves, and zero cannot be drawn on a logarithmic scale.
+    if spectra.is_empty() || !spectra.iter().all(is_nonzero) {
         return Ok(html! {});
     }
     let windows = format!("Welch's mean of Hann windows of {WINDOW_S} s that overlap by half.");
     Ok(html! {
         h2 { "Spectra" }
         (figure(&accelerations(spectra), &html! {
-            "Power spectral density of the accelerations at the ride points, the darker the further down in their table. " (windows)
+            "Power spectral density of the accelerations at the ride points; points further down in their table are "
+            "drawn darker. " (windows)
         })?)
         (figure(&derailment(spectra), &html! {
             "Power spectral density of Y/Q of the leading wheels. " (windows)
@@ -93,7 +96,7 @@ pub(super) fn section(spectra: &[Spectrum]) -> Result<Markup, DrawError> {
     })
 }
 
-/// Densities of the accelerations at the ride points, lateral and vertical.
+/// Densities of the lateral and vertical accelerations at the ride points.
 fn accelerations(spectra: &[Spectrum]) -> Figure {
     let one = |direction: &str| {
         let what = format!("_{direction}_acceleration_m_per_s2");
@@ -103,7 +106,7 @@ fn accelerations(spectra: &[Spectrum]) -> Figure {
     panels(vec![one("lateral"), one("vertical")])
 }
 
-/// Densities of `Y/Q` of the leading wheels, left and right.
+/// Densities of `Y/Q` of the left and right leading wheels.
 fn derailment(spectra: &[Spectrum]) -> Figure {
     let one = |side: &str| {
         let what = format!("_{side}_derailment");
@@ -120,7 +123,7 @@ fn panels(panels: Vec<Panel>) -> Figure {
     }
 }
 
-/// Those spectra whose signal ends so, times a factor.
+/// Draws the spectra whose signal name ends in `ending`, multiplied by `factor`.
 fn curves(spectra: &[Spectrum], ending: &str, factor: f64, y: &str) -> Panel {
     let chosen: Vec<_> = spectra
         .iter()
@@ -132,7 +135,7 @@ fn curves(spectra: &[Spectrum], ending: &str, factor: f64, y: &str) -> Panel {
         .zip(colours)
         .map(|((spectrum, name), colour)| {
             let density = spectrum.density().into_iter();
-            // Without the mean, which is taken off, and without what no decade has.
+            // Skip the mean, which is removed, and zeros, which a logarithmic scale cannot show.
             let shown: Vec<_> = density
                 .filter(|[f, density]| *f > 0.0 && *f <= SHOWN_HZ && *density > 0.0)
                 .map(|[f, density]| (f, factor * density))

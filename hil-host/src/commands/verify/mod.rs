@@ -1,4 +1,4 @@
-//! `dashpot verify`: the fixed step against the reference solver, on a recorded motion or over the fixed set of motions.
+//! `dashpot verify`: compares the fixed step with the reference solver, on a recording or over a fixed set of motions.
 
 mod probed;
 mod recorded;
@@ -10,8 +10,9 @@ use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format};
 use crate::commands::failure::{Failure, Outcome};
 
-/// Accuracy of the fixed step against the adaptive reference solver, per step size: on a recording, or without
-/// `--input` the largest errors for this damper over a fixed set of motions.
+/// Measure the accuracy of the fixed step against the adaptive reference solver for each step size.
+///
+/// With --input on a recording; without it, as the largest errors of this damper over a fixed set of motions.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot verify --damper in-service
@@ -19,13 +20,13 @@ use crate::commands::failure::{Failure, Outcome};
   dashpot verify --damper paper --input data/excitations/ride_made.csv
   dashpot verify --damper in-service --input run7.csv --step-us 1000 --step-us 62.5 --format json
 
-Without --input the damper follows some hundred motions that its own clearance, friction, springs and force limit scale:
-saw, move and stop, crossing of the clearance, changing speed, random ride, speed ramp, hold of a minute. Three times
-each printed figure is promised for every motion of the class that docs/numerics.md states.
+Without --input, the damper follows about a hundred motions scaled by its clearance, friction, springs and force limit:
+sawtooth, move and stop, crossing of the clearance, changing speed, random ride, speed ramp, hold for a minute. Three
+times each printed value is guaranteed for every motion of the class defined in docs/numerics.md.
 
-With --input the NRMSE on ticks is the error of the step: the reference follows the same displacements at the ticks,
-linear between them. The NRMSE on the recording holds what taking ticks from the recording leaves out, too: the
-reference follows the recording's own samples, linear between them, and is compared at the ticks.")]
+With --input, two errors are printed. The NRMSE on ticks is the error of the step alone: the reference follows the same
+displacements at the ticks, interpolated linearly. The NRMSE on the recording also includes the effect of resampling:
+the reference follows the recording's own samples, interpolated linearly, and is compared at the ticks.")]
 pub struct VerifyArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -35,19 +36,26 @@ pub struct VerifyArguments {
     #[command(flatten)]
     recording: MotionArguments,
     /// Steps, us.
-    #[arg(help = step_size::help("Step to verify", "; may be given several times; 1000, 500 and 100 with --input when none is given, else 1000 and 100"), long, value_name = "US", allow_negative_numbers = true)]
+    #[arg(
+        help = step_size::help(
+            "Step to verify",
+            "; may be repeated [default: 1000, 500 and 100 with --input, otherwise 1000 and 100]"
+        ),
+        long,
+        value_name = "US",
+        allow_negative_numbers = true
+    )]
     step_us: Vec<StepSize>,
-    /// Rate to verify, Hz: the step is its inverse; may be given several times, besides --step-us.
+    /// Rate to verify, Hz: the step is its inverse. May be repeated and combined with --step-us.
     #[arg(long, value_name = "HZ", value_parser = rate, allow_negative_numbers = true)]
     rate_hz: Vec<StepSize>,
-    /// Top speed of the motions without --input, m/s; at most the damper's limits.rate_m_per_s, which with 0.6 is the
-    /// default.
+    /// Top speed of the motions without --input, m/s [default: 0.6, but at most the damper's limits.rate_m_per_s].
     #[arg(long, value_name = "V", value_parser = positive, allow_negative_numbers = true, conflicts_with = "input")]
     top_speed_m_per_s: Option<f64>,
-    /// Fail when an NRMSE on ticks is above this.
+    /// Fail if an NRMSE on ticks is above this value.
     #[arg(long, value_name = "NRMSE", value_parser = positive, allow_negative_numbers = true)]
     at_most: Option<f64>,
-    /// How results are printed.
+    /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
@@ -66,7 +74,7 @@ fn rate(text: &str) -> Result<StepSize, String> {
 }
 
 impl VerifyArguments {
-    /// The steps asked for, each once; `default_us` (us) where none is.
+    /// Returns the requested steps without duplicates; `default_us` (us) if there are none.
     fn steps(&self, default_us: &[f64]) -> Vec<StepSize> {
         let mut steps = self.step_us.clone();
         if steps.is_empty() {
@@ -80,7 +88,7 @@ impl VerifyArguments {
         steps
     }
 
-    /// Fails where `worst` is above `--at-most`; `what` it is.
+    /// Fails if `worst`, described by `what`, is above `--at-most`.
     fn judge(&self, what: &str, worst: f64) -> Outcome<()> {
         match self.at_most {
             Some(limit) if worst.is_nan() || worst > limit => Err(Failure::new(format!(
@@ -94,12 +102,12 @@ impl VerifyArguments {
 /// Runs the command.
 ///
 /// # Errors
-/// A damper or recording that cannot be used, a reference that fails, or an NRMSE above `--at-most`.
+/// The damper or recording cannot be used, the reference fails, or an NRMSE is above `--at-most`.
 pub fn run(arguments: &VerifyArguments) -> Outcome<()> {
     match &arguments.input {
         Some(input) => recorded::run(arguments, input),
         None if arguments.recording != MotionArguments::default() => Err(Failure::wrong_use(
-            "options that say how a recording is read need --input FILE",
+            "options for reading a recording require --input FILE",
         )),
         None => probed::run(arguments),
     }

@@ -1,8 +1,8 @@
-//! The largest errors of the fixed step for one damper over the fixed set of motions.
+//! Largest errors of the fixed step for one damper over the fixed set of motions.
 
 use std::io::{self, Write};
 
-use dashpot_reference::probing::{MIN_RMS_FORCE_RATIO, LargestErrors, PROMISED_FACTOR, Worst};
+use dashpot_reference::probing::{LargestErrors, MIN_RMS_FORCE_RATIO, PROMISED_FACTOR, Worst};
 use serde::Serialize;
 
 use super::VerifyArguments;
@@ -15,7 +15,7 @@ use dashpot_testbench::step_errors::{SCALARS, StepErrors};
 /// Default steps (us): 1 kHz and 10 kHz.
 const STEPS_US: [f64; 2] = [1000.0, 100.0];
 
-/// The largest errors at one step size in one scalar.
+/// Largest errors for one step size and scalar type.
 #[derive(Serialize)]
 struct Row {
     scalar: Scalar,
@@ -32,7 +32,7 @@ struct Row {
     promised_error_n: f64,
 }
 
-/// A motion by what it does and how fast.
+/// Kind and speed of a motion.
 #[derive(Serialize)]
 struct Named {
     kind: &'static str,
@@ -59,7 +59,7 @@ struct Report {
 /// Runs the command over the fixed set.
 ///
 /// # Errors
-/// A damper that cannot be used, a reference that fails, or an NRMSE above `--at-most`.
+/// The damper cannot be used, the reference fails, or an NRMSE is above `--at-most`.
 pub(super) fn run(arguments: &VerifyArguments) -> Outcome<()> {
     let parameters = arguments.damper.load()?;
     let rate_m_per_s = parameters.limits.rate_m_per_s;
@@ -68,7 +68,7 @@ pub(super) fn run(arguments: &VerifyArguments) -> Outcome<()> {
         .filter(|speed| *speed > rate_m_per_s)
     {
         return Err(Failure::wrong_use(format!(
-            "--top-speed-m-per-s {speed}: allowed: up to the damper's limits.rate_m_per_s = {rate_m_per_s} m/s"
+            "--top-speed-m-per-s {speed}: allowed: up to limits.rate_m_per_s = {rate_m_per_s} m/s of the damper"
         )));
     }
     let steps = arguments.steps(&STEPS_US);
@@ -127,7 +127,7 @@ impl Row {
 fn print(out: &mut dyn Write, report: &Report, damper: &str) -> io::Result<()> {
     writeln!(
         out,
-        "damper {damper}, fixed step against the adaptive reference: the largest errors over a fixed set of motions\n\
+        "damper {damper}, fixed step against the adaptive reference: largest errors over a fixed set of motions\n\
          up to {:.3} m/s; force limit {:.0} N\n\n  \
          {:>9}  {:<6}  {:>8}  {:<36}  {:>9}  {:>8}  {:<36}  {:>12}",
         report.top_speed_m_per_s,
@@ -158,9 +158,10 @@ fn print(out: &mut dyn Write, report: &Report, damper: &str) -> io::Result<()> {
     }
     writeln!(
         out,
-        "\nNRMSE: rms error over rms force, or over {} % of the force limit where that is more, of the worst motion. \
-         Largest: of one\ntick. Wrong sign: the largest force at a tick where the reference has one of the other sign, \
-         or none.\nPromised for every motion of the class in docs/numerics.md: {} times NRMSE and largest.",
+        "\nNRMSE: rms error of the worst motion over the rms force, or over {} % of the force limit if that is \
+         larger.\nLargest: largest error at a tick. Wrong sign: largest force at a tick where the reference force has \
+         the opposite\nsign or is zero. Guaranteed for every motion of the class in docs/numerics.md: {} times NRMSE \
+         and largest.",
         100.0 * MIN_RMS_FORCE_RATIO,
         report.promised_factor
     )

@@ -1,4 +1,4 @@
-//! The fixed step against the reference solver on a recorded motion.
+//! Comparison of the fixed step with the reference solver on a recorded motion.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -24,7 +24,7 @@ struct Row {
     scalar: Scalar,
     #[serde(skip)]
     step: StepSize,
-    /// On ticks.
+    /// Deviation on ticks.
     #[serde(flatten)]
     deviation: Deviation,
     nrmse_on_recording: f64,
@@ -43,7 +43,7 @@ const STEPS_US: [f64; 3] = [1000.0, 500.0, 100.0];
 /// Runs the command on the recording `input`.
 ///
 /// # Errors
-/// A damper or recording that cannot be used, a reference that fails, or an NRMSE above `--at-most`.
+/// The damper or recording cannot be used, the reference fails, or an NRMSE is above `--at-most`.
 pub(super) fn run(arguments: &VerifyArguments, input: &Path) -> Outcome<()> {
     arguments.damper.refuse_same_input(input)?;
     let parameters = arguments.damper.load()?;
@@ -129,16 +129,16 @@ fn print(out: &mut dyn Write, report: &Report, damper: &str, path: &Path) -> io:
     }
     writeln!(
         out,
-        "\non ticks: both follow the displacements at the ticks. On recording: the reference follows the \
-         recording's own\nsamples, so that what the ticks leave out of the motion counts too."
+        "\nOn ticks: both follow the displacements at the ticks. On recording: the reference follows the \
+         recording's own\nsamples, so the error also includes the effect of resampling."
     )?;
     let rejected = report.deviations.iter().map(|row| row.rejected_inputs);
-    if let Some(most) = rejected.max().filter(|most| *most > 0) {
+    if let Some(max) = rejected.max().filter(|max| *max > 0) {
         writeln!(
             out,
-            "warning: input held or limited at up to {}; there the step followed another motion than the \
-             reference",
-            counted(most.into(), "tick")
+            "warning: input held or rate-limited at up to {}; at these ticks the step and the reference followed \
+             different motions",
+            counted(max.into(), "tick")
         )?;
     }
     write_gaps(out, &report.gaps)

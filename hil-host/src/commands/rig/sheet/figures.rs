@@ -1,4 +1,4 @@
-//! Figures of a sheet: loops, forces over speed and over temperature.
+//! Figures of a sheet: loops, forces over velocity and over temperature.
 
 use plotters::style::RGBColor;
 
@@ -16,16 +16,16 @@ use dashpot_testbench::bench_test::Cycle;
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;
 
-/// Samples of a loop that are drawn.
+/// Number of samples drawn per loop.
 const SAMPLES: usize = 1200;
 
-/// The largest forces, what each is called, and its colour.
+/// Maximum forces with name and colour.
 const FORCES: [(Index, &str, RGBColor); 2] = [
     (Index::MaxExtensionForceN, "extension", BLUE_LINE),
     (Index::MaxCompressionForceN, "compression", RED_LINE),
 ];
 
-/// Loops of all tests.
+/// Draws the loops of all tests.
 pub(super) fn loops_of(tested: &[Tested<'_>]) -> Figure {
     let curves = tested.iter().zip(ramp(tested.len()));
     let (displacement, velocity) = curves
@@ -34,7 +34,7 @@ pub(super) fn loops_of(tested: &[Tested<'_>]) -> Figure {
     figure(loops::panels(displacement, velocity))
 }
 
-/// The cycle with as many samples as are drawn of each.
+/// Returns the cycle reduced to the number of samples drawn.
 fn thinned(cycle: &Cycle) -> Cycle {
     let ticks = cycle.forces_n.len();
     let at = |values: &[f64]| {
@@ -48,7 +48,7 @@ fn thinned(cycle: &Cycle) -> Cycle {
     }
 }
 
-/// Largest forces over the peak velocity, one panel for extension and one for compression, with their limits.
+/// Draws maximum forces over peak velocity with their limits, one panel each for extension and compression.
 pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
     let at = |tested: &Tested<'_>, index: Index| {
         let velocity = tested.cycle.motion.peak_velocity_m_per_s();
@@ -66,7 +66,7 @@ pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
                 let of_index = tested.test.limits.iter().filter(|l| l.index == index);
                 of_index.map(|limit| {
                     let (velocity, force) = at(tested, index);
-                    // A side without a limit ends at the point.
+                    // Without a limit on one side, the bar ends at the point.
                     let end = |end: Option<f64>| end.map_or(force, |end| end * 1e-3);
                     (velocity, end(limit.least), end(limit.most))
                 })
@@ -78,14 +78,14 @@ pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
         }
         keeping_off_the_sides(panel(
             "peak velocity, m/s",
-            &format!("largest force in {name}, kN"),
+            &format!("maximum force in {name}, kN"),
             curves,
         ))
     });
     figure(panels.into())
 }
 
-/// Largest forces over the temperature of the oil of each motion that is tested at several; `None` where there is no such motion.
+/// Draws maximum forces over oil temperature for each motion tested at several temperatures; `None` if there is none.
 pub(super) fn over_temperature(tested: &[Tested<'_>]) -> Option<Figure> {
     let mut motions: Vec<(Harmonic, Vec<&Tested<'_>>)> = Vec::new();
     for tested in tested {
@@ -125,10 +125,10 @@ pub(super) fn over_temperature(tested: &[Tested<'_>]) -> Option<Figure> {
                 Curve::new("", colour, points).dotted(),
             ]
         });
-        let y = format!("largest force in {name}, kN");
+        let y = format!("maximum force in {name}, kN");
         Panel {
             keeps_to_values: true,
-            ..keeping_off_the_sides(panel("temperature of the oil, °C", &y, curves.collect()))
+            ..keeping_off_the_sides(panel("oil temperature, °C", &y, curves.collect()))
         }
     });
     Some(figure(panels.into()))

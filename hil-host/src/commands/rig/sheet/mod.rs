@@ -1,4 +1,4 @@
-//! `dashpot rig --sheet`: the tests of a sheet and its limits.
+//! `dashpot rig --sheet`: runs the tests of a sheet and checks its limits.
 
 mod figures;
 mod page;
@@ -15,10 +15,10 @@ use dashpot_files::output::write_bytes;
 use dashpot_files::sheet::SheetParameters;
 use dashpot_testbench::bench_sheet;
 
-/// Goes through the sheet called `name`, prints it and writes its page.
+/// Runs the sheet called `name`, prints it and writes its page.
 ///
 /// # Errors
-/// A sheet, a damper or a file that is refused, or a limit that is not kept.
+/// The sheet, the damper or a file is invalid, or a limit is violated.
 pub(super) fn run(arguments: &RigArguments, name: &str) -> Outcome<()> {
     let damper_name = &arguments.damper.damper;
     let read = [

@@ -1,4 +1,4 @@
-//! The sheet as a page, to keep or to print.
+//! HTML page of a sheet, for archiving or printing.
 
 use maud::{Markup, html};
 
@@ -9,22 +9,27 @@ use dashpot_files::sheet::Index;
 use dashpot_report::page::{document, figure, footer, tiles};
 use dashpot_testbench::bench_sheet::Tested;
 
-/// The page.
+/// Returns the page.
 ///
 /// # Errors
 /// A figure cannot be drawn.
 pub(super) fn write(report: &Report, tested: &[Tested<'_>]) -> Outcome<String> {
-    let loops = html! { "Computed force over displacement (first) and velocity (second) of every test, one periodic cycle each." };
+    let loops = html! {
+        "Computed force over displacement (first) and velocity (second), one periodic cycle of every test."
+    };
     let over_speed = html! {
-        "Largest forces of every test over its peak velocity."
-        @if report.limits > 0 { " Bars: what a test's own limits allow; a side without a limit ends at the point." }
+        "Maximum forces of every test over its peak velocity."
+        @if report.limits > 0 {
+            " Bars show the range allowed by the limits of the test; without a limit on one side, the bar ends at the "
+            "point."
+        }
     };
     let over_temperature = figures::over_temperature(tested);
     let body = html! {
         h1 { (report.title) }
         p.lead {
             "Bench sheet of the damper " (report.damper) @for change in &report.overrides { " " (change) }
-            ", computed by its model, not measured."
+            ", computed from its model, not measured."
         }
         (head(report))
         (headline(report))
@@ -36,20 +41,23 @@ pub(super) fn write(report: &Report, tested: &[Tested<'_>]) -> Outcome<String> {
         (tests(&report.tests))
         h2 { "Loops" }
         (figure(&figures::loops_of(tested), &loops)?)
-        h2 { "Forces over speed" }
+        h2 { "Forces over velocity" }
         (figure(&figures::over_speed(tested), &over_speed)?)
         @if let Some(over_temperature) = &over_temperature {
             h2 { "Forces over temperature" }
-            (figure(over_temperature, &html! { "Largest forces of each motion that is tested at several temperatures." })?)
+            (figure(over_temperature, &html! {
+                "Maximum forces of each motion that is tested at several temperatures."
+            })?)
         }
         (footer(&html! {
-            "Sheet: " (report.sheet) ". Limits and the clauses they cite are those of the sheet. What each index is: docs/rig.md."
+            "Sheet: " (report.sheet) ". Limits and cited clauses are those of the sheet. docs/rig.md defines each "
+            "index."
         }))
     };
     Ok(document(&format!("Dashpot: {}", report.title), &body))
 }
 
-/// What the sheet says of itself.
+/// Draws the header fields of the sheet.
 fn head(report: &Report) -> Markup {
     html! {
         @if !report.fields.is_empty() {
@@ -71,16 +79,16 @@ fn headline(report: &Report) -> Markup {
         (all, outside) => (
             html! { (all - outside) " of " (all) },
             if outside == 0 {
-                "limits kept: all within".into()
+                "limits met".into()
             } else {
-                format!("limits kept; {outside} outside")
+                format!("limits met; {outside} violated")
             },
         ),
     };
     tiles(&[tests, verdict])
 }
 
-/// Every limit, those outside on amber.
+/// Tabulates every limit, with violations in amber.
 fn limits(report: &Report) -> Markup {
     let rows = report
         .tests
@@ -91,8 +99,8 @@ fn limits(report: &Report) -> Markup {
             table {
                 thead {
                     tr {
-                        th { "test" } th.text { "index" } th { "unit" } th { "value" } th { "allowed" } th.text { "clause" }
-                        th.text { "verdict" }
+                        th { "test" } th.text { "index" } th { "unit" } th { "value" } th { "allowed" }
+                        th.text { "clause" } th.text { "verdict" }
                     }
                 }
                 @for (test, limit) in rows {
@@ -100,7 +108,7 @@ fn limits(report: &Report) -> Markup {
                         td { (test.name) }
                         td.text { (limit.index.name()) }
                         td { (limit.index.told_in().0) }
-                        td { b { (minus(&limit.told())) } }
+                        td { b { (minus(&limit.formatted())) } }
                         td { (minus(&limit.allowed())) }
                         td.text { (limit.clause.as_deref().unwrap_or("")) }
                         td.text { (limit.verdict()) }
@@ -111,7 +119,7 @@ fn limits(report: &Report) -> Markup {
     }
 }
 
-/// Motions, then every index, a row a test.
+/// Tabulates the motions, then every index, with one row per test.
 fn tests(tests: &[TestReport]) -> Markup {
     let has_oil = tests.iter().any(|test| test.temperature_c.is_some());
     html! {
@@ -129,7 +137,11 @@ fn tests(tests: &[TestReport]) -> Markup {
                         td { (format!("{:.3}", test.amplitude_m * 1e3)) }
                         td { (format!("{:.4}", test.frequency_hz)) }
                         td { (format!("{:.4}", test.peak_velocity_m_per_s)) }
-                        @if has_oil { td { @if let Some(temperature_c) = test.temperature_c { (minus(&temperature_c.to_string())) } } }
+                        @if has_oil {
+                            td {
+                                @if let Some(temperature_c) = test.temperature_c { (minus(&temperature_c.to_string())) }
+                            }
+                        }
                     }
                 }
             }
@@ -153,7 +165,7 @@ fn tests(tests: &[TestReport]) -> Markup {
     }
 }
 
-/// A number with a minus sign of its own width.
+/// Replaces hyphens by minus signs.
 fn minus(number: &str) -> String {
     number.replace('-', "−")
 }

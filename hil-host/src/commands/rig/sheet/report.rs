@@ -1,4 +1,4 @@
-//! What became of a sheet.
+//! Report of a sheet.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -13,14 +13,14 @@ use dashpot_files::sheet::{Limit, SheetParameters};
 use dashpot_files::study::shown;
 use dashpot_testbench::bench_sheet::Tested;
 
-/// A line of the head.
+/// A header field.
 #[derive(Serialize)]
 pub(super) struct Field {
     pub(super) name: String,
     pub(super) text: String,
 }
 
-/// A limit and what became of it.
+/// A limit and its verdict.
 #[derive(Serialize)]
 pub(super) struct Limited {
     pub(super) index: Index,
@@ -38,7 +38,7 @@ pub(super) struct TestReport {
     pub(super) amplitude_m: f64,
     pub(super) frequency_hz: f64,
     pub(super) peak_velocity_m_per_s: f64,
-    /// Of the oil; `None` of a damper without.
+    /// Oil temperature; `None` for a damper without oil.
     pub(super) temperature_c: Option<f64>,
     step_s: f64,
     cycles: usize,
@@ -72,7 +72,7 @@ impl Limited {
         }
     }
 
-    /// What is allowed, in the index's unit.
+    /// Formats the allowed range in the unit of the index.
     pub(super) fn allowed(&self) -> String {
         let end = |end: f64| shown(end / self.index.told_in().1);
         match (self.least, self.most) {
@@ -88,7 +88,7 @@ impl Limited {
     }
 }
 
-/// A value in the unit that its index is told in, in four digits or what it takes to tell it from its limits.
+/// Formats a value with four digits in the display unit of its index.
 pub(super) fn value_of(index: Index, value: Option<f64>) -> String {
     value.map_or("none".into(), |value| {
         let value = value / index.told_in().1;
@@ -99,25 +99,25 @@ pub(super) fn value_of(index: Index, value: Option<f64>) -> String {
 }
 
 impl Limited {
-    /// The value, with as many digits more as tell it from a limit that it is beyond.
-    pub(super) fn told(&self) -> String {
-        let told = value_of(self.index, self.value);
+    /// Formats the value, rounded to enough digits to differ from a violated limit.
+    pub(super) fn formatted(&self) -> String {
+        let text = value_of(self.index, self.value);
         let Some(value) = self.value else {
-            return told;
+            return text;
         };
-        let read: f64 = told.parse().unwrap_or(value);
+        let read: f64 = text.parse().unwrap_or(value);
         let rounded = Some(read * self.index.told_in().1);
         let looks_kept = self.least.is_none_or(|least| rounded >= Some(least))
             && self.most.is_none_or(|most| rounded <= Some(most));
         if looks_kept == self.kept {
-            return told;
+            return text;
         }
         shown(value / self.index.told_in().1)
     }
 }
 
 impl TestReport {
-    /// The motion in words.
+    /// Describes the motion.
     pub(super) fn motion(&self) -> String {
         let mut motion = format!(
             "±{:.3} mm at {:.4} Hz, peak {:.4} m/s",
@@ -179,13 +179,13 @@ impl Report {
         }
     }
 
-    /// How many limits are kept, in words.
+    /// Describes how many limits are met.
     pub(super) fn verdict(&self) -> String {
         let limits = counted(self.limits as u64, "limit");
         match (self.limits, self.limits_not_kept) {
             (0, _) => "no limits".into(),
-            (_, 0) => format!("{limits}, all kept"),
-            (_, outside) => format!("{outside} of {limits} not kept"),
+            (_, 0) => format!("{limits}, all met"),
+            (_, outside) => format!("{outside} of {limits} violated"),
         }
     }
 
@@ -208,7 +208,7 @@ impl Report {
                         writeln!(
                             out,
                             "{:>10}  {:<8} {:<22} {clause}",
-                            limit.told(),
+                            limit.formatted(),
                             limit.verdict(),
                             limit.allowed()
                         )?;

@@ -1,4 +1,4 @@
-//! The chart of the correction factor Ce over the geometry of the pressure area, which the source paper does not give.
+//! Chart of the correction factor Ce over the geometry of the pressure area, which the source paper does not give.
 
 use plotters::prelude::SeriesLabelPosition;
 
@@ -12,10 +12,10 @@ use dashpot_testbench::plate::{
     Fit, PlateError, PressureArea, Profile, Resolution, Stack, WIDTHS, is_ring, middle_ring,
 };
 
-/// Points of a curve.
+/// Number of points per curve.
 const POINTS: u32 = 48;
 
-/// Two panels of a valve: Ce over the geometry, and geometries that have the valve's.
+/// Draws two panels for a valve: Ce over the geometry, and geometries with the valve's Ce.
 pub(super) fn chart(solved: &Solved) -> Outcome<[Panel; 2]> {
     Ok(if is_ring(solved.location.valve) {
         [outer_decay(solved)?, both_decays(solved)?]
@@ -24,7 +24,7 @@ pub(super) fn chart(solved: &Solved) -> Outcome<[Panel; 2]> {
     })
 }
 
-/// The valve's Ce across a panel.
+/// Horizontal line at the valve's Ce.
 fn target(solved: &Solved, [from, to]: [f64; 2]) -> Curve {
     let factor = solved.factor;
     let name = format!("Ce of the damper: {factor}");
@@ -39,13 +39,15 @@ fn factor(stack: &Stack, profile: Profile) -> Result<f64, PlateError> {
     stack.correction_factor(&PressureArea::Ring(profile), Resolution::default())
 }
 
-/// Curves of Ce for each exponent of a decay over what `place` gives: an abscissa and a profile for a part of the width.
-fn decays(solved: &Solved, place: impl Fn(f64, f64) -> (f64, Profile)) -> Outcome<Vec<Curve>> {
+/// Curves of Ce, one per decay exponent.
+///
+/// `profile_at` takes a fraction of the width and an exponent, and returns an abscissa and a profile.
+fn decays(solved: &Solved, profile_at: impl Fn(f64, f64) -> (f64, Profile)) -> Outcome<Vec<Curve>> {
     let exponents = [1.0, 2.0, 3.0];
     let mut curves = Vec::new();
     for (exponent, colour) in exponents.into_iter().zip(ramp(exponents.len())) {
         let points = (1..=POINTS).map(|i| {
-            let (x, profile) = place(f64::from(i) / f64::from(POINTS), exponent);
+            let (x, profile) = profile_at(f64::from(i) / f64::from(POINTS), exponent);
             Ok((x, factor(&solved.stack, profile)?))
         });
         let points: Vec<_> = points.collect::<Result<_, PlateError>>()?;
@@ -58,7 +60,7 @@ fn decays(solved: &Solved, place: impl Fn(f64, f64) -> (f64, Profile)) -> Outcom
     Ok(curves)
 }
 
-/// Full from the clamp to a radius, then decaying to nothing at the edge.
+/// Full pressure from the clamp to a radius, then decay to zero at the edge.
 fn outer_decay(solved: &Solved) -> Outcome<Panel> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let mut curves = decays(solved, |part, exponent| {
@@ -74,12 +76,12 @@ fn outer_decay(solved: &Solved) -> Outcome<Panel> {
     Ok(factor_panel(solved, "full pressure up to, mm", curves))
 }
 
-/// Full in the middle, decaying over the same width to nothing at clamp and edge.
+/// Full pressure in the middle, decaying over the same width to zero at clamp and edge.
 fn both_decays(solved: &Solved) -> Outcome<Panel> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let widest = 0.5 * (free - clamp);
     let mut curves = decays(solved, |part, exponent| {
-        // A ring without width under full pressure is none.
+        // A ring of zero width under full pressure is invalid.
         let width = (1.0 - part + 1e-3 * part) * widest * (1.0 - 1e-6);
         let profile = Profile {
             full_m: [clamp + width, free - width],
@@ -95,7 +97,7 @@ fn both_decays(solved: &Solved) -> Outcome<Panel> {
     })
 }
 
-/// Bosses that are sectors: Ce is their share of the circumference times that of the ring, however many they are.
+/// Sector bosses: Ce is their share of the circumference times the Ce of the ring, whatever their number.
 fn sectors(solved: &Solved) -> Outcome<Panel> {
     let mut curves = Vec::new();
     for (part, colour) in WIDTHS.into_iter().zip(ramp(WIDTHS.len())) {
@@ -113,7 +115,7 @@ fn sectors(solved: &Solved) -> Outcome<Panel> {
     ))
 }
 
-/// Six round bosses: the radius of a boss that gives the valve's Ce.
+/// Six round bosses: radius of a boss that gives the valve's Ce.
 fn round_bosses(solved: &Solved) -> Panel {
     let mut shares: Vec<f64> = Vec::new();
     let found = solved.fits.iter().filter_map(|fit| match *fit {
@@ -136,15 +138,15 @@ fn round_bosses(solved: &Solved) -> Panel {
         .map(|(share, colour)| {
             let of_share = found.iter().filter(|(other, ..)| other == share);
             let points: Vec<_> = of_share.map(|(_, pitch, boss)| (*pitch, *boss)).collect();
-            let name = format!("hole {share} of the boss: Ce {}", solved.factor);
+            let name = format!("hole radius {share} of boss radius: Ce {}", solved.factor);
             Curve::new(name, colour, points)
         });
     Panel {
         legend: Some(SeriesLabelPosition::LowerLeft),
         ..panel(
             solved,
-            "middles of six round bosses at, mm",
-            "radius of a boss, mm",
+            "radius of the circle of six round bosses, mm",
+            "boss radius, mm",
             curves.collect(),
         )
     }

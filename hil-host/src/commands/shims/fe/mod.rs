@@ -1,4 +1,4 @@
-//! `dashpot shims --fe`: the stacks as thin plates.
+//! `dashpot shims --fe`: analyses the stacks as thin plates.
 
 mod chart;
 mod options;
@@ -20,28 +20,28 @@ use dashpot_testbench::plate::{
 };
 use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
-/// A valve's stack, bent.
+/// Solved plate model of a valve's stack.
 pub(super) struct Solved {
     location: &'static ValveLocation,
     stack: Stack,
-    /// Under pressure on the whole disc.
+    /// Bending under pressure on the whole disc.
     whole: Bending,
-    /// Where pressure acts and what it bends; none where no area of the assumed kind has the valve's Ce.
+    /// Pressure area and the resulting bending; `None` if no area of the assumed kind has the valve's Ce.
     real: Option<(PressureArea, Bending)>,
-    /// Whether the area was given, not assumed and fitted.
+    /// True if the area was given, false if it was assumed and fitted.
     given: bool,
     /// Ce of the damper file.
     factor: f64,
     preload_pa: f64,
-    /// Pressure at the damper's force limit (Pa).
+    /// Pressure at the force limit of the damper (Pa).
     at_force_limit_pa: f64,
     fits: Vec<Fit>,
 }
 
-/// Bends the stacks of all valves that have shims.
+/// Solves the stacks of all valves that have shims.
 ///
 /// # Errors
-/// An area that is refused, or none of the valves has shims.
+/// The pressure area is invalid, or no valve has shims.
 pub(super) fn solve(
     arguments: &PlateArguments,
     parameters: &DamperParameters,
@@ -52,7 +52,7 @@ pub(super) fn solve(
         && location.valve_of(hydraulics).shims_m.is_empty()
     {
         return Err(Failure::wrong_use(format!(
-            "--valve: {} has no shims_m, allowed: a valve whose shims the damper describes",
+            "--valve: {} has no shims_m; allowed: a valve whose shims the damper file describes",
             location.section
         )));
     }
@@ -68,7 +68,7 @@ pub(super) fn solve(
         .collect::<Outcome<_>>()?;
     if solved.is_empty() {
         return Err(Failure::new(
-            "--fe: no valve of the damper has shims_m; allowed: a damper that describes its shims",
+            "--fe: no valve of the damper has shims_m; allowed: a damper file that describes its shims",
         ));
     }
     Ok(solved)
@@ -112,8 +112,9 @@ fn solve_valve(
     })
 }
 
-/// Pressure at which the damper yields, `(F_limit - F_c)/A` (Pa), A the rod-side annulus in extension and the piston in
-/// compression.
+/// Returns the pressure at which the damper yields, `(F_limit - F_c)/A` (Pa).
+///
+/// A is the area of the rod-side annulus in extension and of the piston in compression.
 fn force_limit_pressure_pa(
     parameters: &DamperParameters,
     hydraulics: &Hydraulics,
@@ -130,7 +131,7 @@ fn force_limit_pressure_pa(
 }
 
 impl Solved {
-    /// What is bent by the pressure as it acts, as far as it is known, else by that on the whole disc.
+    /// Returns the bending under the pressure area if it is known, otherwise under pressure on the whole disc.
     fn bending(&self) -> &Bending {
         self.real
             .as_ref()

@@ -4,22 +4,22 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_testbench::plate::{Bosses, PressureArea, Profile, RoundBosses, Stack, Stacking};
 use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
-/// Largest pressure and stress that is asked for (Pa).
-const LARGEST_PA: f64 = 1e12;
+/// Largest accepted pressure and stress (Pa).
+const MAX_PA: f64 = 1e12;
 
-/// A valve by its name on the command line.
+/// Name of a valve on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum ValveName {
-    /// Piston valve that works in extension.
+    /// Piston valve, extension.
     PistonExtension,
-    /// Piston valve that works in compression.
+    /// Piston valve, compression.
     PistonCompression,
-    /// Foot valve that works in compression.
+    /// Foot valve, compression.
     FootCompression,
 }
 
 impl ValveName {
-    /// Where the valve is.
+    /// Returns the location of the valve.
     pub(super) fn location(self) -> &'static ValveLocation {
         &VALVE_LOCATIONS[match self {
             Self::PistonExtension => 0,
@@ -29,31 +29,51 @@ impl ValveName {
     }
 }
 
-/// The shims as plates.
+/// Options of the plate analysis.
 #[derive(Debug, Clone, Default, clap::Args)]
 #[command(next_help_heading = "Shims as plates (--fe)")]
 pub struct PlateArguments {
-    /// Solve the stacks as thin plates under pressure that need not be uniform: correction factor Ce, deflection, largest stress.
+    /// Solve the stacks as thin plates, also under non-uniform pressure: correction factor Ce, deflection, maximum
+    /// stress.
     #[arg(long)]
     pub fe: bool,
-    /// The discs are one instead of sliding on each other.
+    /// Assume bonded discs instead of discs that slide on each other.
     #[arg(long, requires = "fe")]
     pub bonded: bool,
-    /// Pressures to tell lift and stress at, Pa, besides that of the damper's force limit; those of the published tables unless
-    /// given.
-    #[arg(long, value_name = "PA,..", requires = "fe", value_delimiter = ',', value_parser = positive, allow_negative_numbers = true)]
+    /// Pressures for lift and stress, Pa; the pressure at the damper's force limit is always added [default: those of
+    /// the published tables].
+    #[arg(
+        long,
+        value_name = "PA,..",
+        requires = "fe",
+        value_delimiter = ',',
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub pressure_pa: Vec<f64>,
-    /// Stress the shims may have, Pa: the pressure at which it is reached is told.
+    /// Allowable stress of the shims, Pa; the pressure at which it is reached is printed.
     #[arg(long, value_name = "PA", requires = "fe", value_parser = positive, allow_negative_numbers = true)]
     pub allowable_stress_pa: Option<f64>,
-    /// The valve that the options below describe the pressure area of; without them it is of an assumed kind, fitted to Ce.
+    /// Valve whose pressure area the following options describe [default: areas of an assumed kind, fitted to Ce].
     #[arg(long, requires = "fe", value_enum)]
     pub valve: Option<ValveName>,
-    /// Radii between which the pressure is full, m [default: clamp and edge].
-    #[arg(long, value_name = "FROM,TO", requires = "valve", value_parser = two_radii, allow_negative_numbers = true)]
+    /// Inner and outer radius of the full pressure, m [default: clamp and edge].
+    #[arg(
+        long,
+        value_name = "FROM,TO",
+        requires = "valve",
+        value_parser = two_radii,
+        allow_negative_numbers = true
+    )]
     pub loaded_radii_m: Option<[f64; 2]>,
-    /// Radii at which it has decayed to nothing, m.
-    #[arg(long, value_name = "FROM,TO", requires = "loaded_radii_m", value_parser = two_radii, allow_negative_numbers = true)]
+    /// Inner and outer radius at which the pressure has decayed to zero, m.
+    #[arg(
+        long,
+        value_name = "FROM,TO",
+        requires = "loaded_radii_m",
+        value_parser = two_radii,
+        allow_negative_numbers = true
+    )]
     pub decay_radii_m: Option<[f64; 2]>,
     /// Exponent of the decay: 1 linear, 2 quadratic [default: 2].
     #[arg(
@@ -63,7 +83,7 @@ pub struct PlateArguments {
         allow_negative_numbers = true
     )]
     pub decay_exponent: Option<f64>,
-    /// Number of bosses over the circumference, which the pressure is on alone.
+    /// Number of bosses around the circumference; pressure acts only on bosses.
     #[arg(
         long,
         value_name = "N",
@@ -71,7 +91,7 @@ pub struct PlateArguments {
         allow_negative_numbers = true
     )]
     pub bosses: Option<u32>,
-    /// Bosses are sectors that take this share of the circumference.
+    /// Share of the circumference covered by sector bosses.
     #[arg(
         long,
         value_name = "SHARE",
@@ -80,10 +100,16 @@ pub struct PlateArguments {
         allow_negative_numbers = true
     )]
     pub boss_share: Option<f64>,
-    /// Bosses are round, of this radius, m; the pressure decays from the hole to it.
-    #[arg(long, value_name = "M", requires_all = ["bosses", "pitch_radius_m"], conflicts_with = "loaded_radii_m", allow_negative_numbers = true)]
+    /// Radius of round bosses, m; the pressure decays from the hole to this radius.
+    #[arg(
+        long,
+        value_name = "M",
+        requires_all = ["bosses", "pitch_radius_m"],
+        conflicts_with = "loaded_radii_m",
+        allow_negative_numbers = true
+    )]
     pub boss_radius_m: Option<f64>,
-    /// Radius of a round boss's hole, where the pressure is full, m [default: the boss radius].
+    /// Radius of the hole in a round boss, up to which the pressure is full, m [default: the boss radius].
     #[arg(
         long,
         value_name = "M",
@@ -91,7 +117,7 @@ pub struct PlateArguments {
         allow_negative_numbers = true
     )]
     pub hole_radius_m: Option<f64>,
-    /// Radius of the circle on which round bosses have their middles, m.
+    /// Radius of the circle through the centres of round bosses, m.
     #[arg(
         long,
         value_name = "M",
@@ -102,7 +128,7 @@ pub struct PlateArguments {
 }
 
 impl PlateArguments {
-    /// How the discs are stacked.
+    /// Returns the stacking of the discs.
     pub(super) fn stacking(&self) -> Stacking {
         if self.bonded {
             Stacking::Bonded
@@ -111,10 +137,10 @@ impl PlateArguments {
         }
     }
 
-    /// The pressure area that the options describe on a stack, if they do.
+    /// Returns the pressure area described by the options; `None` if they describe none.
     ///
     /// # Errors
-    /// Options that are no area together.
+    /// The options do not form a valid area.
     pub(super) fn area(&self, stack: &Stack) -> Outcome<Option<PressureArea>> {
         let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
         let exponent = self.decay_exponent.unwrap_or(2.0);
@@ -141,7 +167,7 @@ impl PlateArguments {
             }),
             (Some(_), None, None) => {
                 return Err(Failure::wrong_use(
-                    "--bosses goes with --boss-share, or with --boss-radius-m and --pitch-radius-m",
+                    "--bosses requires --boss-share, or --boss-radius-m and --pitch-radius-m",
                 ));
             }
         };
@@ -152,7 +178,7 @@ impl PlateArguments {
     fn no_area(&self) -> Outcome<Option<PressureArea>> {
         if self.decay_exponent.is_some() {
             return Err(Failure::wrong_use(
-                "--decay-exponent goes with --loaded-radii-m or --bosses",
+                "--decay-exponent requires --loaded-radii-m or --bosses",
             ));
         }
         Ok(None)
@@ -161,8 +187,8 @@ impl PlateArguments {
 
 fn positive(text: &str) -> Result<f64, String> {
     match text.trim().parse() {
-        Ok(value) if 0.0 < value && value <= LARGEST_PA => Ok(value),
-        _ => Err(format!("allowed: above 0 and at most {LARGEST_PA:e} Pa")),
+        Ok(value) if 0.0 < value && value <= MAX_PA => Ok(value),
+        _ => Err(format!("allowed: above 0 and at most {MAX_PA:e} Pa")),
     }
 }
 
@@ -170,6 +196,6 @@ fn two_radii(text: &str) -> Result<[f64; 2], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|x| x.trim().parse().ok()).collect();
     match numbers.as_deref() {
         Some(&[from, to]) => Ok([from, to]),
-        _ => Err("allowed: two radii in m with a comma between, such as 0.019,0.026".into()),
+        _ => Err("allowed: two radii in m separated by a comma, such as 0.019,0.026".into()),
     }
 }

@@ -1,5 +1,5 @@
-//! Drawings of `dashpot shims --fe`: deflection over radius and round the edge, stress over radius and over the disc, and the
-//! chart of Ce.
+//! Plots of `dashpot shims --fe`: deflection over radius and around the edge, stress over radius and over the disc, and
+//! the chart of Ce.
 
 use plotters::prelude::SeriesLabelPosition;
 use plotters::style::RGBColor;
@@ -14,11 +14,11 @@ use dashpot_report::plot::sheet::{Layout, Panel, Scale, sheet};
 use dashpot_report::plot::style::{BLUE_LINE, GREEN_LINE, PALE, RED_LINE};
 use dashpot_testbench::plate::Bending;
 
-/// Parts of a curve.
+/// Number of segments per curve.
 const PARTS: u32 = 160;
 
-/// Name and text of each drawing.
-pub(crate) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'static str, String)>> {
+/// Returns file name and SVG text of each plot.
+pub(in crate::commands::shims) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'static str, String)>> {
     let row = |panels: Vec<Panel>| sheet(Layout::row(panels.len(), 480, 440), &panels);
     let charts = solved.iter().map(chart).collect::<Outcome<Vec<_>>>()?;
     let charts: Vec<Panel> = charts.into_iter().flatten().collect();
@@ -46,7 +46,7 @@ pub(crate) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'static str, String)>> {
     ])
 }
 
-/// A panel of a valve.
+/// Creates a panel for a valve.
 pub(super) fn panel(solved: &Solved, x_label: &str, y_label: &str, curves: Vec<Curve>) -> Panel {
     Panel {
         title: format!("{} valve", capital(solved.location.name)),
@@ -61,7 +61,7 @@ pub(super) fn panel(solved: &Solved, x_label: &str, y_label: &str, curves: Vec<C
     }
 }
 
-/// A value over the radius: under uniform pressure, over a boss and between two.
+/// Curves of a value over the radius: under uniform pressure, over a boss and between two bosses.
 fn over_radius(solved: &Solved, value: impl Fn(&Bending, f64, f64) -> f64) -> Vec<Curve> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let curve = |name: &str, colour: RGBColor, bending: &Bending, angle: f64| {
@@ -89,7 +89,7 @@ fn deflection(solved: &Solved) -> Panel {
     panel(solved, "radius, mm", "deflection, mm/MPa", curves)
 }
 
-/// Von Mises' stress per pressure at a radius (m) and an angle.
+/// Returns the von Mises stress per pressure at a radius (m) and an angle.
 fn von_mises(solved: &Solved, bending: &Bending, radius_m: f64, angle_rad: f64) -> f64 {
     let curvature = bending.curvature(radius_m, angle_rad);
     solved.stack.surface_stress(curvature).von_mises()
@@ -104,13 +104,13 @@ fn stress(solved: &Solved) -> Panel {
         ..panel(
             solved,
             "radius, mm",
-            "largest disc's stress, MPa/MPa",
+            "maximum stress of the discs, MPa/MPa",
             curves,
         )
     }
 }
 
-/// Lift round the edge.
+/// Plots the lift around the edge.
 fn edge(solved: &Solved) -> Panel {
     let free = solved.stack.free_radius_m();
     let round = |name: &str, colour: RGBColor, lift: &dyn Fn(f64) -> f64| {
@@ -136,7 +136,7 @@ fn edge(solved: &Solved) -> Panel {
         ..panel(
             solved,
             "angle from a boss, deg",
-            "lift of the edge, mm/MPa",
+            "edge lift, mm/MPa",
             curves,
         )
     }
@@ -145,7 +145,7 @@ fn edge(solved: &Solved) -> Panel {
 fn stress_map(solved: &Solved) -> DiscMap<'_> {
     DiscMap {
         title: format!("{} valve", capital(solved.location.name)),
-        value_label: ["von Mises' stress,".into(), "MPa/MPa".into()],
+        value_label: ["von Mises stress,".into(), "MPa/MPa".into()],
         radii_mm: [
             solved.stack.clamp_radius_m() * 1e3,
             solved.stack.free_radius_m() * 1e3,

@@ -1,4 +1,4 @@
-//! The report of `dashpot shims --fe`.
+//! Report of `dashpot shims --fe`.
 
 use std::io::{self, Write};
 
@@ -8,10 +8,10 @@ use super::{PlateArguments, Solved};
 use crate::commands::failure::Outcome;
 use dashpot_testbench::plate::{Fit, LargestStress, PressureArea, Profile, Stacking};
 
-/// Largest lift over the thickness at which plate theory is told to hold: it then overstates the lift by 3 %.
+/// Largest ratio of lift to thickness at which plate theory is reported as valid: it then overstates the lift by 3 %.
 const SMALL_LIFT: f64 = 0.5;
 
-/// Edge lift per pressure round the circumference (m/Pa).
+/// Edge lift per pressure around the circumference (m/Pa).
 #[derive(Serialize)]
 struct EdgeLift {
     mean_m_per_pa: f64,
@@ -26,7 +26,7 @@ struct PlateRow {
     mean_lift_m: f64,
     greatest_lift_m: f64,
     largest_stress_pa: f64,
-    /// Greatest lift over the thickness that it is to be small against.
+    /// Maximum lift divided by the thickness; plate theory needs it to be small.
     lift_over_thickness: f64,
     plate_theory_holds: bool,
 }
@@ -36,36 +36,39 @@ struct PlateValve {
     valve: &'static str,
     stacking: Stacking,
     equivalent_thickness_m: f64,
-    /// Where pressure acts; none where no area of the assumed kind has the valve's Ce.
+    /// Pressure area; `None` if no area of the assumed kind has the valve's Ce.
     pressure_area: Option<PressureArea>,
     pressure_area_is_given: bool,
     damper_correction_factor: f64,
-    /// Mean edge lift over that under uniform pressure.
+    /// Ratio of mean edge lift to the lift under uniform pressure.
     correction_factor: Option<f64>,
-    /// Greatest edge lift over that under uniform pressure.
+    /// Ratio of maximum edge lift to the lift under uniform pressure.
     correction_factor_of_greatest_lift: Option<f64>,
     edge_lift: EdgeLift,
     largest_stress: LargestStress,
     largest_stress_uniform: LargestStress,
     allowable_pressure_pa: Option<f64>,
     pressures: Vec<PlateRow>,
-    /// Geometries that have the damper's Ce.
+    /// Geometries with the damper's Ce.
     fits: Vec<Fit>,
 }
 
-/// The stacks as plates.
+/// Results of the plate analysis.
 #[derive(Serialize)]
-pub(crate) struct PlateReport {
+pub(in crate::commands::shims) struct PlateReport {
     allowable_stress_pa: Option<f64>,
     valves: Vec<PlateValve>,
 }
 
 impl PlateReport {
-    /// Of the stacks `solved`.
+    /// Creates the report on solved stacks.
     ///
     /// # Errors
-    /// The published tables in the program are not as they were shipped.
-    pub(crate) fn new(arguments: &PlateArguments, solved: &[Solved]) -> Outcome<Self> {
+    /// The published tables built into the program are damaged.
+    pub(in crate::commands::shims) fn new(
+        arguments: &PlateArguments,
+        solved: &[Solved],
+    ) -> Outcome<Self> {
         Ok(Self {
             allowable_stress_pa: arguments.allowable_stress_pa,
             valves: (solved.iter())
@@ -128,11 +131,14 @@ fn valve_report(arguments: &PlateArguments, solved: &Solved) -> Outcome<PlateVal
     })
 }
 
-/// The report for people.
-pub(crate) fn print(out: &mut dyn Write, report: &PlateReport) -> io::Result<()> {
+/// Prints the report as text.
+pub(in crate::commands::shims) fn print(
+    out: &mut dyn Write,
+    report: &PlateReport,
+) -> io::Result<()> {
     writeln!(
         out,
-        "\nshims as thin plates, by the file's shims and not by a compliance it gives"
+        "\nshims as thin plates, from the shims in the damper file (a compliance in the file is not used)"
     )?;
     for valve in &report.valves {
         print_valve(out, valve, report.allowable_stress_pa)?;
@@ -145,7 +151,7 @@ pub(crate) fn print(out: &mut dyn Write, report: &PlateReport) -> io::Result<()>
     {
         writeln!(
             out,
-            "\n*: lifted by more than half a thickness; plate theory says too much there, 3 % at a half and 9 % at one"
+            "\n*: lift above half the thickness; plate theory overstates it, by 3 % at half and 9 % at one thickness"
         )?;
     }
     Ok(())
@@ -173,13 +179,13 @@ fn print_valve(
             } else if valve.damper_correction_factor == 1.0 {
                 "Ce of the file is 1"
             } else {
-                "assumed, fitted to Ce"
+                "assumed kind, fitted to Ce"
             };
             writeln!(out, "  pressure: {} ({source})", described(area))?;
         }
         None => writeln!(
             out,
-            "  pressure: on the whole disc; no area of the assumed kind has the file's Ce {}",
+            "  pressure: on the whole disc; no area of the assumed kind gives the Ce of the file, {}",
             valve.damper_correction_factor
         )?,
     }
@@ -188,23 +194,24 @@ fn print_valve(
     {
         writeln!(
             out,
-            "  Ce {mean:.4} by the mean lift of the edge, {greatest:.4} by the greatest; the file has {}",
+            "  Ce {mean:.4} from the mean edge lift, {greatest:.4} from the maximum edge lift; the file has {}",
             valve.damper_correction_factor
         )?;
     }
     let stress = &valve.largest_stress;
     let discs: Vec<String> = stress.discs.iter().map(usize::to_string).collect();
     let angle = match valve.pressure_area {
-        Some(PressureArea::Ring(_)) | None => "all round".to_owned(),
+        Some(PressureArea::Ring(_)) | None => "at all angles".to_owned(),
         Some(_) => format!(
-            "{:.1} deg from a boss's middle",
+            "{:.1} deg from the centre of a boss",
             stress.angle_rad.to_degrees()
         ),
     };
     let plural = if discs.len() > 1 { "s" } else { "" };
     writeln!(
         out,
-        "  largest stress {:.2} MPa/MPa at r {:.2} mm, {angle}, disc{plural} {} of the file; {:.2} under uniform pressure",
+        "  maximum stress {:.2} MPa/MPa at r {:.2} mm, {angle}, disc{plural} {} of the file; {:.2} under uniform \
+         pressure",
         stress.von_mises_per_pressure,
         stress.radius_m * 1e3,
         discs.join(", "),
@@ -213,14 +220,14 @@ fn print_valve(
     if valve.edge_lift.least_m_per_pa < 0.0 {
         writeln!(
             out,
-            "  between bosses the edge is pressed down, by {:.4} mm/MPa where no seat holds it",
+            "  between bosses the edge moves down, by {:.4} mm/MPa if no seat supports it",
             -valve.edge_lift.least_m_per_pa * 1e9
         )?;
     }
     if let Some((stress, pressure)) = allowable_stress_pa.zip(valve.allowable_pressure_pa) {
         writeln!(
             out,
-            "  {:.0} MPa is reached at {:.3} MPa",
+            "  stress {:.0} MPa is reached at pressure {:.3} MPa",
             stress * 1e-6,
             pressure * 1e-6
         )?;
@@ -228,7 +235,7 @@ fn print_valve(
     writeln!(
         out,
         "  {:>9}{:>15}{:>19}{:>21}{:>17}",
-        "P, MPa", "mean lift, mm", "greatest lift, mm", "largest stress, MPa", "lift/thickness"
+        "P, MPa", "mean lift, mm", "max lift, mm", "max stress, MPa", "lift/thickness"
     )?;
     for row in &valve.pressures {
         writeln!(
@@ -250,7 +257,7 @@ fn print_valve(
     Ok(())
 }
 
-/// An area in words.
+/// Describes a pressure area in words.
 fn described(area: &PressureArea) -> String {
     let radii = |[from, to]: [f64; 2]| format!("{:.3} to {:.3} mm", from * 1e3, to * 1e3);
     let profile = |profile: &Profile| {
@@ -262,7 +269,7 @@ fn described(area: &PressureArea) -> String {
             full
         } else {
             format!(
-                "{full}, decaying to nothing at {} mm with exponent {}",
+                "{full}, decaying to zero at {} mm with exponent {}",
                 ends.join(" and "),
                 profile.exponent
             )
@@ -271,13 +278,14 @@ fn described(area: &PressureArea) -> String {
     match area {
         PressureArea::Ring(ring) => profile(ring),
         PressureArea::Sectors(bosses) => format!(
-            "on {} sectors that take {} of the circumference, {}",
+            "on {} sectors covering {} of the circumference, {}",
             bosses.count,
             bosses.share,
             profile(&bosses.profile)
         ),
         PressureArea::Round(bosses) => format!(
-            "on {} round bosses at {:.3} mm, full over {:.3} mm, decaying to nothing at {:.3} mm from their middles with exponent {}",
+            "on {} round bosses at radius {:.3} mm, full up to {:.3} mm and decaying to zero at {:.3} mm from their \
+             centres with exponent {}",
             bosses.count,
             bosses.pitch_radius_m * 1e3,
             bosses.hole_radius_m * 1e3,

@@ -1,4 +1,4 @@
-//! Dampers in service: force over time, displacement and velocity.
+//! Figure of dampers: force over time, displacement and velocity.
 
 use maud::{Markup, html};
 
@@ -13,19 +13,19 @@ use dashpot_report::plot::style::{BLUE_LINE, RED_LINE};
 use dashpot_study::sweep::record;
 use dashpot_vehicle_run::signals::slug;
 
-/// Displacement and force of each damper.
+/// Returns the names of the displacement and force signals of each damper.
 pub(super) fn signals(dampers: &[String]) -> Vec<String> {
-    let of = |name: &String| {
+    let signals_of = |name: &String| {
         let name = slug(name);
         [format!("{name}_displacement_m"), format!("{name}_force_n")]
     };
-    dampers.iter().flat_map(of).collect()
+    dampers.iter().flat_map(signals_of).collect()
 }
 
-/// The first case of a sweep at its first seed.
+/// Draws the first case of a sweep with its first seed.
 ///
 /// # Errors
-/// The case cannot be run, or the figure not be drawn.
+/// The case cannot be run, or the figure cannot be drawn.
 pub(super) fn part(
     drawn: &Drawn<'_>,
     sweep: &Sweep,

@@ -1,4 +1,4 @@
-//! Observed indices over what varies.
+//! Figure of observed indices over the varied parameter.
 
 use maud::{Markup, html};
 use plotters::style::RGBColor;
@@ -12,19 +12,19 @@ use dashpot_report::plot::sheet::Panel;
 use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
 use dashpot_study::sweep::Estimate;
 
-/// Colours of indices of one panel.
+/// Colours of the indices in one panel.
 const COLOURS: [RGBColor; 4] = [BLUE_LINE, RED_LINE, AMBER_LINE, PALE];
 
-/// An observed index as a figure has it.
+/// An observed index in a figure.
 pub(super) struct Index {
-    /// Its number among the observed.
+    /// Position among the observed indices.
     pub(super) number: usize,
-    /// What it is multiplied by.
+    /// Factor applied to the values.
     pub(super) factor: Option<f64>,
 }
 
 impl Index {
-    /// Its name, with the factor.
+    /// Returns the name with the factor.
     fn name(&self, drawn: &Drawn<'_>) -> String {
         let name = drawn.study.observed[self.number].name.replace('_', " ");
         match self.factor {
@@ -38,7 +38,7 @@ impl Index {
     }
 }
 
-/// A panel for each sweep whose first axis has numbers, a table for each other.
+/// Draws a panel for each sweep whose first axis is numeric, and a table for each other sweep.
 ///
 /// # Errors
 /// The figure cannot be drawn.
@@ -56,13 +56,13 @@ pub(super) fn part(
         .iter()
         .map(|sweep| over_axis(drawn, sweep, observed))
         .collect();
-    let of_panels = Figure {
+    let drawing = Figure {
         panels,
         height: HEIGHT,
         shares: None,
     };
     Ok(html! {
-        @if !plotted.is_empty() { (figure(&of_panels, &html! { (caption) })?) }
+        @if !plotted.is_empty() { (figure(&drawing, &html! { (caption) })?) }
         @for sweep in listed {
             (table(drawn, sweep, observed))
             p { (caption) }
@@ -70,7 +70,7 @@ pub(super) fn part(
     })
 }
 
-/// Means with their confidence; a curve for each index, and for each value of a second axis.
+/// Draws means with confidence intervals: one curve per index and per value of a second axis.
 fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
     let first = &sweep.axes[0];
     let others = sweep.points() / first.values.len() as u64;
@@ -93,7 +93,7 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
             });
             let estimates: Vec<(f64, Estimate)> = estimates.collect();
             if others == 1 {
-                curves.extend(of_seeds(drawn, sweep, index, colour));
+                curves.extend(seed_curves(drawn, sweep, index, colour));
             }
             let name = match (others, observed.len()) {
                 (1, 1) => String::new(),
@@ -128,8 +128,8 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
     }
 }
 
-/// Curves of the single seeds, pale: how far they spread, and that they move together.
-fn of_seeds(drawn: &Drawn<'_>, sweep: &Sweep, index: &Index, colour: RGBColor) -> Vec<Curve> {
+/// Draws pale curves of the individual seeds, which show their spread and that they move together.
+fn seed_curves(drawn: &Drawn<'_>, sweep: &Sweep, index: &Index, colour: RGBColor) -> Vec<Curve> {
     let axis = &sweep.axes[0];
     let mut seeds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); sweep.seeds.len()];
     for (at, value) in axis.values.iter().enumerate() {
@@ -152,7 +152,7 @@ fn lighter(part: u8) -> u8 {
     255 - (255 - part) / 4
 }
 
-/// Values of the axes behind the first.
+/// Describes the values of all axes after the first.
 fn at_others(sweep: &Sweep, other: u64) -> String {
     let values = sweep.values(other);
     let named = sweep.axes.iter().zip(values).skip(1);
@@ -160,7 +160,7 @@ fn at_others(sweep: &Sweep, other: u64) -> String {
     named.collect::<Vec<_>>().join(", ")
 }
 
-/// A value as figures have it.
+/// Formats a value in the unit of the figure.
 fn in_unit(axis: &Axis, value: &Value) -> String {
     match value {
         Value::Number(number) => shown(number * axis.factor),
@@ -168,7 +168,7 @@ fn in_unit(axis: &Axis, value: &Value) -> String {
     }
 }
 
-/// Means with their confidence, and their change from the first value of the first axis, the others being the same.
+/// Tabulates means with confidence intervals, and their change from the first value of the first axis.
 fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
     let others = sweep.points()
         / sweep
@@ -176,7 +176,7 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
             .first()
             .map_or(1, |axis| axis.values.len() as u64);
     let change = |point: u64, index: usize| {
-        let [from, to] = [point % others, point].map(|at| drawn.of_seeds(sweep, at, index));
+        let [from, to] = [point % others, point].map(|at| drawn.seed_values(sweep, at, index));
         Estimate::of_change(&from, &to).filter(|_| point >= others)
     };
     html! {
@@ -201,7 +201,7 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
     }
 }
 
-/// A mean and its confidence.
+/// Formats a mean with its confidence interval.
 fn text(estimate: Option<Estimate>, digits: usize) -> String {
     match estimate {
         Some(Estimate {

@@ -1,4 +1,4 @@
-//! The page of a study.
+//! HTML page of a study.
 
 mod dampers;
 mod indices;
@@ -19,17 +19,17 @@ use dashpot_study::sweep::{Observed, RunError, Shared, Study, VERSION};
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 260;
 
-/// A study, its rows, and what its figures share.
+/// A study, its rows, and data shared by its figures.
 struct Drawn<'a> {
     study: &'a Study,
     rows: &'a Rows,
     shared: Shared,
 }
 
-/// Whether there is what the figures of a study draw: before hours of runs.
+/// Checks the signals and dampers of a study's figures before hours of runs.
 ///
 /// # Errors
-/// A signal or damper that there is not; a value that is refused.
+/// A signal or damper does not exist, or a value is invalid.
 pub(super) fn check(study: &Study) -> Outcome<()> {
     let shared = Shared::default();
     for figure in &study.parameters.figures {
@@ -59,10 +59,10 @@ pub(super) fn check(study: &Study) -> Outcome<()> {
     Ok(())
 }
 
-/// The study as HTML.
+/// Returns the study as HTML.
 ///
 /// # Errors
-/// A figure cannot be drawn or its cases not be run.
+/// A figure cannot be drawn, or one of its cases cannot be run.
 pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<String> {
     let drawn = Drawn {
         study,
@@ -81,8 +81,9 @@ pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<Stri
         h1 { (study.parameters.name) }
         @if study.parameters.sweeps.iter().any(|sweep| sweep.seeds.len() > 1) {
             p.lead {
-                "Points are means over seeds of the track's irregularity, bars their confidence intervals of 95 %, pale lines the single seeds. The seeds are the \
-                 same at every point, so a change is surer than the bars."
+                "Points are means over seeds of the track irregularity, bars are 95 % confidence intervals, and pale "
+                "lines are individual seeds. All points use the same seeds, so differences between points are more "
+                "certain than the bars suggest."
             }
         }
         (headline(study))
@@ -97,7 +98,7 @@ pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<Stri
         (cases(study))
         (footer(&html! {
             "Study " (study.digest()) ", version " (VERSION) ", physics " (report.physics) ". "
-            "rows.csv has every case with its seed; `ending` tells how it ended."
+            "rows.csv contains every case with its seed; the column `ending` gives the reason for its end."
         }))
     };
     Ok(document(
@@ -129,24 +130,25 @@ impl Drawn<'_> {
                 let observed: Vec<_> = observed.iter().enumerate().filter_map(index).collect();
                 indices::part(self, &sweeps?, &observed, caption)
             }
-            Shown::Dampers { sweep: of, dampers } => {
-                dampers::part(self, sweep(of)?, dampers, caption)
-            }
+            Shown::Dampers {
+                sweep: name,
+                dampers,
+            } => dampers::part(self, sweep(name)?, dampers, caption),
             Shown::Signal {
-                sweep: of,
+                sweep: name,
                 values,
                 signal,
-            } => signal::part(self, sweep(of)?, values, signal, caption),
+            } => signal::part(self, sweep(name)?, values, signal, caption),
             Shown::Response {
-                sweep: of,
+                sweep: name,
                 values,
                 damper,
                 amplitude_m,
-            } => response::part(self, sweep(of)?, values, (damper, *amplitude_m), caption),
+            } => response::part(self, sweep(name)?, values, (damper, *amplitude_m), caption),
         }
     }
 
-    /// The number of an observed index.
+    /// Returns the position of an observed index.
     fn number(&self, name: &str) -> Option<usize> {
         let observed = self.study.observed.iter();
         observed
@@ -154,17 +156,17 @@ impl Drawn<'_> {
             .find_map(|(number, index): (usize, &Observed)| (index.name == name).then_some(number))
     }
 
-    /// Observed values of an index at a point of a sweep, one a seed.
-    fn of_seeds(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<Option<f64>> {
+    /// Returns the observed values of an index at a point of a sweep, one per seed.
+    fn seed_values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<Option<f64>> {
         let numbers = self.study.numbers(sweep, point);
         let observed = |number| self.rows.get(&number)?.observed.get(index).copied()?;
         numbers.map(observed).collect()
     }
 
-    /// Those there are.
+    /// Returns the existing values only.
     fn values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<f64> {
-        let of_seeds = self.of_seeds(sweep, point, index);
-        of_seeds.into_iter().flatten().collect()
+        let seed_values = self.seed_values(sweep, point, index);
+        seed_values.into_iter().flatten().collect()
     }
 }
 
@@ -179,18 +181,18 @@ fn headline(study: &Study) -> Markup {
         (
             html! { (study.parameters.sweeps.len()) },
             match study.parameters.sweeps.len() {
-                1 => "sweep of parameters".to_owned(),
-                _ => "sweeps of parameters".to_owned(),
+                1 => "parameter sweep".to_owned(),
+                _ => "parameter sweeps".to_owned(),
             },
         ),
     ];
-    if let Some(most) = seeds.max().filter(|most| *most > 0) {
-        facts.push((html! { (most) }, "seeds of the irregularity".to_owned()));
+    if let Some(max) = seeds.max().filter(|max| *max > 0) {
+        facts.push((html! { (max) }, "seeds of the irregularity".to_owned()));
     }
     tiles(&facts)
 }
 
-/// What the cases are.
+/// Tabulates the cases.
 fn cases(study: &Study) -> Markup {
     html! {
         div.wide.worded { table {
@@ -198,7 +200,12 @@ fn cases(study: &Study) -> Markup {
             @for sweep in &study.parameters.sweeps {
                 tr {
                     td { (sweep.name) }
-                    td.text { (sweep.case.name.clone().unwrap_or_else(|| format!("{} on {}", sweep.case.vehicle, sweep.case.track))) }
+                    td.text {
+                        @match &sweep.case.name {
+                            Some(name) => (name),
+                            None => { (sweep.case.vehicle) " on " (sweep.case.track) }
+                        }
+                    }
                     td.text { @for axis in &sweep.axes { (axis.parameter) br; } }
                     td.text {
                         @for axis in &sweep.axes {
@@ -212,7 +219,7 @@ fn cases(study: &Study) -> Markup {
     }
 }
 
-/// A case of a sweep that is drawn cannot be run.
+/// Converts an error of a figure's case to an error that names the sweep.
 fn failed(sweep: &Sweep) -> impl Fn(dashpot_vehicle_run::VehicleRunError) -> RunError + '_ {
     |error| RunError::of_sweep(sweep, error)
 }

@@ -1,4 +1,4 @@
-//! Amplitude-frequency characteristic of a damper, by the value of what varies.
+//! Figure of the amplitude-frequency characteristic of a damper for each value of the varied parameter.
 
 use maud::{Markup, html};
 
@@ -12,14 +12,14 @@ use dashpot_report::plot::response;
 use dashpot_report::plot::sheet::Scale;
 use dashpot_testbench::response::{at_amplitude, frequencies};
 
-/// Frequencies, Hz, and how many.
+/// Range (Hz) and number of the frequencies.
 const BAND_HZ: [f64; 2] = [0.1, 20.0];
 const FREQUENCIES: usize = 41;
 
-/// Dynamic stiffness and damping over frequency, at an amplitude.
+/// Draws dynamic stiffness and damping over frequency at one amplitude.
 ///
 /// # Errors
-/// The damper does not come to a periodic force, or the figure cannot be drawn.
+/// The force does not become periodic, or the figure cannot be drawn.
 pub(super) fn part(
     drawn: &Drawn<'_>,
     sweep: &Sweep,
@@ -27,8 +27,8 @@ pub(super) fn part(
     (name, amplitude_m): (&str, f64),
     caption: &str,
 ) -> Outcome<Markup> {
-    let [least, greatest] = BAND_HZ;
-    let frequencies = frequencies(least, greatest, FREQUENCIES);
+    let [min, max] = BAND_HZ;
+    let frequencies = frequencies(min, max, FREQUENCIES);
     let responses = dashpot_workers::map(values, |value| -> Outcome<_> {
         let case = drawn.study.case_with(sweep, Some(value), None)?;
         let damper = case
@@ -38,22 +38,22 @@ pub(super) fn part(
         Ok(at_amplitude(&checked, amplitude_m, &frequencies)?)
     })?;
     let [mut stiffness, _, mut damping] = response::panels(Scale::Linear);
-    let of_values = responses.iter().zip(values).zip(ramp(values.len()));
-    for ((responses, value), colour) in of_values {
+    let by_value = responses.iter().zip(values).zip(ramp(values.len()));
+    for ((responses, value), colour) in by_value {
         let [over_stiffness, _, over_damping] =
             response::of(&label(sweep, value), colour, responses, Scale::Linear);
         stiffness.curves.push(over_stiffness);
         damping.curves.push(over_damping);
     }
-    let of_panels = Figure {
+    let drawing = Figure {
         panels: vec![stiffness, damping],
         height: HEIGHT,
         shares: None,
     };
     Ok(figure(
-        &of_panels,
+        &drawing,
         &html! {
-            (caption) " Damping is the part of force over velocity in phase with the velocity; amplitude "
+            (caption) " Damping is the ratio of force to velocity, in phase with the velocity; amplitude "
             (format!("{}", amplitude_m * 1e3)) " mm."
         },
     )?)

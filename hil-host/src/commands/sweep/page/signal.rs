@@ -1,4 +1,4 @@
-//! A signal over time and its spectrum, by the value of what varies.
+//! Figure of a signal over time and its spectrum for each value of the varied parameter.
 
 use maud::{Markup, html};
 
@@ -12,10 +12,11 @@ use dashpot_report::plot::sheet::{Panel, Scale};
 use dashpot_study::sweep::{History, RunError, record};
 use dashpot_vehicle_run::spectra::{SHOWN_HZ, Spectrum, WINDOW_S};
 
-/// Over time at the first seed; the spectrum as the mean of all seeds, the band from the least to the greatest.
+/// Draws the signal over time for the first seed, and the mean spectrum of all seeds with the band from minimum to
+/// maximum.
 ///
 /// # Errors
-/// A case cannot be run, or the figure not be drawn.
+/// A case cannot be run, or the figure cannot be drawn.
 pub(super) fn part(
     drawn: &Drawn<'_>,
     sweep: &Sweep,
@@ -27,21 +28,21 @@ pub(super) fn part(
         [] => vec![None],
         seeds => seeds.iter().copied().map(Some).collect(),
     };
-    let of_seeds = |value: &Value| {
+    let with_seeds = |value: &Value| {
         seeds
             .iter()
             .map(|seed| (value.clone(), *seed))
             .collect::<Vec<_>>()
     };
-    let cases: Vec<(Value, Option<u64>)> = values.iter().flat_map(of_seeds).collect();
+    let cases: Vec<(Value, Option<u64>)> = values.iter().flat_map(with_seeds).collect();
     let names = [signal.to_owned()];
     let histories = dashpot_workers::map(&cases, |(value, seed)| -> Result<History, RunError> {
         let case = drawn.study.case_with(sweep, Some(value), *seed)?;
         record(&case, &names, &drawn.shared).map_err(failed(sweep))
     })?;
     let what = in_words(signal);
-    let mut of_time = panel("time, s", &what, Vec::new());
-    let mut of_frequency = Panel {
+    let mut time_panel = panel("time, s", &what, Vec::new());
+    let mut frequency_panel = Panel {
         x_scale: Scale::Decades,
         scale: Scale::Decades,
         ..panel(
@@ -50,28 +51,28 @@ pub(super) fn part(
             Vec::new(),
         )
     };
-    let of_values = histories.chunks_exact(seeds.len()).zip(values);
-    for ((histories, value), colour) in of_values.zip(ramp(values.len())) {
+    let by_value = histories.chunks_exact(seeds.len()).zip(values);
+    for ((histories, value), colour) in by_value.zip(ramp(values.len())) {
         let name = label(sweep, value);
         let [first, ..] = histories else { continue };
         let values = first.signals[0].iter().copied();
         let curve = Curve::new(name.clone(), colour, thinned(values, first.step_s)).wide(4);
-        of_time.curves.push(curve);
+        time_panel.curves.push(curve);
         let (mean, band) = densities(signal, histories)?;
         if mean.is_empty() {
             continue;
         }
-        of_frequency.curves.push(Curve::band("", colour, band));
-        of_frequency
+        frequency_panel.curves.push(Curve::band("", colour, band));
+        frequency_panel
             .curves
             .push(Curve::new(name, colour, mean).wide(6));
     }
-    let panels = if of_frequency.curves.is_empty() {
-        vec![of_time]
+    let panels = if frequency_panel.curves.is_empty() {
+        vec![time_panel]
     } else {
-        vec![of_time, of_frequency]
+        vec![time_panel, frequency_panel]
     };
-    let of_panels = Figure {
+    let drawing = Figure {
         panels,
         height: HEIGHT,
         shares: None,
@@ -79,14 +80,15 @@ pub(super) fn part(
     let spread = match seeds.len() {
         1 => String::new(),
         count => format!(
-            "Over time: seed {}. Spectra (Welch, windows of {WINDOW_S} s): mean of {count} seeds, the band from the least to the greatest.",
+            "Over time: seed {}. Spectra (Welch, windows of {WINDOW_S} s): mean of {count} seeds with the band from \
+             minimum to maximum.",
             seeds[0].unwrap_or_default()
         ),
     };
-    Ok(figure(&of_panels, &html! { (caption) " " (spread) })?)
+    Ok(figure(&drawing, &html! { (caption) " " (spread) })?)
 }
 
-/// A signal's name with its unit as figures have it.
+/// Formats a signal name with its unit.
 fn in_words(signal: &str) -> String {
     let units = [
         ("_m_per_s2", ", m/s²"),
@@ -102,7 +104,7 @@ fn in_words(signal: &str) -> String {
     name.replace('_', " ") + unit
 }
 
-/// The value as figures have it.
+/// Formats a value as a curve label.
 pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
     match (value, sweep.axes.first()) {
         (Value::Number(number), Some(axis)) => {
@@ -118,7 +120,7 @@ pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
 type Mean = Vec<(f64, f64)>;
 type Band = Vec<(f64, f64, f64)>;
 
-/// Mean density over the histories, and its least and greatest.
+/// Returns the mean density over the histories, with its minimum and maximum.
 fn densities(signal: &str, histories: &[History]) -> Outcome<(Mean, Band)> {
     let mut all = Vec::new();
     for history in histories {
@@ -134,10 +136,10 @@ fn densities(signal: &str, histories: &[History]) -> Outcome<(Mean, Band)> {
     for line in 0..lines {
         let frequency_hz = all[0][line][0];
         let here = || all.iter().map(|density| density[line][1]);
-        let least = here().fold(f64::INFINITY, f64::min);
-        if frequency_hz > 0.0 && frequency_hz <= SHOWN_HZ && least > 0.0 {
+        let min = here().fold(f64::INFINITY, f64::min);
+        if frequency_hz > 0.0 && frequency_hz <= SHOWN_HZ && min > 0.0 {
             mean.push((frequency_hz, here().sum::<f64>() / all.len() as f64));
-            band.push((frequency_hz, least, here().fold(0.0, f64::max)));
+            band.push((frequency_hz, min, here().fold(0.0, f64::max)));
         }
     }
     Ok((mean, band))

@@ -1,23 +1,23 @@
-//! What `--outside` names: a damper, and what gives its force.
+//! Value of `--outside`: a damper and the source of its force.
 
 use std::path::PathBuf;
 use std::str::FromStr;
 
 use dashpot_host_link::LinkChoice;
 
-/// A damper of the vehicle and what gives its force, in words `damper=link` or `damper=file`.
+/// A damper of the vehicle and the source of its force, written `damper=link` or `damper=file`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Choice {
     pub(super) damper: String,
-    /// The source as it was named.
+    /// Source as written on the command line.
     pub(super) name: String,
     pub(super) source: Source,
 }
 
-/// What gives a force.
+/// Source of a force.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Source {
-    /// The code of a target, in this process.
+    /// Target code running in this process.
     Desk,
     /// A target.
     Link(LinkChoice),
@@ -25,7 +25,7 @@ pub(super) enum Source {
     File(PathBuf),
 }
 
-/// How names of links start.
+/// Prefixes of links.
 const LINKS: [&str; 3] = ["tcp:", "serial:", "qemu:"];
 
 impl FromStr for Choice {

@@ -1,4 +1,4 @@
-//! Dampers behind one link.
+//! External dampers behind one link.
 
 use dashpot_core::Damper;
 use dashpot_core::link::MAX_DAMPERS;
@@ -14,29 +14,30 @@ use dashpot_host_link::{
 };
 use dashpot_vehicle_run::Run;
 
-/// Places of a target on the desk: as many as a target may have.
-const DESK_PLACES: usize = MAX_DAMPERS;
+/// Number of slots of the in-process target: as many as a target may have.
+const DESK_SLOTS: usize = MAX_DAMPERS;
 
-/// How far the steps of case and target may be from whole multiples of each other: a target tells its own in single precision.
+/// Tolerance for the ratio of the steps of case and target to a whole number: a target reports its step in single
+/// precision.
 const SAME_STEP: f64 = 1e-6;
 
-/// A target and the dampers that it has.
+/// A target and its dampers.
 pub(super) struct Line {
     name: String,
     bank: Bank<Box<dyn Link + Send>>,
     dampers: Vec<usize>,
-    /// Steps of the target in a tick of the case.
+    /// Number of steps of the target per tick of the case.
     steps: u32,
-    /// Displacements sent last, m.
+    /// Last displacements sent, m.
     sent_m: Vec<f64>,
     displacements_m: Vec<f32>,
 }
 
 impl Line {
-    /// Opens the link that `choice` names, and loads `dampers` of the run's vehicle.
+    /// Opens the link given by `choice` and loads `dampers` of the vehicle.
     ///
     /// # Errors
-    /// A link that cannot be opened; a target with too few places, or whose step does not divide the case's.
+    /// The link cannot be opened, the target has too few slots, or its step does not divide that of the case.
     pub(super) fn open(
         choice: &Choice,
         dampers: Vec<usize>,
@@ -55,7 +56,8 @@ impl Line {
         let steps = (case.step_s / step.step_s()).round();
         if steps < 1.0 || (case.step_s / step.step_s() - steps).abs() > SAME_STEP * steps {
             return Err(Failure::wrong_use(format!(
-                "--outside {name}: the target steps {step} us, the case {} us; allowed: --step-us {step} or a whole multiple",
+                "--outside {name}: the step of the target is {step} us, that of the case {} us; allowed: --step-us \
+                 {step} or a whole multiple",
                 1e6 * case.step_s
             )));
         }
@@ -73,11 +75,12 @@ impl Line {
         })
     }
 
-    /// Sends the displacements, on the way there on a straight line where the target steps more often; the forces that are answered act
-    /// from the next tick on.
+    /// Sends the displacements and applies the returned forces from the next tick on.
+    ///
+    /// If the target takes several steps per tick, displacements are interpolated linearly.
     ///
     /// # Errors
-    /// The link and what happened to it.
+    /// The link fails; the message names it.
     pub(super) fn exchange(&mut self, run: &mut Run) -> Result<(), String> {
         let named = |error: SessionError| named(&self.name, &error);
         for step in 1..=self.steps {
@@ -89,7 +92,7 @@ impl Line {
                 .zip(&self.sent_m)
                 .zip(&self.dampers)
             {
-                // The last is the displacement to the bit.
+                // The last step uses the displacement itself, bit for bit.
                 *displacement_m = if step == self.steps {
                     all[*damper] as f32
                 } else {
@@ -110,10 +113,10 @@ impl Line {
         Ok(())
     }
 
-    /// What was found of the target.
+    /// Closes the session and returns the results of the target.
     ///
     /// # Errors
-    /// The link and what happened to it.
+    /// The link fails; the message names it.
     pub(super) fn finish(self) -> Result<Target, String> {
         let Self {
             name, bank, steps, ..
@@ -129,7 +132,7 @@ impl Line {
     }
 }
 
-/// What happened, with the link's name once.
+/// Formats an error so that it names the link exactly once.
 fn named(name: &str, error: &SessionError) -> String {
     let text = in_words(error);
     if text.contains(name) {
@@ -139,24 +142,24 @@ fn named(name: &str, error: &SessionError) -> String {
     }
 }
 
-/// A target in this process that steps as the case does.
+/// Creates a target in this process with the step of the case.
 fn desk(case: &Case, dampers: &[usize]) -> Outcome<Box<dyn Link + Send>> {
     let first = dampers.first().copied().unwrap_or_default();
     let damper = build(case, first, case.step_s)?;
-    let desk = Desk::new([damper; DESK_PLACES]).map_err(LinkError::from)?;
+    let desk = Desk::new([damper; DESK_SLOTS]).map_err(LinkError::from)?;
     Ok(Box::new(desk))
 }
 
-/// The damper of a number in single precision.
+/// Builds the damper with index `damper` in single precision.
 fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
     let element = case.vehicle.dampers().nth(damper);
     let parameters = element
         .and_then(|element| case.damper(&element.name))
-        .ok_or_else(|| Failure::new(format!("no damper {damper}")))?;
+        .ok_or_else(|| Failure::new(format!("the vehicle has no damper {damper}")))?;
     Ok(parameters.build(step_s)?)
 }
 
-/// What a target is refused for, in the words of `--outside`.
+/// Reports an unusable target with the option `--outside`.
 fn refused(name: &str, error: &SessionError) -> Failure {
     match error {
         SessionError::Places { .. } => Failure::wrong_use(format!("--outside {name}: {error}")),
@@ -167,7 +170,7 @@ fn refused(name: &str, error: &SessionError) -> Failure {
     }
 }
 
-/// The error, and the options that help where the target does not answer in time.
+/// Formats the error, with the options that help if the target does not answer in time.
 fn in_words(error: &SessionError) -> String {
     match error {
         SessionError::Link(source) | SessionError::After { source, .. } => {

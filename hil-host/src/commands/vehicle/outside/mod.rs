@@ -1,4 +1,4 @@
-//! Dampers outside the simulated vehicle: behind a link, or as a recorded force.
+//! Dampers external to the simulated vehicle: behind a link, or as a recorded force.
 
 mod choice;
 mod line;
@@ -17,12 +17,12 @@ use dashpot_recording::ForceHistory;
 use dashpot_study::verification::{Beside, Effect, Forces};
 use dashpot_vehicle_run::{Ending, Run, VehicleRunError, number_outside};
 
-/// Which dampers are outside, and how their links are used.
+/// External dampers and the options of their links.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct OutsideArguments {
-    /// Takes the force of one damper from outside: from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE) that has its
-    /// parameters, or from a recording (CSV, MDF4 or Parquet) with the channels
-    /// time_s and force_n; may be given several times.
+    /// Take the force of one damper from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE), into which
+    /// its parameters are loaded, or from a recording (CSV, MDF4 or Parquet) with the channels time_s and force_n. May
+    /// be repeated.
     #[arg(
         long = "outside",
         value_name = "DAMPER=LINK|FILE",
@@ -35,17 +35,17 @@ pub(super) struct OutsideArguments {
     recording: ForceHistoryArguments,
 }
 
-/// The dampers outside, before or between ticks.
+/// The external dampers of a run.
 pub(super) struct Outside {
     choices: Vec<Choice>,
-    /// Number of each chosen damper.
+    /// Index of each chosen damper.
     dampers: Vec<usize>,
     lines: Lines,
-    /// None where no damper is behind a link.
+    /// Comparison with internal dampers; `None` if no damper is behind a link.
     beside: Option<Beside>,
 }
 
-/// What gives the forces of the dampers outside, tick by tick.
+/// Sources of the forces of the external dampers, tick by tick.
 #[derive(Default)]
 pub(super) struct Lines {
     lines: Vec<Line>,
@@ -53,21 +53,21 @@ pub(super) struct Lines {
 }
 
 impl OutsideArguments {
-    /// Finds the dampers and reads the files.
+    /// Looks up the dampers and reads the files.
     ///
     /// # Errors
-    /// A damper that there is not, is given twice or has a fault on the way; a file that cannot be used.
+    /// A damper does not exist, is given twice or has a fault during the run, or a file cannot be used.
     pub(super) fn read(&self, case: &Case) -> Outcome<Option<Outside>> {
         if self.choices.is_empty() {
             if self.options != LineOptions::default() {
                 return Err(Failure::wrong_use(
-                    "--timeout-ms, --tries and --baud go with --outside",
+                    "--timeout-ms, --tries and --baud require --outside",
                 ));
             }
             return match self.recording == ForceHistoryArguments::default() {
                 true => Ok(None),
                 false => Err(Failure::wrong_use(
-                    "options that say how a recording is read go with --outside DAMPER=FILE",
+                    "options for reading a recording require --outside DAMPER=FILE",
                 )),
             };
         }
@@ -97,7 +97,7 @@ impl OutsideArguments {
         }))
     }
 
-    /// Numbers of the dampers.
+    /// Returns the indices of the dampers.
     fn dampers(&self, case: &Case) -> Outcome<Vec<usize>> {
         let mut dampers = Vec::new();
         for choice in &self.choices {
@@ -113,9 +113,9 @@ impl OutsideArguments {
     /// Opens the links and loads the dampers behind them.
     ///
     /// # Errors
-    /// A link that cannot be used.
+    /// A link cannot be used.
     pub(super) fn connect(&self, outside: &mut Outside, case: &Case, run: &mut Run) -> Outcome<()> {
-        // Dampers behind one link are one bank.
+        // Dampers behind one link form one bank.
         let mut links: Vec<(&Choice, Vec<usize>)> = Vec::new();
         let mut behind = Vec::new();
         for (choice, damper) in self.choices.iter().zip(&outside.dampers) {
@@ -139,20 +139,20 @@ impl OutsideArguments {
             outside.beside = Some(Beside::new(run, case, behind.clone()));
         }
         for damper in behind {
-            // At rest, until the first displacement is answered.
+            // No force until the first response.
             set_force_n(run, damper, 0.0)?;
         }
         Ok(())
     }
 }
 
-/// The force of a damper from the next tick on.
+/// Sets the force of a damper from the next tick on.
 fn set_force_n(run: &mut Run, damper: usize, force_n: f64) -> Result<(), VehicleRunError> {
     Ok(run.state_mut().set_outside_force_n(damper, Some(force_n))?)
 }
 
 impl Exchange for Lines {
-    /// Recorded forces at the end of the tick that comes.
+    /// Applies the recorded forces at the end of the coming tick.
     fn before(&mut self, run: &mut Run) -> Result<(), VehicleRunError> {
         let time_s = run.time_s() + run.vehicle().step_s();
         for (damper, history) in &self.recorded {
@@ -162,8 +162,8 @@ impl Exchange for Lines {
         Ok(())
     }
 
-    /// Displacements of the tick that was go out, the forces that come back act at the end of the next; how the run ended, where a target
-    /// is lost.
+    /// Sends the displacements of the last tick; the returned forces act at the end of the next one. Returns an ending
+    /// if a target is lost.
     fn after(&mut self, run: &mut Run) -> Option<Ending> {
         let mut lines = self.lines.iter_mut();
         let message = lines.find_map(|line| line.exchange(run).err())?;
@@ -172,15 +172,15 @@ impl Exchange for Lines {
 }
 
 impl Outside {
-    /// What exchanges forces within the ticks, and what keeps the run to compare it after its ticks.
+    /// Returns the force sources used within the ticks and the recorder for the comparison after the run.
     pub(super) fn parts(&mut self) -> (&mut Lines, &mut Option<Beside>) {
         (&mut self.lines, &mut self.beside)
     }
 
-    /// What is told, and the forces in both runs; an ending, where a target is lost at last.
+    /// Returns the report and the forces in both runs; sets `ending` if a target is lost while closing.
     ///
     /// # Errors
-    /// The run with the dampers inside fails.
+    /// The run with internal dampers fails.
     pub(super) fn finish(
         self,
         case: &Case,

@@ -1,4 +1,4 @@
-//! What is told of the dampers outside.
+//! Report on the external dampers.
 
 use std::io::{self, Write};
 
@@ -11,39 +11,39 @@ use dashpot_realtime::timing::{optional_span, span};
 use dashpot_recording::ForceHistory;
 use dashpot_study::verification::Effect;
 
-/// What is told of the dampers outside.
+/// Report on the external dampers.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct OutsideReport {
-    pub(crate) dampers: Vec<OutsideDamper>,
-    /// Displacements and forces are exchanged so often, s.
-    pub(crate) exchange_step_s: f64,
-    /// From a displacement to the moment its force has come in, s; a recorded force has none.
-    pub(crate) delay_s: f64,
-    /// Links that lasted to the end.
-    pub(crate) targets: Vec<Target>,
-    /// Against the same run with all dampers inside.
+pub(in crate::commands::vehicle) struct OutsideReport {
+    pub(in crate::commands::vehicle) dampers: Vec<OutsideDamper>,
+    /// Interval of the exchange of displacements and forces, s.
+    pub(in crate::commands::vehicle) exchange_step_s: f64,
+    /// Delay from a displacement to the arrival of its force, s; does not apply to a recorded force.
+    pub(in crate::commands::vehicle) delay_s: f64,
+    /// Targets whose link survived to the end.
+    pub(in crate::commands::vehicle) targets: Vec<Target>,
+    /// Difference from the same run with all dampers simulated internally.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) effect: Option<Effect>,
+    pub(in crate::commands::vehicle) effect: Option<Effect>,
 }
 
-/// A damper outside.
+/// An external damper.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct OutsideDamper {
-    pub(crate) damper: String,
-    /// The link or file.
-    pub(crate) source: String,
-    pub(crate) is_recorded: bool,
-    /// The last line of the file, where it has no line end.
+pub(in crate::commands::vehicle) struct OutsideDamper {
+    pub(in crate::commands::vehicle) damper: String,
+    /// Link or file.
+    pub(in crate::commands::vehicle) source: String,
+    pub(in crate::commands::vehicle) is_recorded: bool,
+    /// Number of the last line of the file, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) unended_line: Option<u64>,
+    pub(in crate::commands::vehicle) unended_line: Option<u64>,
 }
 
-/// A target that dampers are on.
+/// A target that runs external dampers.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Target {
-    pub(crate) link: String,
-    /// Its steps in one exchange.
-    pub(crate) steps_a_tick: u32,
+pub(in crate::commands::vehicle) struct Target {
+    pub(in crate::commands::vehicle) link: String,
+    /// Number of its steps per exchange.
+    pub(in crate::commands::vehicle) steps_a_tick: u32,
     #[serde(flatten)]
     pub(crate) found: dashpot_host_link::Report,
 }
@@ -70,7 +70,7 @@ impl OutsideReport {
         }
     }
 
-    /// Notes which recorded forces, in the order of their dampers, end with a line that has no line end.
+    /// Records which files of recorded forces, in the order of their dampers, end without a line end.
     pub(super) fn add_unended<'a>(&mut self, histories: impl Iterator<Item = &'a ForceHistory>) {
         let recorded = self.dampers.iter_mut().filter(|damper| damper.is_recorded);
         for (damper, history) in recorded.zip(histories) {
@@ -78,8 +78,8 @@ impl OutsideReport {
         }
     }
 
-    /// What each is, and the result.
-    pub(crate) fn lines(&self) -> Vec<(String, String)> {
+    /// Returns the lines of the report as pairs of label and text.
+    pub(in crate::commands::vehicle) fn lines(&self) -> Vec<(String, String)> {
         let mut lines = Vec::new();
         for OutsideDamper {
             damper,
@@ -90,10 +90,13 @@ impl OutsideReport {
         {
             let text = if *is_recorded {
                 let warning = unended_line.map(|line| format!("; {}", unended(line)));
-                format!("recorded force of {source}{}", warning.unwrap_or_default())
+                format!(
+                    "recorded force from {source}{}",
+                    warning.unwrap_or_default()
+                )
             } else {
                 format!(
-                    "on {source}: exchanged every {} us, its force {} us late",
+                    "on {source}: exchange every {} us, force delayed by {} us",
                     micro(self.exchange_step_s),
                     micro(self.delay_s)
                 )
@@ -111,7 +114,7 @@ impl OutsideReport {
 }
 
 impl Target {
-    /// The exchange over the link in one line.
+    /// Describes the exchange over the link in one line.
     fn text(&self) -> String {
         let dashpot_host_link::Report {
             round_trip,
@@ -122,14 +125,14 @@ impl Target {
         } = &self.found;
         let steps = match self.steps_a_tick {
             1 => String::new(),
-            steps => format!(", {steps} steps an exchange"),
+            steps => format!(", {steps} steps per exchange"),
         };
         let forces = match mismatches {
-            0 => "every force has the bits of this host's".to_owned(),
-            some => format!("{some} forces are not this host's"),
+            0 => "every force is bit-identical to the host's".to_owned(),
+            some => format!("{some} forces differ from the host's"),
         };
         format!(
-            "a step and its answer {} at the median, {} at most{steps}; {forces}; {} requests repeated, {recoveries} recoveries",
+            "round trip {} median, {} maximum{steps}; {forces}; {} requests repeated, {recoveries} recoveries",
             optional_span(round_trip.p50_ns),
             span(round_trip.worst_ns),
             link_faults.repeated_requests,
@@ -137,19 +140,19 @@ impl Target {
     }
 }
 
-/// The differences from the run with all dampers inside.
+/// Describes the differences from the run with internal dampers.
 fn of_effect(effect: &Effect) -> Vec<(String, String)> {
     let worst = &effect.deviations;
     let mut lines = vec![(
         "effect".into(),
         format!(
-            "against the same {:.3} s with all dampers inside, worst of all:",
+            "compared with the same {:.3} s with internal dampers, worst values:",
             effect.duration_s
         ),
     )];
     for damper in &effect.dampers {
         let text = format!(
-            "{:.1} N rms of {:.1} N: force of {}",
+            "{:.1} N rms of {:.1} N rms: force of {}",
             damper.difference_rms_n, damper.force_rms_n, damper.damper
         );
         lines.push(("  force".into(), text));
@@ -181,14 +184,17 @@ fn of_effect(effect: &Effect) -> Vec<(String, String)> {
     lines
 }
 
-/// Microseconds, to the nanosecond.
+/// Converts to microseconds, rounded to the nanosecond.
 fn micro(time_s: f64) -> f64 {
     (time_s * 1e9).round() * 1e-3
 }
 
-/// The results for people.
-pub(crate) fn print(out: &mut dyn Write, report: &OutsideReport) -> io::Result<()> {
-    writeln!(out, "\ndampers outside")?;
+/// Prints the results as text.
+pub(in crate::commands::vehicle) fn print(
+    out: &mut dyn Write,
+    report: &OutsideReport,
+) -> io::Result<()> {
+    writeln!(out, "\nexternal dampers")?;
     for (what, text) in report.lines() {
         writeln!(out, "{what:<26} {text}")?;
     }
