@@ -6,9 +6,7 @@ use dashpot_core::BuildError;
 use dashpot_rail::contact::PairError;
 use dashpot_reference::ReferenceError;
 
-use super::calibrate::words;
 use super::remedy::{option_of, with_remedy};
-use dashpot_calibration::CalibrationError;
 use dashpot_export::ExportError;
 use dashpot_files::FileError;
 use dashpot_files::case::CaseError;
@@ -238,12 +236,6 @@ impl From<TestbenchError> for Failure {
             | TestbenchError::Displacement { .. } => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
-    }
-}
-
-impl From<CalibrationError> for Failure {
-    fn from(error: CalibrationError) -> Self {
-        words::failure(error, &words::Given::default())
     }
 }
 

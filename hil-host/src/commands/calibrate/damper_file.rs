@@ -2,7 +2,8 @@
 
 use dashpot_core::CheckedParameters;
 
-use super::report::{Report, digits};
+use super::digits::digits;
+use super::report::Report;
 use crate::commands::failure::Outcome;
 use dashpot_calibration::RIG;
 use dashpot_files::damper;

@@ -1,6 +1,7 @@
 //! `dashpot calibrate`: identifies damper parameters from bench tests.
 
 mod damper_file;
+mod digits;
 mod numbers;
 mod page;
 mod recorded;

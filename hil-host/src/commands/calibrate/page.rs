@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::report::{self, Loop, Number, Report};
+use super::report::{Loop, Number, Report};
 use crate::commands::failure::Outcome;
 use dashpot_calibration::{Calibrated, Calibration, LoopFit, LoopTest, Profile, RISE_95};
 use dashpot_report::DrawError;
@@ -19,7 +19,7 @@ const MAX_SAMPLES: usize = 2000;
 
 /// Formats a number with U+2212 as minus sign, at which browsers do not break a line.
 fn digits(value: f64) -> String {
-    report::digits(value).replace('-', "\u{2212}")
+    super::digits::digits(value).replace('-', "\u{2212}")
 }
 
 /// Returns the page.

@@ -1,5 +1,6 @@
 //! Errors and warnings of a calibration, with remedies expressed as command-line options.
 
+use super::digits::digits;
 use crate::commands::failure::Failure;
 use dashpot_calibration::{Advice, CalibrationError, Finding, Remedy, SKEW, Warning};
 use dashpot_recording::{Quantity, Unit};
@@ -26,6 +27,12 @@ pub struct Given {
 struct Change {
     add: Vec<String>,
     remove: Vec<String>,
+}
+
+impl From<CalibrationError> for Failure {
+    fn from(error: CalibrationError) -> Self {
+        failure(error, &Given::default())
+    }
 }
 
 /// Converts `error` to a command failure with advice that fits the options in `given`.
@@ -235,14 +242,11 @@ pub(super) fn line(warning: &Warning) -> String {
             key,
             bound,
             is_physical: true,
-        } => format!(
-            "note: {key} is at its physical limit, {}",
-            super::report::digits(*bound)
-        ),
+        } => format!("note: {key} is at its physical limit, {}", digits(*bound)),
         Warning::AtBound { key, bound, .. } => format!(
             "warning: {key} is at the bound {} that you gave, so the best value lies beyond it; set other bounds with \
              --vary {key}=MIN:MAX",
-            super::report::digits(*bound)
+            digits(*bound)
         ),
         Warning::Close { a, b, correlation } => {
             format!("note: the tests hardly separate {a} and {b}: correlation {correlation:.3}")
