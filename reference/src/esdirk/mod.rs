@@ -5,13 +5,17 @@
 //! filtered by the matrix of the iteration, so that stiff components do not dominate it (Shampine 1984).
 
 mod crossing;
+mod dense;
+mod interface;
+mod matrix;
 mod newton;
 mod tableau;
 
 use self::crossing::Bracket;
+pub(crate) use self::interface::{Counts, Equations, StepEnd, StepTooSmall, Tolerances};
+use self::matrix::{Cause, IterationMatrix};
 use self::newton::{Convergence, MAX_ITERATIONS, Verdict};
 use self::tableau::{COEFFICIENTS, ERROR_WEIGHTS, GAMMA, ORDER, STAGES, TIMES};
-use crate::linear::{Factors, Matrix};
 
 /// Safety factor of a new step length.
 const SAFETY: f64 = 0.9;
@@ -25,89 +29,8 @@ const UNCHANGED: [f64; 2] = [0.9, 2.0];
 /// Change of the step length if an iteration diverges with a new Jacobian.
 const CHANGE_AFTER_DIVERGENCE: f64 = 0.3;
 
-/// Maximum age of the Jacobian and of the factors, in steps.
-const JACOBIAN_STEPS: u32 = 50;
-const FACTOR_STEPS: u32 = 20;
-
-/// Relative change of the step length since the last factorisation above which the matrix is factorised again.
-const MAX_LENGTH_DRIFT: f64 = 0.3;
-
-/// Relative change of the step length below which divergence is attributed to an old Jacobian.
-const JACOBIAN_LENGTH_DRIFT: f64 = 0.2;
-
 /// Fraction by which a step may be lengthened to reach a stop time, so that no tiny step remains.
 const APPENDED: f64 = 1e-3;
-
-/// Differential equations with events.
-pub(crate) trait Equations {
-    /// Writes the time derivative of a state.
-    fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]);
-
-    /// Writes the derivative of the rates with respect to the state. An approximation costs iterations, not accuracy.
-    fn jacobian(&mut self, time: f64, state: &[f64], jacobian: &mut Matrix);
-
-    /// Writes the event functions. An event is a function that falls to zero or below.
-    fn events(&mut self, time: f64, state: &[f64], values: &mut [f64]);
-}
-
-/// End of a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum StepEnd {
-    /// At a time chosen by the error control.
-    Free,
-    /// At the stop time.
-    Stop,
-    /// Beyond an event within the step.
-    Event {
-        /// Time of the event.
-        time: f64,
-        /// Index of the event function.
-        index: usize,
-    },
-}
-
-/// The tolerance cannot be reached.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "step length {length} at {time} is below the minimum of {min_length}; the tolerance cannot be reached"
-)]
-pub(crate) struct StepTooSmall {
-    length: f64,
-    time: f64,
-    min_length: f64,
-}
-
-/// Counts since the solver was created.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Counts {
-    /// Accepted steps.
-    pub(crate) steps: usize,
-    /// Steps rejected for their error.
-    pub(crate) rejected: usize,
-    /// Factorisations of the iteration's matrix.
-    pub(crate) factorisations: usize,
-}
-
-/// Tolerances of a solver.
-#[derive(Clone, Debug)]
-pub(crate) struct Tolerances {
-    /// Tolerance relative to each state.
-    pub(crate) relative: f64,
-    /// Absolute tolerance of each state, added to the relative one.
-    pub(crate) absolute: Vec<f64>,
-    /// Minimum step length; an error below it.
-    pub(crate) min_length: f64,
-}
-
-/// Reason why the matrix of the iteration may be out of date.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Cause {
-    Restart,
-    Accepted,
-    ErrorTooLarge,
-    FirstDivergence,
-    FurtherDivergence,
-}
 
 /// Solver with the state at the end of its last step and the stages of that step.
 pub(crate) struct Esdirk {
@@ -126,12 +49,8 @@ pub(crate) struct Esdirk {
     residual: Vec<f64>,
     bracket: Bracket,
     interpolated: Vec<f64>,
-    jacobian: Matrix,
-    factors: Factors,
+    matrix: IterationMatrix,
     convergence: Convergence,
-    jacobian_age: u32,
-    factors_age: u32,
-    factored_length: f64,
     counts: Counts,
 }
 
@@ -154,12 +73,8 @@ impl Esdirk {
             residual: zeros(),
             bracket: Bracket::new(events),
             interpolated: zeros(),
-            jacobian: Matrix::zeros(size),
-            factors: Factors::new(Matrix::zeros(size)),
+            matrix: IterationMatrix::new(size),
             convergence: Convergence::new(),
-            jacobian_age: 0,
-            factors_age: 0,
-            factored_length: 0.0,
             counts: Counts::default(),
         }
     }
@@ -196,7 +111,7 @@ impl Esdirk {
         self.wanted = length;
         equations.rates(time, &self.state, &mut self.rates);
         equations.events(time, &self.state, &mut self.bracket.low);
-        self.update_factors(equations, length, Cause::Restart);
+        self.update_matrix(equations, length, Cause::Restart);
     }
 
     /// Takes one step, up to `stop_time` at most. After an event, only [`Self::restart`] continues the solution.
@@ -226,10 +141,10 @@ impl Esdirk {
                     length *= CHANGE_AFTER_DIVERGENCE;
                     to_stop = false;
                     self.convergence.reset_for_length();
-                    self.update_factors(equations, length, Cause::FurtherDivergence);
+                    self.update_matrix(equations, length, Cause::FurtherDivergence);
                 } else {
                     has_diverged = true;
-                    self.update_factors(equations, length, Cause::FirstDivergence);
+                    self.update_matrix(equations, length, Cause::FirstDivergence);
                 }
                 continue;
             }
@@ -242,15 +157,14 @@ impl Esdirk {
             to_stop = false;
             self.counts.rejected += 1;
             self.convergence.reset_for_length();
-            self.update_factors(equations, length, Cause::ErrorTooLarge);
+            self.update_matrix(equations, length, Cause::ErrorTooLarge);
         };
         self.accept(length, change, is_shortened);
         if to_stop {
             self.time = stop_time;
         }
-        self.update_factors(equations, self.wanted, Cause::Accepted);
-        self.jacobian_age += 1;
-        self.factors_age += 1;
+        self.update_matrix(equations, self.wanted, Cause::Accepted);
+        self.matrix.age();
         Ok(match self.event(equations) {
             Some(event) => event,
             None if to_stop => StepEnd::Stop,
@@ -308,11 +222,14 @@ impl Esdirk {
             for (residual, increment) in self.residual.iter_mut().zip(increment.iter()) {
                 *residual = increment - length * *residual;
             }
-            self.factors.solve(&mut self.residual);
+            self.matrix.solve(&mut self.residual);
             for (increment, change) in increment.iter_mut().zip(&self.residual) {
                 *increment -= change;
             }
-            let change = self.mean_square(&self.residual).sqrt();
+            let change = self
+                .tolerances
+                .mean_square(&self.residual, &self.state)
+                .sqrt();
             match self.convergence.judge(change) {
                 Verdict::Converged => break,
                 Verdict::Diverged => return false,
@@ -330,20 +247,8 @@ impl Esdirk {
         for (increment, weight) in self.increments.iter().zip(ERROR_WEIGHTS) {
             add_multiple(&mut self.residual, weight, increment);
         }
-        self.factors.solve(&mut self.residual);
-        self.mean_square(&self.residual)
-    }
-
-    /// Mean square over the tolerances at the state.
-    fn mean_square(&self, vector: &[f64]) -> f64 {
-        let Tolerances {
-            relative, absolute, ..
-        } = &self.tolerances;
-        let squares = vector.iter().zip(self.state.iter().zip(absolute));
-        let sum: f64 = squares
-            .map(|(x, (state, absolute))| (x / (state.abs() * relative + absolute)).powi(2))
-            .sum();
-        sum / vector.len() as f64
+        self.matrix.solve(&mut self.residual);
+        self.tolerances.mean_square(&self.residual, &self.state)
     }
 
     /// Change of the step length by the mean square error of a step; smaller where the iterations were many.
@@ -384,75 +289,13 @@ impl Esdirk {
         self.counts.steps += 1;
     }
 
-    /// Finds the first event within the last step.
-    fn event(&mut self, equations: &mut impl Equations) -> Option<StepEnd> {
-        equations.events(self.time, &self.state, &mut self.bracket.high);
-        let mut bracket = std::mem::take(&mut self.bracket);
-        let mut state = std::mem::take(&mut self.interpolated);
-        let crossing = bracket.locate((self.start_time, self.time), |time, values| {
-            self.interpolate(time, &mut state);
-            equations.events(time, &state, values);
-        });
-        if crossing.is_none() {
-            bracket.advance();
+    /// Updates the matrix of the iteration if due.
+    fn update_matrix(&mut self, equations: &mut impl Equations, length: f64, cause: Cause) {
+        let at = (self.time, self.state.as_slice());
+        if self.matrix.update(equations, at, length, cause) {
+            self.convergence.reset_for_factors();
+            self.counts.factorisations += 1;
         }
-        (self.bracket, self.interpolated) = (bracket, state);
-        crossing.map(|crossing| StepEnd::Event {
-            time: crossing.time,
-            index: crossing.index,
-        })
-    }
-
-    /// Writes the state at a time within the last step: a cubic through the states and rates at both ends.
-    pub(crate) fn interpolate(&self, time: f64, state: &mut [f64]) {
-        let share = (time - self.start_time) / (self.time - self.start_time);
-        let left = 1.0 - share;
-        let [first, .., last] = &self.increments;
-        for (k, state) in state.iter_mut().enumerate() {
-            let (start, end) = (self.start[k], self.state[k]);
-            let bend = (left - share) * (end - start) - left * first[k] + share * last[k];
-            *state = left * start + share * end - share * left * bend;
-        }
-    }
-
-    /// Evaluates the Jacobian at the state and factorises the matrix `I - gamma h J`, if either is due.
-    fn update_factors(&mut self, equations: &mut impl Equations, length: f64, cause: Cause) {
-        let drift = (length / self.factored_length - 1.0).abs();
-        let is_jacobian_due = match cause {
-            Cause::Restart => true,
-            Cause::Accepted => self.jacobian_age >= JACOBIAN_STEPS,
-            Cause::FirstDivergence => drift < JACOBIAN_LENGTH_DRIFT,
-            Cause::FurtherDivergence => self.jacobian_age > 0,
-            Cause::ErrorTooLarge => false,
-        };
-        let is_due = is_jacobian_due
-            || match cause {
-                Cause::Restart | Cause::ErrorTooLarge => true,
-                Cause::Accepted => self.factors_age >= FACTOR_STEPS || drift > MAX_LENGTH_DRIFT,
-                Cause::FirstDivergence | Cause::FurtherDivergence => drift != 0.0,
-            };
-        if is_jacobian_due {
-            equations.jacobian(self.time, &self.state, &mut self.jacobian);
-            self.jacobian_age = 0;
-        }
-        if !is_due {
-            return;
-        }
-        let factor = GAMMA * length;
-        let jacobian = &self.jacobian;
-        self.factors.replace(|matrix| {
-            for row in 0..jacobian.size() {
-                let entries = matrix.row_mut(row);
-                for (entry, slope) in entries.iter_mut().zip(jacobian.row(row)) {
-                    *entry = -factor * slope;
-                }
-                entries[row] += 1.0;
-            }
-        });
-        self.factors_age = 0;
-        self.factored_length = length;
-        self.convergence.reset_for_factors();
-        self.counts.factorisations += 1;
     }
 }
 

@@ -1,6 +1,7 @@
 //! The solver against equations with known solutions.
 
 use super::*;
+use crate::linear::Matrix;
 
 /// Equations of two states with one event function.
 struct Problem<R, J, E> {
