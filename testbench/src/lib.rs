@@ -5,6 +5,7 @@
 pub mod accuracy_limits;
 pub mod bench_sheet;
 pub mod bench_test;
+pub mod compiled;
 mod error;
 pub mod excitation;
 pub mod health;

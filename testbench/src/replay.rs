@@ -1,6 +1,8 @@
 //! Recorded motion through the step.
 
-use dashpot_core::{Damper, DamperState, Real, Status};
+use dashpot_core::{Damper, DamperState, Status};
+
+use crate::compiled::Compiled;
 
 use dashpot_files::FileError;
 use dashpot_realtime::pacing::Pacer;
@@ -53,7 +55,7 @@ impl Summary {
 ///
 /// # Errors
 /// What `ticks` or `sink` return.
-pub fn replay<T: Real, E: From<FileError>>(
+pub fn replay<T: Compiled, E: From<FileError>>(
     damper: &Damper<T>,
     ticks: &mut TickGrid,
     mut pacer: Option<&mut Pacer>,
@@ -69,7 +71,7 @@ pub fn replay<T: Real, E: From<FileError>>(
         if let Some(pacer) = &mut pacer {
             pacer.release(summary.ticks);
         }
-        let force = damper.step(state, displacement);
+        let force = T::compiled_step(damper, state, displacement);
         sink(tick, force, ticks)?;
         let status = state.status();
         summary.book(tick.time_s, status);

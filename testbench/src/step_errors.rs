@@ -1,7 +1,7 @@
 //! The largest errors of the fixed step for one damper, over the fixed set of motions of `dashpot_reference::probing`.
 
 use dashpot_core::{CheckedParameters, Damper, Real};
-use dashpot_reference::probing::{MIN_ERROR_RATIO, LargestErrors, Motion, MotionErrors, Probing};
+use dashpot_reference::probing::{LargestErrors, MIN_ERROR_RATIO, Motion, MotionErrors, Probing};
 
 use super::TestbenchError;
 use dashpot_files::Scalar;

@@ -1,11 +1,12 @@
 //! The fixed step against the reference solver.
 
-use dashpot_core::{CheckedParameters, DamperParameters, Real};
+use dashpot_core::{CheckedParameters, DamperParameters};
 use dashpot_reference::damper::Reference;
 use dashpot_reference::deviation::{errors, largest_magnitude, nrmse, root_mean_square};
 use serde::Serialize;
 
 use super::TestbenchError;
+use super::compiled::Compiled;
 use dashpot_recording::Sample;
 use dashpot_recording::tick_grid::{Tick, rounding_s};
 
@@ -40,17 +41,17 @@ pub struct FixedStep {
 ///
 /// # Errors
 /// Parameters that cannot be built.
-pub fn fixed_step_forces<T: Real>(
+pub fn fixed_step_forces<T: Compiled>(
     parameters: &CheckedParameters,
     step_s: f64,
     displacements_m: &[f64],
 ) -> Result<FixedStep, TestbenchError> {
-    let damper = parameters.build::<T>(step_s)?;
+    let damper = T::compiled_build(parameters, step_s)?;
     let start = displacements_m.first().copied().unwrap_or(0.0);
     let mut state = damper.at_rest(T::from_f64(start));
     let forces_n = displacements_m
         .iter()
-        .map(|&x| damper.step(&mut state, T::from_f64(x)).to_f64())
+        .map(|&x| T::compiled_step(&damper, &mut state, T::from_f64(x)).to_f64())
         .collect();
     Ok(FixedStep {
         forces_n,

@@ -2,8 +2,9 @@
 
 use std::hint::black_box;
 
-use dashpot_core::{Damper, DamperState, Real};
+use dashpot_core::{Damper, DamperState};
 
+use dashpot_testbench::compiled::Compiled;
 use dashpot_testbench::excitation::Excitation;
 
 /// Dampers on a repeating motion: a ride that ends where it began, a decay, then rest.
@@ -14,7 +15,7 @@ pub(super) struct Bench<T> {
     tick: usize,
 }
 
-impl<T: Real> Bench<T> {
+impl<T: Compiled> Bench<T> {
     /// Creates `dampers` states of `damper`, which is built for `step_s` (s).
     pub(super) fn new(damper: Damper<T>, dampers: u32, step_s: f64) -> Self {
         let mut motion = Excitation::Ride.displacements_m(step_s);
@@ -37,7 +38,7 @@ impl<T: Real> Bench<T> {
     pub(super) fn tick(&mut self) {
         let x = black_box(self.motion[self.tick]);
         for state in &mut self.states {
-            black_box(self.damper.step(state, x));
+            black_box(T::compiled_step(&self.damper, state, x));
         }
         self.tick = (self.tick + 1) % self.motion.len();
     }

@@ -8,7 +8,8 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use bench::Bench;
-use dashpot_core::{Damper, Real};
+use dashpot_core::Damper;
+use dashpot_testbench::compiled::Compiled;
 use report::{Report, Setting, print};
 
 use super::named_values;
@@ -93,9 +94,9 @@ pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
     }
 }
 
-fn measure<T: Real>(arguments: &BudgetArguments) -> Outcome<()> {
+fn measure<T: Compiled>(arguments: &BudgetArguments) -> Outcome<()> {
     let step_s = 1.0 / f64::from(arguments.rate_hz.unwrap_or(1000));
-    let damper: Damper<T> = arguments.damper.load()?.build(step_s)?;
+    let damper: Damper<T> = T::compiled_build(&arguments.damper.load()?, step_s)?;
     let mut bench = Bench::new(damper, arguments.dampers, step_s);
     let options = arguments.realtime.options();
     // Read before the run, so that the load of the run itself does not count.

@@ -3,10 +3,11 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use dashpot_core::{CheckedParameters, Real};
+use dashpot_core::CheckedParameters;
 
 use crate::commands::failure::Outcome;
 use dashpot_realtime::timing::Distribution;
+use dashpot_testbench::compiled::Compiled;
 
 /// Steps timed together: long compared with the clock's resolution, short compared with the time between interruptions.
 const BLOCK: usize = 500;
@@ -17,12 +18,12 @@ const STEPS: usize = 200_000;
 ///
 /// # Errors
 /// The damper cannot be built.
-pub(super) fn median_ns_per_step<T: Real>(
+pub(super) fn median_ns_per_step<T: Compiled>(
     parameters: &CheckedParameters,
     step_s: f64,
     displacements_m: &[f64],
 ) -> Outcome<f64> {
-    let damper = parameters.build::<T>(step_s)?;
+    let damper = T::compiled_build(parameters, step_s)?;
     let motion: Vec<T> = displacements_m.iter().map(|&x| T::from_f64(x)).collect();
     let mut costs = Distribution::new();
     for _ in 0..STEPS.div_ceil(motion.len()) {
@@ -30,7 +31,11 @@ pub(super) fn median_ns_per_step<T: Real>(
         for block in motion.chunks_exact(BLOCK) {
             let start = Instant::now();
             for &x in block {
-                black_box(black_box(&damper).step(&mut state, black_box(x)));
+                black_box(T::compiled_step(
+                    black_box(&damper),
+                    &mut state,
+                    black_box(x),
+                ));
             }
             costs.record_ns(start.elapsed().as_secs_f64() * 1e9 / BLOCK as f64);
         }

@@ -5,7 +5,8 @@ mod health;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use dashpot_core::{CheckedParameters, Real};
+use dashpot_core::CheckedParameters;
+use dashpot_testbench::compiled::Compiled;
 use serde::Serialize;
 
 use super::gap_report::write_gaps;
@@ -176,13 +177,13 @@ pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     pacer.map_or(Ok(()), |pacer| Ok(pacer.report().verdict()?))
 }
 
-fn write<T: Real + Serialize>(
+fn write<T: Compiled + Serialize>(
     parameters: &CheckedParameters,
     arguments: &ReplayArguments,
     pacer: Option<&mut Pacer>,
 ) -> Outcome<(Summary, Gaps)> {
     let step_s = arguments.step_us.step_s();
-    let damper = parameters.build::<T>(step_s)?;
+    let damper = T::compiled_build(parameters, step_s)?;
     let bar = progress::bar(input::length(&arguments.input), "replay");
     let mut ticks = TickGrid::new(
         Recording::open_with(&arguments.input, &arguments.recording.channels())?,
