@@ -13,7 +13,20 @@ use crate::workspaces::{folder_of, packages};
 const DOCUMENT: &str = "docs/architecture.md";
 
 /// Crates whose folders the document names.
-const WITH_FOLDERS: [&str; 4] = ["core", "rail", "reference", "hil-host"];
+const WITH_FOLDERS: [&str; 12] = [
+    "core",
+    "rail",
+    "reference",
+    "files",
+    "recording",
+    "realtime",
+    "testbench",
+    "vehicle-run",
+    "study",
+    "report",
+    "export",
+    "hil-host",
+];
 
 /// Returns the top folders of a crate's sources.
 fn folders_of(package: &str) -> Vec<String> {
