@@ -2,8 +2,8 @@
 
 use fastrand::Rng;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use levenberg_marquardt_nalgebra::storage::Owned;
-use levenberg_marquardt_nalgebra::{DMatrix, DVector, Dyn};
+use nalgebra::storage::Owned;
+use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::model::Model;
 use super::varied::{angle_of, place_of, place_slope};
