@@ -49,7 +49,7 @@ fn forces_are_the_golden_bits() {
     document::compare("tests/golden/forces.txt", &text);
 }
 
-/// The digests that `tests/target/processors.rs` expects from the Cortex-M7.
+/// The digests that `tests/on_target/processors.rs` expects from the Cortex-M7.
 #[test]
 fn a_million_steps_have_the_golden_bits() {
     let mut text = format!(

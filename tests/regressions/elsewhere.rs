@@ -11,7 +11,7 @@ const BUGS: [(&str, &str, &str); 14] = [
     ),
     (
         "a target reset while its dampers were loaded stopped the run",
-        "hil-host/tests/target/pil_bank.rs",
+        "hil-host/tests/link/pil_bank.rs",
         "after_a_reset_each_place_has_its_damper_again",
     ),
     (
@@ -26,22 +26,22 @@ const BUGS: [(&str, &str, &str); 14] = [
     ),
     (
         "a serial link waited for an answer before a long request had left",
-        "hil-host/tests/target/pil_client.rs",
+        "hil-host/tests/link/pil_client.rs",
         "the_wait_allows_for_the_time_a_long_frame_takes",
     ),
     (
         "a refusal of a target was reported as a number",
-        "hil-host/tests/target/pil_client.rs",
+        "hil-host/tests/link/pil_client.rs",
         "every_refusal_has_a_sentence",
     ),
     (
         "a tick over TCP took 44 ms, because the peer waited for acknowledgements",
-        "hil-host/tests/target/pil_tcp.rs",
+        "hil-host/tests/link/pil_tcp.rs",
         "what_was_received_is_acknowledged_at_once",
     ),
     (
         "`pil` ended by a signal left its emulator running",
-        "hil-host/tests/target/pil_interruption.rs",
+        "hil-host/tests/link/pil_interruption.rs",
         "the_emulator_ends_with_the_command",
     ),
     (

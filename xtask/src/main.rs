@@ -181,7 +181,7 @@ fn measure_target(json: bool) -> Outcome {
             "--package",
             "dashpot",
             "--test",
-            "target",
+            "on_target",
             "processors",
         ],
         &[("DASHPOT_TARGET_REPORT", &path.to_string_lossy())],
