@@ -51,11 +51,11 @@ impl Calibration {
     pub(super) fn advice(
         &self,
         finding: &Finding,
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Advice> {
         let candidates = self.candidates(finding);
         let ranked = dashpot_workers::map(&candidates, |candidate| {
-            Ok::<_, ()>(candidate.rank(is_unwanted))
+            Ok::<_, ()>(candidate.rank(is_cancelled))
         });
         let mut ranked: Vec<(f64, Candidate)> = ranked
             .unwrap_or_default()
@@ -67,12 +67,12 @@ impl Calibration {
         let mut advice: Vec<(f64, Advice)> = Vec::new();
         for (rank, candidate) in ranked {
             let is_as_likely = advice.first().is_none_or(|(best, _)| rank <= best + SAME);
-            if advice.len() == MOST_ADVICE || !is_as_likely || is_unwanted() {
+            if advice.len() == MOST_ADVICE || !is_as_likely || is_cancelled() {
                 break;
             }
             advice.extend(
                 candidate
-                    .confirmed(is_unwanted)
+                    .confirmed(is_cancelled)
                     .map(|advice| (rank, advice)),
             );
         }
@@ -310,10 +310,10 @@ impl Candidate {
     }
 
     /// How unlikely it is as the cause, the lower the better; `None` where it does not explain the recordings.
-    fn rank(&self, is_unwanted: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
+    fn rank(&self, is_cancelled: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
         let calibration = &self.calibration;
         calibration.refuse_impossible().ok()?;
-        let model: Model<'_> = calibration.model(is_unwanted);
+        let model: Model<'_> = calibration.model(is_cancelled);
         let fit = model.quick_fit()?;
         let share = model.worst_misfit(&fit.places).ok()??.share;
         if share > calibration.assumed.most_missed {
@@ -329,9 +329,9 @@ impl Candidate {
     }
 
     /// The advice if it leads to a result, without numbers that were added in vain.
-    fn confirmed(mut self, is_unwanted: &(dyn Fn() -> bool + Sync)) -> Option<Advice> {
+    fn confirmed(mut self, is_cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Advice> {
         self.calibration.starts = 1;
-        match self.calibration.attempt(&|_| {}, is_unwanted) {
+        match self.calibration.attempt(&|_| {}, is_cancelled) {
             Ok(_) => return Some(self.advice),
             Err(CalibrationError::Undetermined { numbers }) => {
                 let is_vain = |key: &String| numbers.iter().any(|(vain, _)| vain == key);
@@ -350,7 +350,7 @@ impl Candidate {
             return None;
         }
         self.name_added();
-        self.calibration.attempt(&|_| {}, is_unwanted).ok()?;
+        self.calibration.attempt(&|_| {}, is_cancelled).ok()?;
         Some(self.advice)
     }
 }

@@ -24,7 +24,7 @@ pub enum CalibrationError {
     Study(#[from] TestbenchError),
     /// Nobody wants the result any more.
     #[error("ended before its end, as was asked")]
-    Unwanted,
+    Cancelled,
     /// A number that forces do not determine.
     #[error("{key}: it is measured on the part, not found from forces")]
     NotVaried {

@@ -193,29 +193,29 @@ impl Calibration {
     /// # Errors
     /// Nothing to do, a damper that cannot be, or numbers that the tests do not determine: then none are told.
     pub fn run(&self, tell: &(dyn Fn(Progress) + Sync)) -> Result<Calibrated, CalibrationError> {
-        self.run_unless(tell, &|| false)
+        self.run_cancellable(tell, &|| false)
     }
 
     /// As [`run`](Self::run), until the numbers are unwanted, as they then stay.
     ///
     /// # Errors
     /// As [`run`](Self::run); numbers that have become unwanted.
-    pub fn run_unless(
+    pub fn run_cancellable(
         &self,
         tell: &(dyn Fn(Progress) + Sync),
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Calibrated, CalibrationError> {
         self.check()?;
-        match self.attempt(tell, is_unwanted) {
+        match self.attempt(tell, is_cancelled) {
             Err(CalibrationError::Implausible { finding, .. }) => {
                 let _stage = Stage::new("causes", 1, tell);
-                let advice = self.advice(&finding, is_unwanted);
-                if advice.is_empty() && !is_unwanted() {
+                let advice = self.advice(&finding, is_cancelled);
+                if advice.is_empty() && !is_cancelled() {
                     // A number in vain is a cause that a user can remove.
-                    self.refuse_unfelt(is_unwanted)?;
+                    self.refuse_unfelt(is_cancelled)?;
                 }
-                match is_unwanted() {
-                    true => Err(CalibrationError::Unwanted),
+                match is_cancelled() {
+                    true => Err(CalibrationError::Cancelled),
                     false => Err(CalibrationError::Implausible { finding, advice }),
                 }
             }
@@ -224,7 +224,7 @@ impl Calibration {
     }
 
     /// The model of the tests, which scatter by the noise of their forces.
-    fn model<'a>(&self, is_unwanted: &'a (dyn Fn() -> bool + Sync)) -> Model<'a> {
+    fn model<'a>(&self, is_cancelled: &'a (dyn Fn() -> bool + Sync)) -> Model<'a> {
         let scatter = |test: &LoopTest| test.force_noise_n.max(LEAST_SCATTER * test.peak_force_n);
         Model {
             damper: self.damper.clone(),
@@ -234,7 +234,7 @@ impl Calibration {
             indices: self.indices.clone(),
             step_s: self.step_s,
             scatter_n: self.loops.iter().map(scatter).collect(),
-            is_unwanted,
+            is_cancelled,
         }
     }
 
@@ -267,9 +267,9 @@ impl Calibration {
     /// Refuses numbers that no force near the best coarse fit depends on.
     fn refuse_unfelt(
         &self,
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<(), CalibrationError> {
-        let model = self.model(is_unwanted);
+        let model = self.model(is_cancelled);
         let Some(fit) = model.quick_fit() else {
             return Ok(());
         };
@@ -286,10 +286,10 @@ impl Calibration {
     fn attempt(
         &self,
         tell: &(dyn Fn(Progress) + Sync),
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Calibrated, CalibrationError> {
         self.refuse_impossible()?;
-        let mut model = self.model(is_unwanted);
+        let mut model = self.model(is_cancelled);
         let start: Vec<f64> = self.varied.iter().map(|v| v.place(v.start)).collect();
         let searches = Stage::new("searches", self.starts, tell);
         let fits = model.fits(self.starts, &|| searches.one_more());

@@ -27,7 +27,7 @@ pub(super) struct Model<'a> {
     /// What one sample of each loop scatters by (N), so that the samples count as if they were independent.
     pub(super) scatter_n: Vec<f64>,
     /// Whether nobody wants the result any more: then nothing is compared.
-    pub(super) is_unwanted: &'a (dyn Fn() -> bool + Sync),
+    pub(super) is_cancelled: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Model<'_> {
@@ -92,8 +92,8 @@ impl Model<'_> {
         damper: &CheckedParameters,
         places: &[f64],
     ) -> Result<Vec<Vec<f64>>, CalibrationError> {
-        if (self.is_unwanted)() {
-            return Err(CalibrationError::Unwanted);
+        if (self.is_cancelled)() {
+            return Err(CalibrationError::Cancelled);
         }
         let built = damper.build::<f64>(self.step_s)?;
         let later = self.varied_or(places, SKEW, self.rig.skew_s) / self.step_s;
@@ -138,7 +138,7 @@ impl Model<'_> {
         if !self.indices.is_empty() {
             for test in &self.indices {
                 let cycle =
-                    bench_test::run_unless(damper, test.motion(), self.step_s, self.is_unwanted)?;
+                    bench_test::run_cancellable(damper, test.motion(), self.step_s, self.is_cancelled)?;
                 deviations.extend(test.deviations(&cycle.indices()));
             }
         }

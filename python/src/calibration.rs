@@ -244,7 +244,7 @@ pub fn calibrate(
             rig,
             assumed,
         };
-        let found = calibration.run_unless(&|_| {}, is_unwanted)?;
+        let found = calibration.run_cancellable(&|_| {}, is_unwanted)?;
         Ok::<_, Refusal>((calibration, found))
     };
     let (calibration, found) = py.detach(|| beside(work))??;

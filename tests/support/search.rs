@@ -108,7 +108,7 @@ impl<'a> Promised<'a> {
 
     /// How a motion keeps each promise: found and promised, of each scalar the largest error and the NRMSE.
     fn judge(&self, motion: &Motion) -> Result<[(f64, f64); 4], TestbenchError> {
-        let [double, single] = self.errors.on(motion)?;
+        let [double, single] = self.errors.on_motion(motion)?;
         let [of_double, of_single] = self.errors.promised(&self.largest);
         Ok([
             (double.largest_n, of_double.0),

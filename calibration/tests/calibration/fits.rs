@@ -48,8 +48,8 @@ pub(crate) fn recorded(
         })
         .collect();
     let forces = reference_forces(damper, INTERVAL_S, &x).unwrap();
-    let noise = Noise::of_rms(noise, &x, &forces);
-    let (x, forces) = noise.on(&x, &forces, rng.u64(..));
+    let noise = Noise::from_rms(noise, &x, &forces);
+    let (x, forces) = noise.add_to(&x, &forces, rng.u64(..));
     Recorded {
         name: format!("{frequency_hz} Hz"),
         times_s: (LATE..samples)
