@@ -80,7 +80,7 @@ pub fn run_until_periodic(
 /// Same as [`run_until_periodic`], but stops when `is_cancelled` returns true.
 ///
 /// # Errors
-/// As [`run_until_periodic`], and [`TestbenchError::Cancelled`].
+/// Same errors as [`run_until_periodic`], and [`TestbenchError::Cancelled`].
 pub fn run_cancellable(
     parameters: &CheckedParameters,
     motion: Harmonic,
@@ -154,7 +154,7 @@ fn steps_per_cycle(motion: Harmonic, step_s: f64) -> Result<usize, TestbenchErro
 /// Checks the arguments of [`run_until_periodic`] without running it.
 ///
 /// # Errors
-/// As [`run_until_periodic`], except for a force that does not become periodic.
+/// Same errors as [`run_until_periodic`], except for a force that does not become periodic.
 pub fn check_steps(
     parameters: &CheckedParameters,
     motion: Harmonic,

@@ -119,7 +119,7 @@ pub fn frequencies(from_hz: f64, to_hz: f64, count: usize) -> Vec<f64> {
 /// Runs the core's step in double precision until the force is periodic.
 ///
 /// # Errors
-/// As [`run_until_periodic`].
+/// Same errors as [`run_until_periodic`].
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -150,7 +150,7 @@ pub fn at_amplitude(
 /// [`SMALL_VELOCITY_M_PER_S`], with the clearance taken up and without seal friction, which would block so small a motion.
 ///
 /// # Errors
-/// As [`run_until_periodic`].
+/// Same errors as [`run_until_periodic`].
 pub fn linearised(
     parameters: &CheckedParameters,
     frequencies_hz: &[f64],

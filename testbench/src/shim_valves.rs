@@ -70,7 +70,7 @@ impl ValveLocation {
     /// Returns the edge compliance of the pack by disc theory under uniform pressure (m/Pa).
     ///
     /// # Errors
-    /// As [`ValveLocation::pack`].
+    /// Same errors as [`ValveLocation::pack`].
     pub fn theory_m_per_pa(&self, hydraulics: &Hydraulics) -> Result<Option<f64>, TestbenchError> {
         let edge = self.valve_of(hydraulics).free_radius_m;
         let pack = self.pack(hydraulics)?;
@@ -95,7 +95,7 @@ pub fn theory_over_published(theory_m_per_pa: f64, published: &[Deflection]) -> 
 /// Describes the first erratum of the source paper, computed from the paper's damper.
 ///
 /// # Errors
-/// As [`ValveLocation::pack`] and [`ValveLocation::published`].
+/// Same errors as [`ValveLocation::pack`] and [`ValveLocation::published`].
 pub fn erratum(paper: &Hydraulics) -> Result<String, TestbenchError> {
     let ratio = |location: &ValveLocation| -> Result<String, TestbenchError> {
         let theory = location.theory_m_per_pa(paper)?;

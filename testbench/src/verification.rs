@@ -73,7 +73,7 @@ pub fn reference_forces(
 /// Same as [`reference_forces`], but stops when `is_cancelled` returns true.
 ///
 /// # Errors
-/// As [`reference_forces`], and an error if cancelled.
+/// Same errors as [`reference_forces`], and an error if cancelled.
 pub fn reference_forces_cancellable(
     parameters: &DamperParameters,
     step_s: f64,

@@ -336,7 +336,7 @@ fn wrong_use_says_what_is_allowed() {
                 "mount.clearance_m=2e-3:1e-3",
             ],
             2,
-            "the lesser first",
+            "the lower bound first",
         ),
         (
             &[

@@ -65,7 +65,7 @@ impl Stack {
     /// Returns the mean edge lift per pressure on `area` (m/Pa), which is the harmonic of order zero.
     ///
     /// # Errors
-    /// As [`Stack::bend`].
+    /// Same errors as [`Stack::bend`].
     pub fn mean_edge_lift_m_per_pa(
         &self,
         area: &PressureArea,
@@ -78,7 +78,7 @@ impl Stack {
     /// Returns the correction factor Ce of `area`: the mean edge lift over the lift under uniform pressure.
     ///
     /// # Errors
-    /// As [`Stack::bend`].
+    /// Same errors as [`Stack::bend`].
     pub fn correction_factor(
         &self,
         area: &PressureArea,

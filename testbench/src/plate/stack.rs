@@ -31,7 +31,7 @@ impl Stack {
     /// Builds the stack of a valve's shims; `section` names the valve in error messages.
     ///
     /// # Errors
-    /// As [`Pack::new`]: an invalid disc, or no shim.
+    /// Same errors as [`Pack::new`]: an invalid disc, or no shim.
     pub fn new(
         section: &'static str,
         valve: &Valve,
