@@ -29,8 +29,8 @@ pub struct Determined {
     pub standard_deviation: f64,
     /// Variance inflation factor, at least 1, relative to independent samples of equal scatter.
     ///
-    /// It is computed from the gradients of whole stretches, because displacement errors act where the force changes fast
-    /// and last as long as that.
+    /// It is computed from the gradients of whole stretches, because displacement errors act where the force changes
+    /// fast and last as long as that.
     pub inflation: f64,
     /// True if the parameter changes a force by more than the scatter.
     #[serde(rename = "is_felt")]

@@ -11,8 +11,8 @@ use dashpot_files::damper::{Keyed, PRESETS, load};
 /// Penalty per change, as a misfit (1): of two causes that explain the recordings equally well, the simpler one wins.
 const COST_PER_CHANGE: f64 = 0.02;
 
-/// Penalty for moving all parameters across their whole range, as a misfit (1): if a fit cannot distinguish units, the one
-/// that stays closest to the start wins.
+/// Penalty for moving all parameters across their whole range, as a misfit (1): if a fit cannot distinguish units, the
+/// one that stays closest to the start wins.
 const COST_OF_DISTANCE: f64 = 0.05;
 
 /// Difference in rank within which two causes are equally likely.
@@ -236,8 +236,8 @@ impl Calibration {
 
     /// Returns candidates that start from each other preset.
     ///
-    /// If the usual parameters of reduced dampers vary, all reduced presets are equivalent, so only one of them is tried, with
-    /// and without saturation.
+    /// If the usual parameters of reduced dampers vary, all reduced presets are equivalent, so only one of them is
+    /// tried, with and without saturation.
     fn started_from_presets(&self) -> Vec<Candidate> {
         let presets = PRESETS
             .iter()
@@ -257,7 +257,8 @@ impl Calibration {
         presets
     }
 
-    /// Returns a candidate that starts from another preset and varies the same parameters, or its usual ones if it lacks any.
+    /// Returns a candidate that starts from another preset and varies the same parameters, or its usual ones if it
+    /// lacks any.
     fn started_from_preset(&self, name: &str) -> Option<Candidate> {
         let damper = Keyed::new(name, &*load(name, &[]).ok()?).ok()?;
         if damper.name() == self.damper.name() {

@@ -33,8 +33,8 @@ pub enum CalibrationError {
     },
     /// No force depends on the parameter.
     #[error(
-        "{key}: no force of a damper depends on it, so the calibration removes it from every test and reports it; it can \
-         neither be varied nor held, nor have a prior"
+        "{key}: no force of a damper depends on it, so the calibration removes it from every test and reports it; \
+         it can neither be varied nor held, nor have a prior"
     )]
     NoForceDepends {
         /// Key of the parameter.
@@ -155,8 +155,8 @@ pub enum CalibrationError {
     },
     /// The force acts only in one direction.
     #[error(
-        "{test}: the force acts only in one direction, so the motion never passes through the clearance; possible causes: \
-         the sensor records the magnitude of the force, or its zero is off by as much as the force"
+        "{test}: the force acts only in one direction, so the motion never passes through the clearance; possible \
+         causes: the sensor records the magnitude of the force, or its zero is off by as much as the force"
     )]
     OneSided {
         /// Name of the test.

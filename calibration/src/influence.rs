@@ -179,7 +179,7 @@ impl<'a, 'm> Step<'a, 'm> {
     }
 }
 
-/// Widens the interval from noise by the shifts from the assumed parameters; both are independent, so they add in quadrature.
+/// Widens a noise interval by the shifts from the assumed parameters; they are independent, so they add in quadrature.
 pub(super) fn widened(
     found: f64,
     [lower, upper]: [Option<f64>; 2],

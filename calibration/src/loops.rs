@@ -25,8 +25,8 @@ const MAX_TICKS: f64 = 4e6;
 /// Minimum number of samples per test.
 const MIN_SAMPLES: usize = 100;
 
-/// Share of half its range that the force must have reached in both directions before samples count; until then the force
-/// depends on the unknown initial position within the clearance.
+/// Share of half its range that the force must have reached in both directions before samples count; until then the
+/// force depends on the unknown initial position within the clearance.
 const CONTACT_SHARE: f64 = 0.05;
 
 /// Time at the end of a recording that does not count, because the smoothed motion is inaccurate there (s).
@@ -121,14 +121,14 @@ pub struct LoopTest {
     pub displacement_offset_m: f64,
 }
 
-/// Share of half its range by which the force must exceed its median in both directions for the median to be an estimate
-/// of zero force.
+/// Share of half its range by which the force must exceed its median in both directions for the median to be an
+/// estimate of zero force.
 const BALANCE_SHARE: f64 = 0.25;
 
 /// Estimates the reading of the sensor at zero force from forces between `min` and `max` (N).
 ///
-/// The estimate is the median, because a damper pulls and pushes for about the same time; it is 0 if the forces about the
-/// median are one-sided. It only decides where a test begins to count.
+/// The estimate is the median, because a damper pulls and pushes for about the same time; it is 0 if the forces about
+/// the median are one-sided. It only decides where a test begins to count.
 fn estimated_zero_n(forces: &[f64], min: f64, max: f64) -> f64 {
     let mut sorted = forces.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -16,8 +16,8 @@ pub const MAX_MISFIT: f64 = 0.2;
 /// Maximum amplitude of a test (m); no vehicle damper has a longer stroke.
 const MAX_AMPLITUDE_M: f64 = 0.5;
 
-/// Net work over the sum of the magnitudes of its increments beyond which its sign is certain. It is near 1 for a damper
-/// and 0 for a spring.
+/// Net work over the sum of the magnitudes of its increments beyond which its sign is certain. It is near 1 for a
+/// damper and 0 for a spring.
 const CERTAIN_SHARE: f64 = 0.1;
 
 /// Reason to reject a fit or a recording.
@@ -126,8 +126,8 @@ impl fmt::Display for Finding {
             } => {
                 write!(
                     f,
-                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms), and the noise of the force is {noise_n:.3} N; \
-                     allowed beyond the noise: {:.0} %",
+                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms), and the noise of the force is \
+                     {noise_n:.3} N; allowed beyond the noise: {:.0} %",
                     100.0 * max
                 )?;
                 at_bounds
@@ -217,8 +217,8 @@ impl Model<'_> {
 
     /// Rejects a parameter that is at a default bound, unless the bound is a physical limit.
     ///
-    /// `tolerance` is the distance from a bound that counts as at the bound, as a share of the range. `is_suspect(parameter,
-    /// is_lower)` selects the bounds to check.
+    /// `tolerance` is the distance from a bound that counts as at the bound, as a share of the range.
+    /// `is_suspect(parameter, is_lower)` selects the bounds to check.
     ///
     /// # Errors
     /// [`Finding::AtBound`].

@@ -11,8 +11,8 @@ use super::varied::Varied;
 use dashpot_files::damper::Keyed;
 use dashpot_testbench::bench_test;
 
-/// Difference for a derivative, as a share of the tolerance: it changes a force by some percent, while tables of a built
-/// damper are accurate to 0.01 %.
+/// Difference for a derivative, as a share of the tolerance: it changes a force by some percent, while tables of a
+/// built damper are accurate to 0.01 %.
 const DIFFERENCE: f64 = 0.3;
 
 /// A damper, its varied parameters and the tests.

@@ -35,12 +35,12 @@ const fn known(mean: f64, standard_deviation: f64, plausible: Plausible) -> Plau
     }
 }
 
-/// Returns the plausible range of `key` in the table `table` of a damper file; `None` for parameters that are measured on the
-/// part, not calibrated from forces.
+/// Returns the plausible range of `key` in the table `table` of a damper file; `None` for parameters that are measured
+/// on the part, not calibrated from forces.
 ///
-/// Sources of the priors: a sharp edge contracts a jet to `pi/(pi + 2) = 0.611` (Kirchhoff); a short bore has a discharge
-/// coefficient of 0.6 to 0.8 (Idelchik, Handbook of Hydraulic Resistance); mineral oil has 870 kg/m3 at 15 degC and a bulk
-/// modulus of 1.3 to 1.8 GPa; spring steel has 200 GPa.
+/// Sources of the priors: a sharp edge contracts a jet to `pi/(pi + 2) = 0.611` (Kirchhoff); a short bore has a
+/// discharge coefficient of 0.6 to 0.8 (Idelchik, Handbook of Hydraulic Resistance); mineral oil has 870 kg/m3 at 15
+/// degC and a bulk modulus of 1.3 to 1.8 GPa; spring steel has 200 GPa.
 pub(super) fn plausible(table: &str, key: &str) -> Option<Plausible> {
     let is_valve = table.starts_with("valves.");
     Some(match (table, key) {

@@ -99,7 +99,7 @@ impl Model<'_> {
 
     /// Returns the end of the interval on the side given by the sign of `deviation`; `None` if it lies beyond a bound.
     ///
-    /// The end is always a point that was evaluated; if the search does not converge, it is a point outside the interval.
+    /// The end is always an evaluated point; if the search does not converge, it is a point outside the interval.
     fn side(
         &self,
         best: &Fit,

@@ -29,11 +29,11 @@ impl Request {
         self.damper_parameters(damper).map(|_| ())
     }
 
-    /// Returns the parameters that vary in a calibration of `damper` from `loops`, and the values of the other rig parameters.
+    /// Returns the parameters that vary for `damper` and `loops`, and the values of the other rig parameters.
     ///
     /// # Errors
-    /// A parameter that does not exist, cannot be calibrated or is given twice; bounds that are not in order; a prior of a
-    /// parameter that does not vary; or a rig parameter without recorded loops.
+    /// A parameter that does not exist, cannot be calibrated or is given twice; bounds that are not in order; a prior
+    /// of a parameter that does not vary; or a rig parameter without recorded loops.
     pub fn varied(
         &self,
         damper: &Keyed,

@@ -1,5 +1,5 @@
-//! Rig parameters: skew and offset of the sensors. They are calibrated together with the damper and are not part of a damper
-//! file.
+//! Rig parameters: skew and offset of the sensors. They are calibrated together with the damper and are not part of a
+//! damper file.
 
 use serde::Serialize;
 

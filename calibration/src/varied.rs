@@ -53,7 +53,8 @@ impl Varied {
     /// Varies the parameter of `damper` at `key`; by default within its plausible range and with its default prior.
     ///
     /// # Errors
-    /// An unknown parameter, one that cannot be calibrated from forces, invalid bounds, or a start or prior mean outside them.
+    /// An unknown parameter, one that cannot be calibrated from forces, invalid bounds, or a start or prior mean
+    /// outside them.
     pub fn new(
         damper: &Keyed,
         key: &str,

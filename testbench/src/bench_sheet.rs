@@ -31,7 +31,7 @@ impl Tested<'_> {
     }
 }
 
-/// Returns the value of an index, in the unit of its key; `None` if it is undefined, such as the asymmetry of zero force.
+/// Returns the value of an index in the unit of its key; `None` if undefined, such as the asymmetry of zero force.
 pub fn index_value(cycle: &Cycle, index: Index) -> Option<f64> {
     let indices = cycle.indices();
     match index {

@@ -11,7 +11,8 @@ use dashpot_files::harmonic::Harmonic;
 
 use super::TestbenchError;
 
-/// The force counts as periodic when no sample changes from one cycle to the next by more than this fraction of the peak.
+/// The force counts as periodic when no sample changes from one cycle to the next by more than this fraction of the
+/// peak.
 const PERIODIC_TOLERANCE: f64 = 1e-9;
 
 /// Cycles after which a force that is still not periodic counts as never becoming so.
@@ -198,8 +199,8 @@ impl Cycle {
             .collect()
     }
 
-    /// Returns the force (N) at the peak velocity, where the displacement passes zero: in extension if `sign` is positive,
-    /// otherwise in compression.
+    /// Returns the force (N) at the peak velocity, where the displacement passes zero: in extension if `sign` is
+    /// positive, otherwise in compression.
     pub fn force_at_peak_velocity_n(&self, sign: f64) -> f64 {
         let ticks = self.forces_n.len();
         if sign > 0.0 {

@@ -210,8 +210,8 @@ pub fn stiffness_in_words(stiffness: Estimate, compliance: Estimate) -> String {
 /// Maximum number of readings kept.
 const MAX_READINGS: usize = 4000;
 
-/// Runs the estimator over samples of displacement (m) and force (N), one per step of `model`, and keeps a reading every
-/// `every_s` (s).
+/// Runs the estimator over samples of displacement (m) and force (N), one per step of `model`, and keeps a reading
+/// every `every_s` (s).
 ///
 /// The interval doubles whenever 4000 readings are kept: every second one is then dropped. A missing sample has NaN as
 /// its displacement.

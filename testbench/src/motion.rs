@@ -1,5 +1,5 @@
-//! Steps a damper, or a bank of dampers, through a motion held in memory; the result is bit-identical to stepping tick by
-//! tick.
+//! Steps a damper, or a bank of dampers, through a motion held in memory; the result is bit-identical to stepping tick
+//! by tick.
 
 use dashpot_core::{Damper, DamperState, Real, step_bank};
 
@@ -9,7 +9,7 @@ const LANES: usize = 8;
 /// Ticks between two checks for cancellation.
 const TICKS_PER_CHECK: usize = 1 << 16;
 
-/// Steps `damper` through `displacements` (m) and writes the forces (N); returns false if `is_cancelled` stopped it early.
+/// Steps `damper` through `displacements` (m) and writes the forces (N); returns false if cancelled.
 ///
 /// ```
 /// use dashpot_files::damper;

@@ -22,8 +22,8 @@ pub struct Summary {
     pub max_compression_force_n: f64,
     /// Energy dissipated, `integral F dx` by the trapezoidal rule (J).
     pub energy_j: f64,
-    /// Ticks that kept the previous displacement: the new one was not finite in the step's precision, out of range or too
-    /// far away.
+    /// Ticks that kept the previous displacement: the new one was not finite in the step's precision, out of range or
+    /// too far away.
     pub held_inputs: u64,
     /// Ticks whose displacement moved faster than the damper's rate limit and was followed at that rate.
     pub limited_inputs: u64,
@@ -51,7 +51,7 @@ impl Summary {
     }
 }
 
-/// Steps `damper` through `ticks` and passes each tick with its force (N) to `sink`; in real time if there is a `pacer`.
+/// Steps `damper` through `ticks`, in real time if there is a `pacer`, and passes each tick and its force (N) to `sink`.
 ///
 /// Reading and writing happen within the ticks and are timed with them: the work of a tick is everything between its
 /// release and the next.

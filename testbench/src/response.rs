@@ -1,5 +1,5 @@
-//! Frequency response of a damper: the describing function, which is the first harmonic of the periodic force over that of
-//! the displacement, and the linearised response.
+//! Frequency response of a damper: the describing function, which is the first harmonic of the periodic force over that
+//! of the displacement, and the linearised response.
 
 use std::f64::consts::TAU;
 
@@ -72,8 +72,8 @@ impl Response {
         self.has_force().then(|| self.phase_rad().to_degrees())
     }
 
-    /// Returns the relative difference from `other` at the same motion, `|K - K_o|/|K_o|` of the complex stiffnesses (1);
-    /// `None` if `other` has no force.
+    /// Returns the relative difference from `other` at the same motion, `|K - K_o|/|K_o|` of the complex stiffnesses
+    /// (1); `None` if `other` has no force.
     pub fn difference_from(&self, other: &Self) -> Option<f64> {
         let storage = self.storage_n_per_m - other.storage_n_per_m;
         let loss = self.loss_n_per_m - other.loss_n_per_m;
@@ -147,7 +147,8 @@ pub fn at_amplitude(
 }
 
 /// Computes the linearised response at each frequency (Hz): for motions with a peak velocity of
-/// [`SMALL_VELOCITY_M_PER_S`], with the clearance taken up and without seal friction, which would block so small a motion.
+/// [`SMALL_VELOCITY_M_PER_S`], with the clearance taken up and without seal friction, which would block so small a
+/// motion.
 ///
 /// # Errors
 /// Same errors as [`run_until_periodic`].

@@ -22,8 +22,8 @@ const MIN_FREEDOM: f64 = 1e-6;
 /// `sum (x_i - z(t_i))^2 + lambda sum (second difference of z)^2`, with `z` linear between ticks.
 ///
 /// Lambda minimises the generalised cross validation score (Craven and Wahba, Numer. Math. 31, 1979), with the trace of
-/// the smoother estimated from one random vector (Girard, Numer. Math. 56, 1989). This removes white noise and keeps the
-/// motion at any frequency.
+/// the smoother estimated from one random vector (Girard, Numer. Math. 56, 1989). This removes white noise and keeps
+/// the motion at any frequency.
 ///
 /// `positions` are the times of the samples in ticks, rising from 0; `ticks` must exceed the last position.
 pub fn smooth(positions: &[f64], samples: &[f64], ticks: usize) -> Smooth {
@@ -215,8 +215,9 @@ mod tests {
                 .map(|tick| (smooth.values[tick] - motion(start + tick as f64 * step_s)).powi(2))
                 .sum();
             let rms = (square / inside.len() as f64).sqrt();
-            // The gain of the spline is 1/(1 + (w/c)^4), with w and c in radians per sample. It passes 0.833 c/pi of the
-            // noise, the integral of its square, and attenuates a line of mean square 1/2 by (w/c)^4. Minimum of the sum:
+            // The gain of the spline is 1/(1 + (w/c)^4), with w and c in radians per sample. It passes 0.833 c/pi of
+            // the noise, the integral of its square, and attenuates a line of mean square 1/2 by the fraction (w/c)^4. Minimum of
+            // the sum:
             let (line, noise) = (TAU * frequency_hz / rate_hz, 0.02 * 0.02 * 0.833 / PI);
             let cut = (4.0 * line.powi(8) / noise).powf(1.0 / 9.0);
             let min = (noise * cut + 0.5 * (line / cut).powi(8)).sqrt();

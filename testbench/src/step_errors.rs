@@ -67,8 +67,8 @@ impl<'a> StepErrors<'a> {
         Ok([found[0], found[1]])
     }
 
-    /// Returns the limits promised for any motion of the class, given the `largest` errors found: for each of [`SCALARS`]
-    /// the maximum error at a tick (N) and the maximum NRMSE (1).
+    /// Returns the limits promised for any motion of the class, given the `largest` errors found: for each of
+    /// [`SCALARS`] the maximum error at a tick (N) and the maximum NRMSE (1).
     pub fn promised(&self, largest: &[LargestErrors; 2]) -> [(f64, f64); 2] {
         let limit_n = self.force_limit_n();
         [0, 1].map(|scalar| largest[scalar].promised(limit_n, LEAST_ERROR_RATIO[scalar]))

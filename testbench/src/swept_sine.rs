@@ -3,9 +3,9 @@
 //!
 //! `x = A sin phi`, `dphi/dt = 2 pi f`, `f = f_0 exp(r t)`, so `f` rises by `r` per cycle. The first harmonic at a
 //! frequency is taken over the phase with a triangular (Bartlett) window of [`WINDOW_CYCLES`] cycles centred there. The
-//! window has double zeros at all other harmonics, so none of them leaks in while its amplitude changes linearly. If the
-//! stiffness is proportional to the power `p` of the frequency, the relative error is about `p (p - 1)/2 (r/f)^2/6`; 1/6
-//! is the variance of the window in cycles squared.
+//! window has double zeros at all other harmonics, so none of them leaks in while its amplitude changes linearly. If
+//! the stiffness is proportional to the power `p` of the frequency, the relative error is about
+//! `p (p - 1)/2 (r/f)^2/6`; 1/6 is the variance of the window in cycles squared.
 
 use std::f64::consts::{LN_2, TAU};
 
@@ -35,14 +35,14 @@ const STEPS_PER_CYCLE: f64 = 1000.0;
 /// Half the window width (cycles).
 const HALF_WINDOW: f64 = WINDOW_CYCLES as f64 / 2.0;
 
-/// Computes the response at each of the rising `frequencies_hz` from one sweep through all of them at `amplitude_m` (m).
+/// Computes the response at each of the rising `frequencies_hz` from one sweep through all of them.
 ///
-/// Runs the core's step in double precision. The sweep starts three cycles before the first frequency, at no less than half
-/// of it.
+/// Runs the core's step in double precision. The sweep starts three cycles before the first frequency, at no less than
+/// half of it.
 ///
 /// # Errors
-/// A motion out of range or beyond the damper's limits, a sweep that is too fast for the first frequency or too long, or a
-/// damper that cannot be built.
+/// A motion out of range or beyond the damper's limits, a sweep that is too fast for the first frequency or too long,
+/// or a damper that cannot be built.
 ///
 /// ```
 /// use dashpot_files::damper;

@@ -31,8 +31,8 @@ pub struct Deviation {
 pub struct FixedStep {
     /// Force at each tick (N).
     pub forces_n: Vec<f64>,
-    /// Number of ticks whose displacement was held or limited, at most 65535; there the damper followed a different motion
-    /// from the reference.
+    /// Number of ticks whose displacement was held or limited, at most 65535; there the damper followed a different
+    /// motion from the reference.
     pub rejected_inputs: u16,
 }
 

@@ -1,5 +1,5 @@
-//! Calibration against synthetic tests with known parameters. The reference solver generates them; it shares no law with
-//! the fitted model. Both signals have noise, and the force is recorded late.
+//! Calibration against synthetic tests with known parameters. The reference solver generates them; it shares no law
+//! with the fitted model. Both signals have noise, and the force is recorded late.
 
 use std::f64::consts::TAU;
 

@@ -1,8 +1,8 @@
-//! Pressure areas for the valves of the source paper. The paper gives the kind of each area but no dimensions, so some are
-//! assumed and the remaining one is fitted to the valve's correction factor Ce.
+//! Pressure areas for the valves of the source paper. The paper gives the kind of each area but no dimensions, so some
+//! are assumed and the remaining one is fitted to the valve's correction factor Ce.
 //!
-//! Foot valve (Fig. 3 of the paper): a ring of full pressure that decays to zero. Piston valves (Fig. 2): six bosses, each
-//! with full pressure over a circle that decays to zero around it.
+//! Foot valve (Fig. 3 of the paper): a ring of full pressure that decays to zero. Piston valves (Fig. 2): six bosses,
+//! each with full pressure over a circle that decays to zero around it.
 
 use dashpot_core::characteristic::ShimPackValve;
 use serde::Serialize;

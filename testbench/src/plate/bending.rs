@@ -162,8 +162,8 @@ impl Bending {
         self.harmonics.len() == 1
     }
 
-    /// Returns the deflection per pressure (m/Pa) at a radius (m), clamped to the plate, and an angle from the centre of a
-    /// boss (rad).
+    /// Returns the deflection per pressure (m/Pa) at a radius (m), clamped to the plate, and an angle from the centre
+    /// of a boss (rad).
     pub fn deflection_m_per_pa(&self, radius_m: f64, angle_rad: f64) -> f64 {
         let (element, q) = self.locate(radius_m);
         let sum: f64 = self
@@ -210,8 +210,8 @@ impl Bending {
         })
     }
 
-    /// Returns angles (rad) from the centre of a boss to halfway to the next one in `steps` steps; only the centre if the
-    /// deflection is axisymmetric.
+    /// Returns angles (rad) from the centre of a boss to halfway to the next one in `steps` steps; only the centre if
+    /// the deflection is axisymmetric.
     pub fn angles_rad(&self, steps: u32) -> impl Iterator<Item = f64> + use<> {
         let half = self.half_pitch_rad();
         let steps = if self.is_round() { 0 } else { steps };

@@ -21,8 +21,8 @@ pub(super) struct Derivatives {
     pub(super) second: f64,
 }
 
-/// Returns the shape functions of an element (value and slope at its start, then at its end) and their first two derivatives
-/// at `fraction` of its length.
+/// Returns the shape functions of an element (value and slope at its start, then at its end) and their first two
+/// derivatives at `fraction` of its length.
 fn shapes(fraction: f64, length: f64) -> [Vector4<f64>; 3] {
     let (x, l) = (fraction, length);
     let value = Vector4::new(
@@ -47,8 +47,8 @@ fn shapes(fraction: f64, length: f64) -> [Vector4<f64>; 3] {
 }
 
 impl Harmonic {
-    /// Solves a plate of unit bending stiffness under the pressure `load(r) cos(m t)`, clamped at the first node and free at
-    /// the last; `None` if rounding makes the stiffness matrix singular.
+    /// Solves a plate of unit bending stiffness under the pressure `load(r) cos(m t)`, clamped at the first node and
+    /// free at the last; `None` if rounding makes the stiffness matrix singular.
     ///
     /// Principle of virtual work in polar coordinates, integrated over `r dr`, with the curvatures
     /// `k_r = w''`, `k_t = w'/r - m^2 w/r^2` and `k_rt = m (w'/r - w/r^2)`:

@@ -1,9 +1,9 @@
-//! A shim stack as a thin (Kirchhoff) plate under non-uniform pressure: deflection, surface stress and the correction factor
-//! Ce of the edge lift.
+//! A shim stack as a thin (Kirchhoff) plate under non-uniform pressure: deflection, surface stress and the correction
+//! factor Ce of the edge lift.
 //!
 //! The deflection for N equal bosses around the circumference is `w(r, t) = sum w_k(r) cos(k N t)`. The harmonics of a
-//! circular plate are uncoupled (Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, Arts. 62 and 63), so each
-//! `w_k` is solved for separately, in cubic Hermite elements over the radius.
+//! circular plate are uncoupled (Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, Arts. 62 and 63), so
+//! each `w_k` is solved for separately, in cubic Hermite elements over the radius.
 
 mod area;
 mod assumed;

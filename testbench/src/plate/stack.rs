@@ -76,8 +76,8 @@ impl Stack {
         self.elastic_modulus_pa * self.equivalent_thickness_m().powi(3) / (12.0 * (1.0 - nu * nu))
     }
 
-    /// Returns the thickness that determines the bending stress (m): the thickest disc if they slide, otherwise the whole
-    /// stack.
+    /// Returns the thickness that determines the bending stress (m): the thickest disc if they slide, otherwise the
+    /// whole stack.
     pub fn bent_thickness_m(&self) -> f64 {
         match self.stacking {
             Stacking::Sliding => self.discs_m.iter().copied().fold(0.0, f64::max),

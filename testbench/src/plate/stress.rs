@@ -39,8 +39,8 @@ pub struct LargestStress {
 impl Stack {
     /// Returns the stress per pressure at the surface of the most stressed disc.
     ///
-    /// The radial stress is `E z/(1 - nu^2) (k_r + nu k_t)`, where z is half the thickness. Sliding discs share the curvature,
-    /// so the stress of each is proportional to its own thickness.
+    /// The radial stress is `E z/(1 - nu^2) (k_r + nu k_t)`, where z is half the thickness. Sliding discs share the
+    /// curvature, so the stress of each is proportional to its own thickness.
     pub fn surface_stress(&self, curvature: Curvature) -> SurfaceStress {
         let nu = self.poisson_ratio;
         let half = 0.5 * self.bent_thickness_m();

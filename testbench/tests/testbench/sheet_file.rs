@@ -44,8 +44,8 @@ fn the_shipped_sheets_cite_no_standard() {
     }
 }
 
-/// Spring in series with a dashpot: `K' = K r^2/(1 + r^2)`, `K'' = K r/(1 + r^2)`, `r = w C/K`; at mid-stroke the force is
-/// `A K''`.
+/// Spring in series with a dashpot: `K' = K r^2/(1 + r^2)`, `K'' = K r/(1 + r^2)`, `r = w C/K`; at mid-stroke the force
+/// is `A K''`.
 #[test]
 fn indices_are_those_of_a_maxwell_element() {
     let (c, k) = (120e3, 8e6);

@@ -199,7 +199,8 @@ fn round_bosses_agree_with_statics_of_their_mean() {
     assert!(error.abs() < 1e-4, "{error:e}");
 }
 
-/// Sliding discs add their stiffnesses, bonded discs their thicknesses; the stress follows from the thickness that bends.
+/// Sliding discs add their stiffnesses, bonded discs their thicknesses; the stress follows from the thickness that
+/// bends.
 #[test]
 fn stacking_determines_stiffness_and_stress() {
     let (clamp, free) = RADII_M[1];

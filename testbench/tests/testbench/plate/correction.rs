@@ -42,8 +42,8 @@ fn fitted_decays_have_the_factor_of_the_foot_valve() {
     check([clamp + width, free - width], 2.0);
 }
 
-/// Both piston valves have discs of the same radii. Thin plates under the same pressure area then have the same factor, so
-/// the two published factors require two different areas.
+/// Both piston valves have discs of the same radii. Thin plates under the same pressure area then have the same factor,
+/// so the two published factors require two different areas.
 #[test]
 fn the_factor_does_not_depend_on_thickness() {
     let [extension, compression, _] = of_the_paper();

@@ -9,10 +9,10 @@ use super::{RADII_M, stack};
 
 const NU: f64 = 0.3;
 
-/// Radial part of `w = f(r) cos(m t)` for the pressure `cos(m t)` on a disc of unit stiffness and unit free radius, clamped
-/// at `clamp`, for m above 4: a sum of `r^m`, `r^-m`, `r^(m+2)`, `r^(2-m)` and the particular solution
-/// `r^4/((16 - m^2)(4 - m^2))` (Timoshenko and Woinowsky-Krieger, Art. 63). Moment and Kirchhoff shear vanish at the edge:
-/// `(f'' + f'/r - m^2 f/r^2)' - (1 - nu) m^2/r (f'/r - f/r^2) = 0`.
+/// Radial part of `w = f(r) cos(m t)` for the pressure `cos(m t)` on a disc of unit stiffness and unit free radius,
+/// clamped at `clamp`, for m above 4: a sum of `r^m`, `r^-m`, `r^(m+2)`, `r^(2-m)` and the particular solution
+/// `r^4/((16 - m^2)(4 - m^2))` (Timoshenko and Woinowsky-Krieger, Art. 63). Moment and Kirchhoff shear vanish at the
+/// edge: `(f'' + f'/r - m^2 f/r^2)' - (1 - nu) m^2/r (f'/r - f/r^2) = 0`.
 fn closed_form(m: f64, clamp: f64) -> impl Fn(f64) -> f64 {
     let powers = [m, -m, m + 2.0, 2.0 - m];
     // Derivatives of r^p at r.
@@ -107,8 +107,8 @@ fn sectors() -> PressureArea {
     })
 }
 
-/// The deflection averaged around the circumference is the deflection under the averaged pressure, computed here as a sum
-/// over angles.
+/// The deflection averaged around the circumference is the deflection under the averaged pressure, computed here as a
+/// sum over angles.
 #[test]
 fn the_mean_lift_follows_from_the_mean_pressure() {
     let (clamp, free) = RADII_M[0];

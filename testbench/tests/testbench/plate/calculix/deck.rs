@@ -85,7 +85,8 @@ impl Deck {
         self.line("*SOLID SECTION, ELSET=PLATE, MATERIAL=STEEL");
     }
 
-    /// Solves a static step with pressure (MPa) on the first face of each of `loaded`, and returns the requested `prints`.
+    /// Solves a static step with pressure (MPa) on the first face of each of `loaded`, and returns the requested
+    /// `prints`.
     ///
     /// CalculiX reads at most 20 characters per number.
     pub fn solve(

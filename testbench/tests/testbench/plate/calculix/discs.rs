@@ -14,7 +14,8 @@ pub enum Contact {
 const RADIAL: usize = 40;
 const THROUGH: usize = 2;
 
-/// Returns the edge deflection (mm) of each disc of a stack between two radii (mm), with pressure (MPa) on the first disc.
+/// Returns the edge deflection (mm) of each disc of a stack between two radii (mm), with pressure (MPa) on the first
+/// disc.
 pub fn edge_deflections(
     [clamp, free]: [f64; 2],
     discs: &[f64],

@@ -96,8 +96,8 @@ fn a_thin_bonded_stack_is_within_half_a_percent() {
     within(&ratios, 5e-3);
 }
 
-/// Plate theory neglects the shear of thick plates, such as the bonded discs of the piston extension valve, and the tension
-/// in the middle plane at large deflections.
+/// Plate theory neglects the shear of thick plates, such as the bonded discs of the piston extension valve, and the
+/// tension in the middle plane at large deflections.
 #[test]
 fn plate_theory_fails_for_thick_discs_and_large_deflections() {
     if !have(&[CALCULIX], "shims beside CalculiX: limits of plate theory") {
