@@ -264,8 +264,10 @@ impl Calibration {
         if damper.name() == self.damper.name() {
             return None;
         }
-        let (rig, own): (Vec<&Varied>, Vec<&Varied>) =
-            self.varied.iter().partition(|varied| varied.is_of_rig());
+        let (rig, own): (Vec<&Varied>, Vec<&Varied>) = self
+            .varied
+            .iter()
+            .partition(|varied| varied.is_rig_parameter());
         let again = own.iter().map(|varied| {
             let bounds = varied.has_own_bounds.then_some(varied.bounds);
             Varied::new(&damper, &varied.key, bounds, varied.prior).ok()
@@ -344,7 +346,7 @@ impl Candidate {
     /// Returns how unlikely this cause is (lower is better); `None` if it does not explain the recordings.
     fn rank(&self, is_cancelled: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
         let calibration = &self.calibration;
-        calibration.refuse_impossible().ok()?;
+        calibration.reject_impossible().ok()?;
         let model: Model<'_> = calibration.model(is_cancelled);
         let fit = model.quick_fit()?;
         let share = model.worst_misfit(&fit.coordinates).ok()??.share;

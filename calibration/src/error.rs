@@ -260,13 +260,13 @@ impl CalibrationError {
                     .collect()
             }
             Self::Undetermined { parameters } => {
-                let of = |remedy: fn(String) -> Remedy| -> Advice {
+                let for_each = |remedy: fn(String) -> Remedy| -> Advice {
                     parameters
                         .iter()
                         .map(|(key, _)| remedy(key.clone()))
                         .collect()
                 };
-                vec![of(Remedy::Leave), of(Remedy::Know)]
+                vec![for_each(Remedy::Leave), for_each(Remedy::Know)]
             }
             Self::FewStarts { starts } => {
                 let more = (4 * starts).clamp(16, 1000) as u16;

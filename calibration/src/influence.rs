@@ -185,13 +185,16 @@ pub(super) fn widened(
     [lower, upper]: [Option<f64>; 2],
     shifts: impl Iterator<Item = [f64; 2]> + Clone,
 ) -> [Option<f64>; 2] {
-    let square = |of: &dyn Fn(f64) -> f64| -> f64 {
+    let sum_of_squares = |distance: &dyn Fn(f64) -> f64| -> f64 {
         let parts = shifts.clone();
         parts
-            .map(|shift| shift.map(of).into_iter().fold(0.0, f64::max).powi(2))
+            .map(|shift| shift.map(distance).into_iter().fold(0.0, f64::max).powi(2))
             .sum()
     };
-    let (below, above) = (square(&|shift| -shift), square(&|shift| shift));
+    let (below, above) = (
+        sum_of_squares(&|shift| -shift),
+        sum_of_squares(&|shift| shift),
+    );
     [
         lower.map(|lower| found - ((found - lower).powi(2) + below).sqrt()),
         upper.map(|upper| found + ((upper - found).powi(2) + above).sqrt()),

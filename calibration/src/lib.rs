@@ -260,14 +260,15 @@ impl Calibration {
     }
 
     /// Rejects damper parameters that the tests do not determine; rig parameters may stay undetermined.
-    fn refuse_undetermined(
+    fn reject_undetermined(
         &self,
         determination: &Determination,
         is_determined: &dyn Fn(usize) -> bool,
     ) -> Result<(), CalibrationError> {
         let all = 0..self.varied.len();
-        let undetermined = all
-            .filter(|&parameter| !self.varied[parameter].is_of_rig() && !is_determined(parameter));
+        let undetermined = all.filter(|&parameter| {
+            !self.varied[parameter].is_rig_parameter() && !is_determined(parameter)
+        });
         let parameters: Vec<(String, Determined)> = undetermined
             .map(|parameter| {
                 let key = self.varied[parameter].key.clone();
@@ -290,7 +291,7 @@ impl Calibration {
             return Ok(());
         };
         let determination = model.determination(&fit.coordinates)?;
-        self.refuse_undetermined(&determination, &|parameter| {
+        self.reject_undetermined(&determination, &|parameter| {
             self.has_effect(&determination, parameter)
         })
     }
@@ -304,7 +305,7 @@ impl Calibration {
         on_progress: &(dyn Fn(Progress) + Sync),
         is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Calibrated, CalibrationError> {
-        self.refuse_impossible()?;
+        self.reject_impossible()?;
         let mut model = self.model(is_cancelled);
         let start: Vec<f64> = self.varied.iter().map(|v| v.coordinate(v.start)).collect();
         let stage = Stage::new("searches", self.starts, on_progress);
@@ -329,7 +330,7 @@ impl Calibration {
         let max_misfit = self.assumed.max_misfit;
         let worst = model.worst_misfit(&best.coordinates)?;
         if worst.is_some_and(|worst| worst.share > HOPELESS_MISFIT * max_misfit) {
-            model.refuse_misfit(&best.coordinates, max_misfit)?;
+            model.reject_misfit(&best.coordinates, max_misfit)?;
         }
         let all: Vec<usize> = (0..self.varied.len()).collect();
         let mut residuals = Vec::new();
@@ -345,19 +346,19 @@ impl Calibration {
                 .fit(&best.coordinates, &all)
                 .ok_or_else(|| CalibrationError::NoFit(INVALID_COMBINATION.into()))?;
         }
-        model.refuse_misfit(&best.coordinates, max_misfit)?;
-        model.refuse_bounds(&best.coordinates, CERTAINLY_AT_BOUND, |_, _| true)?;
+        model.reject_misfit(&best.coordinates, max_misfit)?;
+        model.reject_bounds(&best.coordinates, CERTAINLY_AT_BOUND, |_, _| true)?;
         let determination = model.determination(&best.coordinates)?;
-        let refuse = |is_determined: &dyn Fn(usize) -> bool| {
-            self.refuse_undetermined(&determination, is_determined)
+        let reject = |is_determined: &dyn Fn(usize) -> bool| {
+            self.reject_undetermined(&determination, is_determined)
         };
-        refuse(&|parameter| self.has_effect(&determination, parameter))?;
+        reject(&|parameter| self.has_effect(&determination, parameter))?;
         let (best, profiles) = self.profiles(&model, best, &determination, on_progress)?;
         let values = model.values(&best.coordinates);
-        model.refuse_bounds(&best.coordinates, AT_BOUND, |parameter, is_lower| {
+        model.reject_bounds(&best.coordinates, AT_BOUND, |parameter, is_lower| {
             profiles[parameter].is_open(is_lower)
         })?;
-        refuse(&|parameter| {
+        reject(&|parameter| {
             profiles[parameter].is_narrow(&self.varied[parameter], values[parameter])
         })?;
         let before = model.forces_n(&start)?;

@@ -170,7 +170,7 @@ impl LoopTest {
                 1 => recorded.name.clone(),
                 _ => format!("{} ({} of {count})", recorded.name, index + 1),
             };
-            Self::of_stretch(name, recorded, stretch, step_s)
+            Self::from_stretch(name, recorded, stretch, step_s)
         });
         let tests: Vec<Self> = tests.collect::<Result<_, _>>()?;
         if tests.is_empty() {
@@ -182,7 +182,7 @@ impl LoopTest {
         Ok(tests)
     }
 
-    fn of_stretch(
+    fn from_stretch(
         name: String,
         recorded: &Recorded,
         stretch: Range<usize>,

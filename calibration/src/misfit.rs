@@ -126,8 +126,8 @@ impl fmt::Display for Finding {
             } => {
                 write!(
                     f,
-                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms), and the noise of the force is \
-                     {noise_n:.3} N; allowed beyond the noise: {:.0} %",
+                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms), and the noise of the force \
+                     is {noise_n:.3} N; allowed beyond the noise: {:.0} %",
                     100.0 * max
                 )?;
                 at_bounds
@@ -185,7 +185,7 @@ impl Model<'_> {
     ///
     /// # Errors
     /// [`Finding::Missed`].
-    pub(super) fn refuse_misfit(
+    pub(super) fn reject_misfit(
         &self,
         coordinates: &[f64],
         max: f64,
@@ -222,7 +222,7 @@ impl Model<'_> {
     ///
     /// # Errors
     /// [`Finding::AtBound`].
-    pub(super) fn refuse_bounds(
+    pub(super) fn reject_bounds(
         &self,
         coordinates: &[f64],
         tolerance: f64,
@@ -303,7 +303,7 @@ impl Calibration {
     ///
     /// # Errors
     /// [`Finding::TooFast`] or [`Finding::Driven`].
-    pub(super) fn refuse_impossible(&self) -> Result<(), CalibrationError> {
+    pub(super) fn reject_impossible(&self) -> Result<(), CalibrationError> {
         if let Some(finding) = self.too_fast() {
             return Err(CalibrationError::implausible(finding));
         }

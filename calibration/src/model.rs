@@ -67,7 +67,7 @@ impl Model<'_> {
             .varied
             .iter()
             .zip(values)
-            .filter(|(varied, _)| !varied.is_of_rig())
+            .filter(|(varied, _)| !varied.is_rig_parameter())
             .map(|(varied, value)| (varied.key.as_str(), value))
             .chain(more.iter().copied())
             .collect();

@@ -34,7 +34,7 @@ pub struct Profile {
 
 impl Profile {
     /// True if the interval is so much narrower than the prior that the tests determine the parameter.
-    pub fn is_by_tests(&self, varied: &Varied) -> bool {
+    pub fn is_determined_by_tests(&self, varied: &Varied) -> bool {
         let known = varied
             .prior
             .map_or(f64::INFINITY, |prior| prior.standard_deviation);
@@ -57,7 +57,7 @@ impl Profile {
         Some(0.5 * (self.upper? - self.lower?))
     }
 
-    /// True if the interval is no wider than the tolerance of the parameter allows, and at lower one end is within the
+    /// True if the interval is no wider than the tolerance of the parameter allows, and at least one end is within the
     /// bounds.
     pub(super) fn is_narrow(&self, varied: &Varied, value: f64) -> bool {
         let [lower, upper] = varied.bounds;

@@ -1,7 +1,7 @@
 //! Translates a user's request into the parameters of a calibration.
 
 use super::loops::LoopTest;
-use super::rig::{DISPLACEMENT_OFFSET, HeldRig, RIG, SKEW, is_of_rig};
+use super::rig::{DISPLACEMENT_OFFSET, HeldRig, RIG, SKEW, is_rig_parameter};
 use super::varied::{Prior, Varied};
 use super::{CalibrationError, plausible};
 use dashpot_files::damper::Keyed;
@@ -60,7 +60,8 @@ impl Request {
                 continue;
             }
             // Rig parameters alone do not make a calibration.
-            if varied.iter().all(Varied::is_of_rig) || self.hold.iter().any(|(held, _)| held == key)
+            if varied.iter().all(Varied::is_rig_parameter)
+                || self.hold.iter().any(|(held, _)| held == key)
             {
                 continue;
             }
@@ -72,7 +73,7 @@ impl Request {
 
     /// Returns the damper parameters that vary.
     fn damper_parameters(&self, damper: &Keyed) -> Result<Vec<Varied>, CalibrationError> {
-        let named = self.vary.iter().filter(|(key, _)| !is_of_rig(key));
+        let named = self.vary.iter().filter(|(key, _)| !is_rig_parameter(key));
         let varied = named.map(|(key, bounds)| {
             let prior = self.prior(key);
             let mut varied = Varied::new(damper, key, *bounds, prior)?;
@@ -114,7 +115,7 @@ impl Request {
             .into_iter()
             .try_for_each(|named| check_unique(named))?;
         for (key, value) in &self.hold {
-            if !is_of_rig(key) {
+            if !is_rig_parameter(key) {
                 return Err(CalibrationError::NotOfRig { key: key.clone() });
             }
             if vary.contains(&key.as_str()) || priors.contains(&key.as_str()) {
@@ -127,7 +128,7 @@ impl Request {
             }
         }
         for key in priors {
-            if !vary.contains(&key) && !is_of_rig(key) {
+            if !vary.contains(&key) && !is_rig_parameter(key) {
                 let is_known = key
                     .rsplit_once('.')
                     .is_some_and(|(table, last)| plausible::plausible(table, last).is_some());

@@ -42,7 +42,7 @@ pub struct HeldRig {
 }
 
 /// True if `key` is a rig parameter.
-pub fn is_of_rig(key: &str) -> bool {
+pub fn is_rig_parameter(key: &str) -> bool {
     RIG.contains(&key)
 }
 

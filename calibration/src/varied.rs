@@ -160,8 +160,8 @@ impl Varied {
     }
 
     /// True for a rig parameter, false for a damper parameter.
-    pub fn is_of_rig(&self) -> bool {
-        rig::is_of_rig(&self.key)
+    pub fn is_rig_parameter(&self) -> bool {
+        rig::is_rig_parameter(&self.key)
     }
 
     /// Returns the bound that a value is at; `tolerance` is the allowed distance as a share of the range.
@@ -197,7 +197,7 @@ impl Varied {
         };
         let [lower, upper] = if self.by_ratio {
             [lower / FACTOR, upper * FACTOR]
-        } else if self.is_of_rig() {
+        } else if self.is_rig_parameter() {
             [lower * FACTOR, upper * FACTOR]
         } else {
             [lower, upper + FACTOR * (upper - lower)]
@@ -248,7 +248,7 @@ impl Varied {
 
     /// Returns the maximum standard deviation of the coordinate for the parameter to count as determined.
     ///
-    /// It corresponds to 10 % of the value or, on a linear scale, at lower 1 % of the range.
+    /// It corresponds to 10 % of the value or, on a linear scale, at least 1 % of the range.
     pub(super) fn tolerance(&self, value: f64) -> f64 {
         if self.by_ratio {
             1.1_f64.ln() / self.length()

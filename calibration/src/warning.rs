@@ -153,7 +153,7 @@ impl Found<'_> {
                 let noise = self.profiles[parameter]
                     .half_width()
                     .unwrap_or(f64::INFINITY);
-                if shift > noise && !varied.is_of_rig() {
+                if shift > noise && !varied.is_rig_parameter() {
                     warnings.push(Warning::Assumed {
                         key: varied.key.clone(),
                         assumed: influence.key.clone(),

@@ -97,7 +97,7 @@ mod tests {
     use dashpot_files::damper;
 
     #[test]
-    fn a_bank_of_any_size_has_the_bits_of_single_dampers() {
+    fn banks_of_any_size_match_single_dampers_bit_for_bit() {
         let built = ["paper", "in-service", "reduced-lateral"].map(|name| {
             let damper = damper::load(name, &[]).unwrap();
             damper.build::<f32>(1e-3).unwrap()

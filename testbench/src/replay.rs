@@ -51,7 +51,8 @@ impl Summary {
     }
 }
 
-/// Steps `damper` through `ticks`, in real time if there is a `pacer`, and passes each tick and its force (N) to `sink`.
+/// Steps `damper` through `ticks`, in real time if there is a `pacer`, and passes each tick and its force (N) to
+/// `sink`.
 ///
 /// Reading and writing happen within the ticks and are timed with them: the work of a tick is everything between its
 /// release and the next.

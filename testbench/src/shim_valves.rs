@@ -86,7 +86,8 @@ impl ValveLocation {
     }
 }
 
-/// Returns the ratio of disc theory to the published deflection, under uniform pressure at the table's highest pressure.
+/// Returns the ratio of disc theory to the published deflection, under uniform pressure at the table's highest
+/// pressure.
 pub fn theory_over_published(theory_m_per_pa: f64, published: &[Deflection]) -> Option<f64> {
     let row = published.last()?;
     Some(theory_m_per_pa * row.pressure_pa() / row.theory_uniform_m())

@@ -216,8 +216,8 @@ mod tests {
                 .sum();
             let rms = (square / inside.len() as f64).sqrt();
             // The gain of the spline is 1/(1 + (w/c)^4), with w and c in radians per sample. It passes 0.833 c/pi of
-            // the noise, the integral of its square, and attenuates a line of mean square 1/2 by the fraction (w/c)^4. Minimum of
-            // the sum:
+            // the noise, the integral of its square, and attenuates a line of mean square 1/2 by the fraction (w/c)^4.
+            // Minimum of the sum:
             let (line, noise) = (TAU * frequency_hz / rate_hz, 0.02 * 0.02 * 0.833 / PI);
             let cut = (4.0 * line.powi(8) / noise).powf(1.0 / 9.0);
             let min = (noise * cut + 0.5 * (line / cut).powi(8)).sqrt();

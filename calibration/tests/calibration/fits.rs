@@ -205,7 +205,8 @@ fn confounded_parameters_are_rejected_with_the_reason() {
         standard_deviation: 0.02,
     });
     let found = calibration.run(&|_| {}).unwrap();
-    let by_tests = |number: usize| found.profiles[number].is_by_tests(&calibration.varied[number]);
+    let by_tests =
+        |number: usize| found.profiles[number].is_determined_by_tests(&calibration.varied[number]);
     assert!(!by_tests(1) && by_tests(2));
     assert!(
         (found.values[1] / 0.72 - 1.0).abs() < 0.03,

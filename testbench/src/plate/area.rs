@@ -46,7 +46,7 @@ impl PressureArea {
     }
 
     /// True if the pressure is axisymmetric.
-    pub fn is_round(&self) -> bool {
+    pub fn is_axisymmetric(&self) -> bool {
         match self {
             Self::Ring(_) => true,
             Self::Sectors(bosses) => bosses.share == 1.0,

@@ -54,7 +54,7 @@ impl Stack {
     /// # Errors
     /// The area is not within the free part of the stack.
     pub fn bend(&self, area: &PressureArea, resolution: Resolution) -> Result<Bending, PlateError> {
-        let harmonics = if area.is_round() {
+        let harmonics = if area.is_axisymmetric() {
             0
         } else {
             resolution.harmonics
@@ -158,7 +158,7 @@ impl Bending {
     }
 
     /// True if the deflection is axisymmetric.
-    pub fn is_round(&self) -> bool {
+    pub fn is_axisymmetric(&self) -> bool {
         self.harmonics.len() == 1
     }
 
@@ -214,7 +214,7 @@ impl Bending {
     /// the deflection is axisymmetric.
     pub fn angles_rad(&self, steps: u32) -> impl Iterator<Item = f64> + use<> {
         let half = self.half_pitch_rad();
-        let steps = if self.is_round() { 0 } else { steps };
+        let steps = if self.is_axisymmetric() { 0 } else { steps };
         (0..=steps).map(move |i| half * f64::from(i) / f64::from(steps.max(1)))
     }
 

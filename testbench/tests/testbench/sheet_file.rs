@@ -104,7 +104,7 @@ fn a_test_runs_at_its_own_temperature_or_that_of_the_damper() {
 }
 
 #[test]
-fn a_value_is_within_its_limits_or_not() {
+fn limits_are_inclusive() {
     let limits = |keys: &str| {
         let text = with(&format!("[test.limits.energy_per_cycle_j]\n{keys}"));
         parse(&text).unwrap().tests[0].limits[0].clone()

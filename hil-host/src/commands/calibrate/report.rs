@@ -237,7 +237,7 @@ impl Report {
                 greatest_by_noise: found.profiles[number].upper,
                 bounds: varied.bounds,
                 prior: varied.prior,
-                by_tests: found.profiles[number].is_by_tests(varied),
+                by_tests: found.profiles[number].is_determined_by_tests(varied),
                 standard_deviation: determination.parameters[number].standard_deviation,
                 correlation: others
                     .map(|(other, value)| (other.key.clone(), *value))

@@ -6,7 +6,7 @@ use dashpot_testbench::plate::{
 };
 
 use super::axisymmetric::edge_by_statics;
-use super::of_the_paper;
+use super::paper_stacks;
 
 /// Ce of Tables 2 to 4.
 const PUBLISHED: [f64; 3] = [0.2169, 0.2000, 0.8265];
@@ -14,7 +14,7 @@ const PUBLISHED: [f64; 3] = [0.2169, 0.2000, 0.8265];
 /// Checks the radii stated in docs/shims.md; statics confirms the factor of each pressure.
 #[test]
 fn fitted_decays_have_the_factor_of_the_foot_valve() {
-    let [_, _, foot] = of_the_paper();
+    let [_, _, foot] = paper_stacks();
     let (clamp, free) = (5e-3, 11e-3);
     let uniform = edge_by_statics(clamp, free, |_| 1.0);
     let check = |full_m: [f64; 2], exponent: f64| {
@@ -46,7 +46,7 @@ fn fitted_decays_have_the_factor_of_the_foot_valve() {
 /// so the two published factors require two different areas.
 #[test]
 fn the_factor_does_not_depend_on_thickness() {
-    let [extension, compression, _] = of_the_paper();
+    let [extension, compression, _] = paper_stacks();
     let area = PressureArea::Round(RoundBosses {
         count: 6,
         pitch_radius_m: 22.5e-3,
@@ -65,7 +65,7 @@ fn the_factor_does_not_depend_on_thickness() {
 #[test]
 fn fitted_bosses_have_the_published_factors() {
     let resolution = Resolution::default();
-    let [extension, compression, _] = of_the_paper();
+    let [extension, compression, _] = paper_stacks();
     for (stack, factor) in [(extension, PUBLISHED[0]), (compression, PUBLISHED[1])] {
         let bosses = RoundBosses {
             count: 6,
@@ -101,7 +101,7 @@ fn fitted_bosses_have_the_published_factors() {
 
 #[test]
 fn an_unreachable_factor_is_reported_with_the_allowed_range() {
-    let [extension, ..] = of_the_paper();
+    let [extension, ..] = paper_stacks();
     let narrow = Profile::full(16e-3, 18e-3);
     let error = fitted_share(&extension, narrow, 0.2, Resolution::default()).unwrap_err();
     assert!(matches!(error, PlateError::OutOfReach { max, .. } if max < 0.2));

@@ -24,7 +24,7 @@ fn stack_of(clamp_m: f64, free_m: f64, discs_m: &[f64], stacking: Stacking) -> S
 }
 
 /// The three valves of the paper: piston extension, piston compression, foot.
-fn of_the_paper() -> [Stack; 3] {
+fn paper_stacks() -> [Stack; 3] {
     let parameters = damper::load("paper", &[]).unwrap();
     let Element::Physical(hydraulics) = &parameters.element else {
         panic!("no valves")
