@@ -1,4 +1,4 @@
-//! Which numbers the tests determine, by the singular values of what the forces change by.
+//! How well the tests determine each parameter, from the singular values of the sensitivities.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
@@ -6,105 +6,115 @@ use serde::Serialize;
 use super::CalibrationError;
 use super::model::Model;
 
-/// A direction whose singular value is below this share of the largest is not known: derivatives come from differences.
-const LEAST_SHARE: f64 = 1e-3;
+/// Minimum singular value, as a share of the largest, of a direction that counts as known; the derivatives are finite
+/// differences and no more accurate than this.
+const MIN_SINGULAR_SHARE: f64 = 1e-3;
 
-/// Stretches of a loop whose errors count as independent of each other.
+/// Number of stretches per loop whose errors count as mutually independent.
 const STRETCHES: usize = 40;
 
-/// What such a direction counts as, of the least that is known: hardly anything.
+/// Information of an unknown direction, as a share of the minimum known one.
 const UNKNOWN: f64 = 1e-12;
 
-/// Share of a direction that makes a number part of it.
-const PART: f64 = 0.3;
+/// Minimum component of a parameter in a direction for the parameter to be part of it.
+const MIN_COMPONENT: f64 = 0.3;
 
-/// Correlation that is told.
-pub const CLOSE: f64 = 0.9;
+/// Correlation above which two parameters are reported.
+pub const HIGH_CORRELATION: f64 = 0.9;
 
-/// How well the tests determine a number.
+/// How well the tests determine a parameter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Determined {
-    /// Standard deviation, in the number's unit, by linear theory.
+    /// Standard deviation by linear theory, in the unit of the parameter.
     pub standard_deviation: f64,
-    /// By what its variance is greater than that of independent samples of equal scatter, at least 1: from what whole stretches of the tests pull it
-    /// by, for errors of the displacement act where the force changes fast and last as long as that.
+    /// Variance inflation factor, at least 1, relative to independent samples of equal scatter.
+    ///
+    /// It is computed from the gradients of whole stretches, because displacement errors act where the force changes
+    /// fast and last as long as that.
     pub inflation: f64,
-    /// Whether it changes any force beyond what these scatter by.
-    pub is_felt: bool,
-    /// Keys of the numbers that could make up for it.
-    pub together_with: Vec<String>,
+    /// True if the parameter changes a force by more than the scatter.
+    #[serde(rename = "is_felt")]
+    pub has_effect: bool,
+    /// Keys of the parameters that could compensate for this one.
+    #[serde(rename = "together_with")]
+    pub confounded_with: Vec<String>,
 }
 
-/// Of all numbers.
+/// How well the tests determine all parameters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Determination {
-    /// In the order of the numbers.
-    pub numbers: Vec<Determined>,
-    /// Correlation of each with each, priors included.
+    /// One entry per parameter.
+    #[serde(rename = "numbers")]
+    pub parameters: Vec<Determined>,
+    /// Correlation matrix, priors included.
     pub correlation: Vec<Vec<f64>>,
 }
 
 impl Model<'_> {
-    /// What the tests determine at `places`.
+    /// Evaluates how well the tests determine the parameters at `coordinates`.
     ///
     /// # Errors
-    /// As [`Model::deviations`].
-    pub(super) fn determination(&self, places: &[f64]) -> Result<Determination, CalibrationError> {
+    /// Same errors as [`Model::deviations`].
+    pub(super) fn determination(
+        &self,
+        coordinates: &[f64],
+    ) -> Result<Determination, CalibrationError> {
         let all: Vec<usize> = (0..self.varied.len()).collect();
-        let values = self.values(places);
+        let values = self.values(coordinates);
         let tolerances: Vec<f64> = self
             .varied
             .iter()
             .zip(&values)
             .map(|(varied, value)| varied.tolerance(*value))
             .collect();
-        let mut slopes = self.slopes(places, &all)?;
+        let mut slopes = self.slopes(coordinates, &all)?;
         for (column, tolerance) in tolerances.iter().enumerate() {
             slopes.column_mut(column).scale_mut(*tolerance);
         }
-        // In units of what is tolerated, so that one singular value below 1 is a direction not determined.
+        // In units of the tolerances, so a singular value below 1 is an undetermined direction.
         let tests = slopes.transpose() * &slopes;
         let mut with_priors = tests.clone();
-        for (number, _, slope) in self.off_priors(places) {
-            with_priors[(number, number)] += (slope * tolerances[number]).powi(2);
+        for prior in self.prior_terms(coordinates) {
+            let index = prior.parameter;
+            with_priors[(index, index)] += (prior.slope * tolerances[index]).powi(2);
         }
-        let pulls = self.pulls(&slopes, &self.deviations(places)?);
+        let gradients = self.squared_gradients(&slopes, &self.deviations(coordinates)?);
         let by_tests = Scatter::new(tests.clone());
         let priors = &with_priors - &tests;
         let by_all = Scatter::new(with_priors);
         let covariance = by_all.covariance();
-        // Of estimates by wrong weights (Huber 1967).
-        let robust = &covariance * (pulls + priors) * &covariance;
-        let numbers = all.iter().map(|&number| {
-            let plain = covariance[(number, number)];
-            let inflation = (robust[(number, number)] / plain).max(1.0);
-            let in_tolerances = by_all.deviations[number] * inflation.sqrt();
-            let unit = tolerances[number] * self.varied[number].slope(values[number]);
+        // Sandwich covariance of estimates with wrong weights (Huber 1967).
+        let robust = &covariance * (gradients + priors) * &covariance;
+        let parameters = all.iter().map(|&parameter| {
+            let plain = covariance[(parameter, parameter)];
+            let inflation = (robust[(parameter, parameter)] / plain).max(1.0);
+            let in_tolerances = by_all.deviations[parameter] * inflation.sqrt();
+            let unit = tolerances[parameter] * self.varied[parameter].slope(values[parameter]);
             Determined {
                 standard_deviation: in_tolerances * unit,
                 inflation,
-                is_felt: tests[(number, number)] > 1.0,
-                together_with: by_tests
-                    .partners(number)
+                has_effect: tests[(parameter, parameter)] > 1.0,
+                confounded_with: by_tests
+                    .partners(parameter)
                     .map(|partner| self.varied[partner].key.clone())
                     .collect(),
             }
         });
         Ok(Determination {
-            numbers: numbers.collect(),
+            parameters: parameters.collect(),
             correlation: by_all.correlation(),
         })
     }
 }
 
 impl Model<'_> {
-    /// Sum over stretches of the loops of what each pulls the numbers by, squared; each index is a stretch.
-    fn pulls(&self, slopes: &DMatrix<f64>, deviations: &[f64]) -> DMatrix<f64> {
+    /// Returns the sum of squared gradients of all stretches of the loops; each index is a stretch of its own.
+    fn squared_gradients(&self, slopes: &DMatrix<f64>, deviations: &[f64]) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(slopes.ncols(), slopes.ncols());
         let mut add = |rows: std::ops::Range<usize>| {
-            let pull = slopes.rows(rows.start, rows.len()).transpose()
+            let gradient = slopes.rows(rows.start, rows.len()).transpose()
                 * DVector::from_column_slice(&deviations[rows]);
-            sum += &pull * pull.transpose();
+            sum += &gradient * gradient.transpose();
         };
         let mut row = 0;
         for test in &self.loops {
@@ -120,7 +130,7 @@ impl Model<'_> {
     }
 }
 
-/// The inverse of an information matrix, by its eigenvalues: those of the singular values' squares.
+/// Inverse of an information matrix by its eigenvalues, which are the squares of the singular values.
 struct Scatter {
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
     deviations: Vec<f64>,
@@ -130,18 +140,14 @@ impl Scatter {
     fn new(information: DMatrix<f64>) -> Self {
         let count = information.nrows();
         let mut eigen = SymmetricEigen::new(information);
-        let least = LEAST_SHARE.powi(2) * eigen.eigenvalues.max();
+        let min = MIN_SINGULAR_SHARE.powi(2) * eigen.eigenvalues.max();
         for value in eigen.eigenvalues.iter_mut() {
-            *value = if *value < least {
-                UNKNOWN * least
-            } else {
-                *value
-            };
+            *value = if *value < min { UNKNOWN * min } else { *value };
         }
-        let deviation = |number: usize| {
+        let deviation = |parameter: usize| {
             let terms = eigen.eigenvalues.iter().enumerate().map(|(index, value)| {
-                let part = eigen.eigenvectors[(number, index)];
-                // A direction that is not in the number adds nothing, however little is known of it.
+                let part = eigen.eigenvectors[(parameter, index)];
+                // A direction without a component of the parameter adds nothing, however unknown it is.
                 if part.abs() < 1e-9 {
                     0.0
                 } else {
@@ -156,21 +162,22 @@ impl Scatter {
         }
     }
 
-    /// The numbers that are with `number` in the direction that it is least determined by.
-    fn partners(&self, number: usize) -> impl Iterator<Item = usize> {
+    /// Returns the other parameters in the direction that contributes most to the variance of `parameter`.
+    fn partners(&self, parameter: usize) -> impl Iterator<Item = usize> {
         let worst = (0..self.deviations.len()).max_by(|a, b| {
             let share = |index: &usize| {
-                let part = self.eigen.eigenvectors[(number, *index)];
+                let part = self.eigen.eigenvectors[(parameter, *index)];
                 part * part / self.eigen.eigenvalues[*index]
             };
             share(a).total_cmp(&share(b))
         });
-        let of_direction = move |direction: usize| {
+        let in_direction = move |direction: usize| {
             (0..self.deviations.len()).filter(move |partner| {
-                *partner != number && self.eigen.eigenvectors[(*partner, direction)].abs() > PART
+                *partner != parameter
+                    && self.eigen.eigenvectors[(*partner, direction)].abs() > MIN_COMPONENT
             })
         };
-        worst.into_iter().flat_map(of_direction)
+        worst.into_iter().flat_map(in_direction)
     }
 
     fn covariance(&self) -> DMatrix<f64> {
@@ -183,9 +190,9 @@ impl Scatter {
         let count = self.deviations.len();
         let covariance = self.covariance();
         let row = |a: usize| {
-            let of =
+            let correlation =
                 |b: usize| covariance[(a, b)] / (covariance[(a, a)] * covariance[(b, b)]).sqrt();
-            (0..count).map(of).collect()
+            (0..count).map(correlation).collect()
         };
         (0..count).map(row).collect()
     }

@@ -1,5 +1,6 @@
-//! What would make the recordings fit: each cause that a user can remove is tried by a fit, so that what is advised works.
+//! Searches for the cause of an implausible fit: fits each cause that the user can remove, so that the advice works.
 
+use super::loops::Factors;
 use super::misfit::Finding;
 use super::model::Model;
 use super::remedy::{Advice, Remedy};
@@ -7,30 +8,32 @@ use super::varied::Varied;
 use super::{Calibration, CalibrationError};
 use dashpot_files::damper::{Keyed, PRESETS, load};
 
-/// A change that a user has to make counts like so much more of the force missed: of two that explain as much the simpler is advised.
-const A_CHANGE: f64 = 0.02;
+/// Penalty per change, as a misfit (1): of two causes that explain the recordings equally well, the simpler one wins.
+const COST_PER_CHANGE: f64 = 0.02;
 
-/// Where units cannot be told apart by the fit, the one that leaves the numbers nearest to the start is advised: a search through all its bounds counts so.
-const A_SEARCH: f64 = 0.05;
+/// Penalty for moving all parameters across their whole range, as a misfit (1): if a fit cannot distinguish units, the
+/// one that stays closest to the start wins.
+const COST_OF_DISTANCE: f64 = 0.05;
 
-/// Two causes are as likely within this.
-const SAME: f64 = 5e-3;
+/// Difference in rank within which two causes are equally likely.
+const TIE: f64 = 5e-3;
 
-/// Pieces of advice at most.
-const MOST_ADVICE: usize = 2;
+/// Maximum number of alternatives.
+const MAX_ADVICE: usize = 2;
 
-/// Larger displacements (m) than a bench usually makes, and smaller ones than show a damper's law; forces (N) likewise.
+/// Usual range of amplitudes (m); values outside suggest a wrong unit.
 const USUAL_AMPLITUDES_M: [f64; 2] = [1e-3, 0.1];
+/// Usual range of peak forces (N); values outside suggest a wrong unit.
 const USUAL_FORCES_N: [f64; 2] = [200.0, 2e5];
 
-/// Numbers that vary in most calibrations of a physical damper.
+/// Parameters that vary in most calibrations of a physical damper.
 const PHYSICAL: [&str; 3] = [
     "orifice.discharge_coefficient",
     "mount.stiffness_n_per_m",
     "mount.clearance_m",
 ];
 
-/// Those of a reduced one.
+/// Parameters that vary in most calibrations of a reduced damper.
 const REDUCED: [&str; 4] = [
     "reduced.damping_n_s_per_m",
     "reduced.saturation_velocity_m_per_s",
@@ -38,24 +41,24 @@ const REDUCED: [&str; 4] = [
     "mount.clearance_m",
 ];
 
-/// A calibration with a cause removed.
+/// A calibration with a possible cause removed.
 struct Candidate {
     advice: Advice,
     calibration: Calibration,
-    /// Numbers that nobody asked for and that may be left out.
+    /// Parameters that the user did not request and that may be left out again.
     added: Vec<String>,
 }
 
 impl Calibration {
-    /// What a user can do about `finding`, the most likely first: each was tried and gives a result.
+    /// Returns remedies for `finding`, the most likely first; each was tried and yields a result.
     pub(super) fn advice(
         &self,
         finding: &Finding,
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Advice> {
         let candidates = self.candidates(finding);
         let ranked = dashpot_workers::map(&candidates, |candidate| {
-            Ok::<_, ()>(candidate.rank(is_unwanted))
+            Ok::<_, ()>(candidate.rank(is_cancelled))
         });
         let mut ranked: Vec<(f64, Candidate)> = ranked
             .unwrap_or_default()
@@ -66,48 +69,55 @@ impl Calibration {
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut advice: Vec<(f64, Advice)> = Vec::new();
         for (rank, candidate) in ranked {
-            let is_as_likely = advice.first().is_none_or(|(best, _)| rank <= best + SAME);
-            if advice.len() == MOST_ADVICE || !is_as_likely || is_unwanted() {
+            let is_as_likely = advice.first().is_none_or(|(best, _)| rank <= best + TIE);
+            if advice.len() == MAX_ADVICE || !is_as_likely || is_cancelled() {
                 break;
             }
             advice.extend(
                 candidate
-                    .confirmed(is_unwanted)
+                    .confirmed(is_cancelled)
                     .map(|advice| (rank, advice)),
             );
         }
         advice.into_iter().map(|(_, advice)| advice).collect()
     }
 
-    /// All causes that may be behind `finding`.
+    /// Returns all possible causes of `finding`.
     fn candidates(&self, finding: &Finding) -> Vec<Candidate> {
         let mut candidates = Vec::new();
         for (signs, reversed) in self.signs() {
             for (factors, scaled) in self.scales(finding) {
                 let advice: Advice = reversed.iter().chain(&scaled).cloned().collect();
                 if !advice.is_empty() {
-                    let factors = [signs[0] * factors[0], signs[1] * factors[1]];
-                    candidates.push(Candidate::of(self.scaled(factors), advice));
+                    let factors = Factors {
+                        displacement: signs.displacement * factors.displacement,
+                        force: signs.force * factors.force,
+                    };
+                    candidates.push(Candidate::new(self.scaled(factors), advice));
                 }
             }
         }
         candidates.extend(self.wider(finding));
         if matches!(finding, Finding::Missed { .. } | Finding::AtBound { .. }) {
-            candidates.extend(self.with_more_numbers());
+            candidates.extend(self.with_more_parameters());
             candidates.extend(self.started_from_presets());
         }
         candidates
     }
 
-    /// Signs of displacement and force that the work allows.
-    fn signs(&self) -> Vec<([f64; 2], Advice)> {
-        let force = ([1.0, -1.0], vec![Remedy::ReverseForce]);
-        let displacement = ([-1.0, 1.0], vec![Remedy::ReverseDisplacement]);
+    /// Returns the signs of displacement and force that agree with the sign of the work.
+    fn signs(&self) -> Vec<(Factors, Advice)> {
+        let factors = |displacement, force| Factors {
+            displacement,
+            force,
+        };
+        let force = (factors(1.0, -1.0), vec![Remedy::ReverseForce]);
+        let displacement = (factors(-1.0, 1.0), vec![Remedy::ReverseDisplacement]);
         let both = (
-            [-1.0, -1.0],
+            factors(-1.0, -1.0),
             vec![Remedy::ReverseForce, Remedy::ReverseDisplacement],
         );
-        let neither = ([1.0, 1.0], Vec::new());
+        let neither = (factors(1.0, 1.0), Vec::new());
         match self.certain_sign() {
             Some(sign) if sign < 0.0 => vec![force, displacement],
             Some(_) => vec![neither, both],
@@ -115,19 +125,36 @@ impl Calibration {
         }
     }
 
-    /// Factors of displacement and force that usual units differ by.
-    fn scales(&self, finding: &Finding) -> Vec<([f64; 2], Advice)> {
-        let largest =
-            |of: &dyn Fn(&super::LoopTest) -> f64| self.loops.iter().map(of).fold(0.0, f64::max);
-        let amplitude_m = largest(&|test| test.amplitude_m);
-        let force_n = largest(&|test| test.peak_force_n);
-        let of_displacement = |factor| ([factor, 1.0], vec![Remedy::ScaleDisplacement(factor)]);
-        let of_force = |factor| ([1.0, factor], vec![Remedy::ScaleForce(factor)]);
+    /// Returns factors of displacement and force that correct a confusion of common units.
+    fn scales(&self, finding: &Finding) -> Vec<(Factors, Advice)> {
+        let max = |value: &dyn Fn(&super::LoopTest) -> f64| {
+            self.loops.iter().map(value).fold(0.0, f64::max)
+        };
+        let amplitude_m = max(&|test| test.amplitude_m);
+        let force_n = max(&|test| test.peak_force_n);
+        let of_displacement = |displacement| {
+            let factors = Factors {
+                displacement,
+                force: 1.0,
+            };
+            (factors, vec![Remedy::ScaleDisplacement(displacement)])
+        };
+        let of_force = |force| {
+            let factors = Factors {
+                displacement: 1.0,
+                force,
+            };
+            (factors, vec![Remedy::ScaleForce(force)])
+        };
         if matches!(finding, Finding::TooFast { .. }) {
             // Millimetres, centimetres, inches, micrometres.
             return [1e-3, 1e-2, 0.0254, 1e-6].map(of_displacement).into();
         }
-        let mut scales = vec![([1.0, 1.0], Vec::new())];
+        let unchanged = Factors {
+            displacement: 1.0,
+            force: 1.0,
+        };
+        let mut scales = vec![(unchanged, Vec::new())];
         if amplitude_m < USUAL_AMPLITUDES_M[0] {
             scales.push(of_displacement(1e3));
         }
@@ -143,10 +170,11 @@ impl Calibration {
         scales
     }
 
-    fn scaled(&self, factors: [f64; 2]) -> Self {
+    /// Returns the calibration with both signals multiplied by `factors`.
+    fn scaled(&self, factors: Factors) -> Self {
         let loops: Vec<_> = self.loops.iter().map(|test| test.scaled(factors)).collect();
         let varied = self.varied.iter().map(|varied| {
-            // Default bounds of the force's offset follow the force.
+            // The default bounds of the force offset are proportional to the force.
             let mut scaled = varied.clone();
             if varied.key == super::FORCE_OFFSET && !varied.has_own_bounds {
                 scaled.bounds = Varied::force_offset(&loops).bounds;
@@ -160,28 +188,28 @@ impl Calibration {
         }
     }
 
-    /// With wider bounds of a number that ended at one.
+    /// Returns candidates with wider bounds for each parameter that ended at a bound.
     fn wider(&self, finding: &Finding) -> Vec<Candidate> {
         let keys: Vec<&String> = match finding {
             Finding::AtBound { key, .. } => vec![key],
             Finding::Missed { at_bounds, .. } => at_bounds.iter().map(|(key, _)| key).collect(),
             _ => Vec::new(),
         };
-        let of = |key: &String| {
-            let number = self.varied.iter().position(|varied| varied.key == *key)?;
-            let bounds = self.varied[number].wider()?;
+        let with_wider_bounds = |key: &String| {
+            let parameter = self.varied.iter().position(|varied| varied.key == *key)?;
+            let bounds = self.varied[parameter].wider()?;
             let mut calibration = self.clone();
-            calibration.varied[number] = self.varied[number].between(bounds);
+            calibration.varied[parameter] = self.varied[parameter].with_bounds(bounds);
             let key = key.clone();
-            Some(Candidate::of(
+            Some(Candidate::new(
                 calibration,
                 vec![Remedy::Bounds { key, bounds }],
             ))
         };
-        keys.into_iter().filter_map(of).collect()
+        keys.into_iter().filter_map(with_wider_bounds).collect()
     }
 
-    /// The usual numbers of `damper` that do not yet vary in `varied`.
+    /// Returns the usual parameters of `damper` that are not in `varied`.
     fn usual(damper: &Keyed, varied: &[Varied]) -> Vec<Varied> {
         let usual: &[&str] = match damper.number(REDUCED[0]) {
             Ok(_) => &REDUCED,
@@ -193,8 +221,8 @@ impl Calibration {
             .collect()
     }
 
-    /// With the usual numbers beside those that vary.
-    fn with_more_numbers(&self) -> Option<Candidate> {
+    /// Returns a candidate that also varies the usual parameters.
+    fn with_more_parameters(&self) -> Option<Candidate> {
         let more = Self::usual(&self.damper, &self.varied);
         let keys: Vec<String> = more.iter().map(|varied| varied.key.clone()).collect();
         let mut calibration = self.clone();
@@ -206,7 +234,10 @@ impl Calibration {
         })
     }
 
-    /// From each other preset. One reduced damper stands for all where its usual numbers vary, beside the same that never saturates.
+    /// Returns candidates that start from each other preset.
+    ///
+    /// If the usual parameters of reduced dampers vary, all reduced presets are equivalent, so only one of them is
+    /// tried, with and without saturation.
     fn started_from_presets(&self) -> Vec<Candidate> {
         let presets = PRESETS
             .iter()
@@ -226,14 +257,17 @@ impl Calibration {
         presets
     }
 
-    /// From another preset, with the same numbers where it has them and with its usual ones where not.
+    /// Returns a candidate that starts from another preset and varies the same parameters, or its usual ones if it
+    /// lacks any.
     fn started_from_preset(&self, name: &str) -> Option<Candidate> {
         let damper = Keyed::new(name, &*load(name, &[]).ok()?).ok()?;
         if damper.name() == self.damper.name() {
             return None;
         }
-        let (rig, own): (Vec<&Varied>, Vec<&Varied>) =
-            self.varied.iter().partition(|varied| varied.is_of_rig());
+        let (rig, own): (Vec<&Varied>, Vec<&Varied>) = self
+            .varied
+            .iter()
+            .partition(|varied| varied.is_rig_parameter());
         let again = own.iter().map(|varied| {
             let bounds = varied.has_own_bounds.then_some(varied.bounds);
             Varied::new(&damper, &varied.key, bounds, varied.prior).ok()
@@ -265,7 +299,7 @@ impl Calibration {
 }
 
 impl Candidate {
-    fn of(calibration: Calibration, advice: Advice) -> Self {
+    fn new(calibration: Calibration, advice: Advice) -> Self {
         Self {
             advice,
             calibration,
@@ -273,7 +307,7 @@ impl Candidate {
         }
     }
 
-    /// The same for a reduced damper that never saturates, which is linear.
+    /// Returns the same candidate with a reduced damper that never saturates and is therefore linear.
     fn without_saturation(&self) -> Option<Self> {
         let (key, value) = (REDUCED[1], 100.0);
         let damper = self.calibration.damper.with(&[(key, value)]).ok()?;
@@ -289,7 +323,7 @@ impl Candidate {
         };
         linear.calibration.damper = Keyed::new(self.calibration.damper.name(), &damper).ok()?;
         linear.calibration.varied.retain(|varied| varied.key != key);
-        linear.name_added();
+        linear.update_advice();
         linear.advice.push(Remedy::Set {
             key: key.into(),
             value,
@@ -297,8 +331,8 @@ impl Candidate {
         Some(linear)
     }
 
-    /// Puts the numbers that are added into the advice.
-    fn name_added(&mut self) {
+    /// Updates the advice to the added parameters.
+    fn update_advice(&mut self) {
         for remedy in &mut self.advice {
             match remedy {
                 Remedy::VaryAlso(keys) | Remedy::OtherDamper { vary: keys, .. } => {
@@ -309,48 +343,53 @@ impl Candidate {
         }
     }
 
-    /// How unlikely it is as the cause, the lower the better; `None` where it does not explain the recordings.
-    fn rank(&self, is_unwanted: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
+    /// Returns how unlikely this cause is (lower is better); `None` if it does not explain the recordings.
+    fn rank(&self, is_cancelled: &(dyn Fn() -> bool + Sync)) -> Option<f64> {
         let calibration = &self.calibration;
-        calibration.refuse_impossible().ok()?;
-        let model: Model<'_> = calibration.model(is_unwanted);
+        calibration.reject_impossible().ok()?;
+        let model: Model<'_> = calibration.model(is_cancelled);
         let fit = model.quick_fit()?;
-        let share = model.worst_misfit(&fit.places).ok()??.share;
-        if share > calibration.assumed.most_missed {
+        let share = model.worst_misfit(&fit.coordinates).ok()??.share;
+        if share > calibration.assumed.max_misfit {
             return None;
         }
-        let starts = calibration.varied.iter().zip(&fit.places);
+        let starts = calibration.varied.iter().zip(&fit.coordinates);
         let distance: f64 = starts
-            .map(|(varied, place)| (varied.place(varied.start) - place).abs())
+            .map(|(varied, coordinate)| (varied.coordinate(varied.start) - coordinate).abs())
             .sum();
         let distance = distance / calibration.varied.len() as f64;
         let changes = self.advice.len() + self.added.len();
-        Some(share + A_CHANGE * changes as f64 + A_SEARCH * distance)
+        Some(share + COST_PER_CHANGE * changes as f64 + COST_OF_DISTANCE * distance)
     }
 
-    /// The advice if it leads to a result, without numbers that were added in vain.
-    fn confirmed(mut self, is_unwanted: &(dyn Fn() -> bool + Sync)) -> Option<Advice> {
+    /// Returns the advice if it leads to a result, without added parameters that have no effect.
+    fn confirmed(mut self, is_cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Advice> {
         self.calibration.starts = 1;
-        match self.calibration.attempt(&|_| {}, is_unwanted) {
+        match self.calibration.attempt(&|_| {}, is_cancelled) {
             Ok(_) => return Some(self.advice),
-            Err(CalibrationError::Undetermined { numbers }) => {
-                let is_vain = |key: &String| numbers.iter().any(|(vain, _)| vain == key);
-                if self.added.is_empty() || !numbers.iter().all(|(key, _)| self.added.contains(key))
+            Err(CalibrationError::Undetermined { parameters }) => {
+                let is_undetermined = |key: &String| {
+                    parameters
+                        .iter()
+                        .any(|(undetermined, _)| undetermined == key)
+                };
+                if self.added.is_empty()
+                    || !parameters.iter().all(|(key, _)| self.added.contains(key))
                 {
                     return None;
                 }
-                self.added.retain(|key| !is_vain(key));
+                self.added.retain(|key| !is_undetermined(key));
                 self.calibration
                     .varied
-                    .retain(|varied| !is_vain(&varied.key));
+                    .retain(|varied| !is_undetermined(&varied.key));
             }
             Err(_) => return None,
         }
         if self.added.is_empty() {
             return None;
         }
-        self.name_added();
-        self.calibration.attempt(&|_| {}, is_unwanted).ok()?;
+        self.update_advice();
+        self.calibration.attempt(&|_| {}, is_cancelled).ok()?;
         Some(self.advice)
     }
 }

@@ -1,4 +1,4 @@
-//! Why a calibration has no result.
+//! Errors of a calibration.
 
 use dashpot_core::BuildError;
 
@@ -9,199 +9,206 @@ use super::rig;
 use dashpot_files::damper::DamperError;
 use dashpot_testbench::TestbenchError;
 
-/// Why a calibration has no result.
+/// Errors of a calibration.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CalibrationError {
-    /// The damper, or a number of it, is not there or not allowed.
+    /// The damper or one of its parameters does not exist or is invalid.
     #[error(transparent)]
     Damper(#[from] DamperError),
     /// The damper cannot be built.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// A bench test of the model fails.
+    /// A bench test of the model failed.
     #[error(transparent)]
     Study(#[from] TestbenchError),
-    /// Nobody wants the result any more.
-    #[error("ended before its end, as was asked")]
-    Unwanted,
-    /// A number that forces do not determine.
-    #[error("{key}: it is measured on the part, not found from forces")]
+    /// The caller cancelled the calibration.
+    #[error("cancelled")]
+    Cancelled,
+    /// The parameter cannot be calibrated from forces.
+    #[error("{key}: measured on the part, not calibrated from forces")]
     NotVaried {
-        /// The number.
+        /// Key of the parameter.
         key: String,
     },
-    /// A number on which no force depends.
+    /// No force depends on the parameter.
     #[error(
-        "{key}: no force of a damper depends on it, so the calibration takes it out of every test and reports it; there is nothing to vary, \
-         hold or know"
+        "{key}: no force of a damper depends on it, so the calibration removes it from every test and reports it; \
+         it can neither be varied nor held, nor have a prior"
     )]
     NoForceDepends {
-        /// The number.
+        /// Key of the parameter.
         key: String,
     },
-    /// A number of the damper where one of the rig is needed.
-    #[error("{key}: only numbers of the rig are held so ({}); one of the damper is held unless it is varied", rig::RIG.join(", "))]
+    /// A damper parameter was given where a rig parameter is required.
+    #[error(
+        "{key}: only rig parameters can be held ({}); a damper parameter keeps its value unless it is varied",
+        rig::RIG.join(", ")
+    )]
     NotOfRig {
-        /// The number.
+        /// Key of the parameter.
         key: String,
     },
-    /// A number of the rig that is held and varied.
-    #[error("{key}: it is held, so it has neither bounds nor a prior")]
+    /// A rig parameter is both held and varied.
+    #[error("{key}: it is held, so it can have neither bounds nor a prior")]
     HeldAndVaried {
-        /// The number.
+        /// Key of the parameter.
         key: String,
     },
-    /// A number of the rig that is held at a value that no rig has.
-    #[error("{key}: held at {value}, allowed: {} to {most}", -most)]
+    /// The value of a held rig parameter is out of range.
+    #[error("{key}: held at {value}, allowed: {} to {max}", -max)]
     Held {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// The value.
+        /// Value at which it is held.
         value: f64,
-        /// The largest that is allowed.
-        most: f64,
+        /// Maximum magnitude.
+        max: f64,
     },
-    /// A number of the rig without a recorded loop.
-    #[error("{key}: it belongs to recorded loops, and there are none")]
+    /// A rig parameter was given without recorded loops.
+    #[error("{key}: requires recorded loops, but there are none")]
     NoLoops {
-        /// The number.
+        /// Key of the parameter.
         key: String,
     },
-    /// A prior of a number that is not varied.
+    /// A prior was given for a parameter that is not varied.
     #[error("prior {key}: not varied")]
     PriorOfHeld {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// Whether it can be varied.
+        /// True if the parameter can be varied.
         is_known: bool,
     },
-    /// Bounds that are none, or beyond what a damper may have.
+    /// The bounds are not in order or out of range.
     #[error(
-        "{key}: bounds {} to {}, allowed: the lesser first, within {allowed}, and above 0 where ratios count; when none are given: \
-         {:e} to {:e}",
+        "{key}: bounds {} to {}, allowed: the lower bound first, within {allowed}, and above 0 on a logarithmic scale; \
+         default: {:e} to {:e}",
         bounds[0],
         bounds[1],
         plausible[0],
         plausible[1]
     )]
     Bounds {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// The bounds.
+        /// Lower and upper bound.
         bounds: [f64; 2],
-        /// What a damper file may have.
+        /// Values allowed in a damper file.
         allowed: &'static str,
-        /// The bounds used where none are given.
+        /// Default bounds.
         plausible: [f64; 2],
     },
-    /// A start outside the bounds.
+    /// The start is outside the bounds.
     #[error("{key}: the damper has {start}, outside the bounds {} to {}", bounds[0], bounds[1])]
     Start {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// Its value in the damper.
+        /// Value of the damper.
         start: f64,
-        /// The bounds.
+        /// Lower and upper bound.
         bounds: [f64; 2],
     },
-    /// A number that is known to be where it may not be.
-    #[error("{key}: known to be {mean}, outside the bounds {} to {}", bounds[0], bounds[1])]
+    /// The mean of a prior is outside the bounds.
+    #[error("{key}: prior mean {mean} outside the bounds {} to {}", bounds[0], bounds[1])]
     Prior {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// Mean of what is known.
+        /// Mean of the prior.
         mean: f64,
-        /// The bounds.
+        /// Lower and upper bound.
         bounds: [f64; 2],
     },
-    /// A number twice.
+    /// A parameter was given twice.
     #[error("{key}: varied twice")]
     Twice {
-        /// The number.
+        /// Key of the parameter.
         key: String,
     },
-    /// No number or no test.
+    /// There is no parameter to vary, or no test.
     #[error("no {0}")]
     Nothing(&'static str),
-    /// Samples that are none.
+    /// Invalid samples.
     #[error("{test}: {reason}")]
     Samples {
-        /// The test.
+        /// Name of the test.
         test: String,
-        /// What is wrong with them, and what is allowed.
+        /// The problem and the allowed values.
         reason: String,
     },
-    /// A test too short to tell anything.
-    #[error("{test}: too short, allowed: {fewest} samples or more without a gap")]
+    /// The test is too short.
+    #[error("{test}: too short, allowed: {min} samples or more without a gap")]
     TooShort {
-        /// The test.
+        /// Name of the test.
         test: String,
-        /// Samples needed.
-        fewest: usize,
+        /// Minimum number of samples.
+        min: usize,
     },
-    /// A test too long to be held.
-    #[error("{test}: {seconds:.0} s long, allowed at this step: {most:.0} s")]
+    /// The test is too long to fit into memory.
+    #[error("{test}: {duration_s:.0} s long, allowed at this step: at most {max_s:.0} s")]
     TooLong {
-        /// The test.
+        /// Name of the test.
         test: String,
-        /// Its length (s).
-        seconds: f64,
-        /// The greatest length (s).
-        most: f64,
+        /// Duration of the test (s).
+        duration_s: f64,
+        /// Maximum duration (s).
+        max_s: f64,
     },
-    /// The force acts in one direction only.
+    /// The force acts only in one direction.
     #[error(
-        "{test}: the force never acts in both directions, so the clearance is never passed through; a sensor that records the magnitude of \
-         the force, or one whose zero is off by as much as the force, does that"
+        "{test}: the force acts only in one direction, so the motion never passes through the clearance; possible \
+         causes: the sensor records the magnitude of the force, or its zero is off by as much as the force"
     )]
     OneSided {
-        /// The test.
+        /// Name of the test.
         test: String,
     },
-    /// A test of indices that is none.
+    /// Invalid test in a table of indices.
     #[error("table of indices, test {test}: {reason}")]
     Index {
-        /// Its number, from 1.
+        /// Number of the test, counted from 1.
         test: usize,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
-    /// No start led anywhere.
-    #[error("no start led to a damper; the nearest reason: {0}")]
+    /// No search converged.
+    #[error("no search converged; reason at the start: {0}")]
     NoFit(String),
-    /// Each search for the intervals met a better fit.
-    #[error("each search for the intervals met a better fit than the {starts} starts led to")]
+    /// The search for intervals kept finding better fits.
+    #[error(
+        "the search for intervals kept finding better fits than those from {starts} starting points"
+    )]
     FewStarts {
-        /// The starts.
+        /// Number of starting points.
         starts: usize,
     },
-    /// A fit that is no damper's, or recordings that no damper can have made.
+    /// The fit or the recordings are implausible for a damper.
     #[error("{finding}")]
     Implausible {
-        /// What shows it.
+        /// The reason.
         finding: Finding,
-        /// What a user can do, the most likely first; each was tried and gives a result.
+        /// Remedies, the most likely first; each was tried and yields a result.
         advice: Vec<Advice>,
     },
-    /// Numbers that the tests do not determine.
-    #[error("{}", undetermined(numbers))]
+    /// The tests do not determine some parameters.
+    #[error("{}", undetermined(parameters))]
     Undetermined {
-        /// Keys and what the tests tell of them.
-        numbers: Vec<(String, Determined)>,
+        /// Keys, and how well the tests determine each.
+        parameters: Vec<(String, Determined)>,
     },
 }
 
-fn undetermined(numbers: &[(String, Determined)]) -> String {
+fn undetermined(parameters: &[(String, Determined)]) -> String {
     let mut text = String::from("the tests do not determine");
-    for (key, number) in numbers {
-        let partners = number.together_with.join("`, `");
-        text += &match (number.is_felt, partners.is_empty()) {
+    for (key, parameter) in parameters {
+        let partners = parameter.confounded_with.join("`, `");
+        text += &match (parameter.has_effect, partners.is_empty()) {
             (false, _) => format!(
-                "\n  {key}: no force of these tests changes with it by more than they scatter"
+                "\n  {key}: no force of these tests changes with it by more than the scatter"
             ),
             (true, true) => {
-                format!("\n  {key}: its effect is too small beside what the forces scatter by")
+                format!(
+                    "\n  {key}: its effect is too small compared with the scatter of the forces"
+                )
             }
             (true, false) => format!("\n  {key}: only together with `{partners}`"),
         };
@@ -210,7 +217,7 @@ fn undetermined(numbers: &[(String, Determined)]) -> String {
 }
 
 impl CalibrationError {
-    /// A finding before its causes were searched for.
+    /// Returns the error for a finding whose cause has not been searched for yet.
     pub(super) fn implausible(finding: Finding) -> Self {
         Self::Implausible {
             finding,
@@ -218,7 +225,7 @@ impl CalibrationError {
         }
     }
 
-    /// What a user can do about it, each entry by itself; none where the error's own words say all.
+    /// Returns alternative remedies; empty if the error text is sufficient.
     pub fn advice(&self) -> Vec<Advice> {
         let one = |remedy| vec![vec![remedy]];
         match self {
@@ -252,11 +259,14 @@ impl CalibrationError {
                     .chain(one(Remedy::Forget(key.clone())))
                     .collect()
             }
-            Self::Undetermined { numbers } => {
-                let of = |remedy: fn(String) -> Remedy| -> Advice {
-                    numbers.iter().map(|(key, _)| remedy(key.clone())).collect()
+            Self::Undetermined { parameters } => {
+                let for_each = |remedy: fn(String) -> Remedy| -> Advice {
+                    parameters
+                        .iter()
+                        .map(|(key, _)| remedy(key.clone()))
+                        .collect()
                 };
-                vec![of(Remedy::Leave), of(Remedy::Know)]
+                vec![for_each(Remedy::Leave), for_each(Remedy::Know)]
             }
             Self::FewStarts { starts } => {
                 let more = (4 * starts).clamp(16, 1000) as u16;

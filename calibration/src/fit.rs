@@ -1,4 +1,4 @@
-//! The search for the least squares, from several starts.
+//! Least-squares fit from several starting points.
 
 use fastrand::Rng;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
@@ -6,28 +6,28 @@ use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::model::Model;
-use super::varied::{angle_of, place_of, place_slope};
+use super::varied::{angle_at, coordinate_at, coordinate_slope};
 
-/// Relative change of the sum of squares, and of the angles, at which a search ends.
+/// Relative change of the sum of squares and of the angles at which a search ends.
 const TOLERANCE: f64 = 1e-7;
 
-/// Spread of the starts about the first, as places.
+/// Spread of the starting points about the first, in normalised coordinates.
 const SPREAD: f64 = 0.15;
 
-/// Where a search ended.
+/// Result of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
-    /// Places of all numbers.
-    pub(super) places: Vec<f64>,
-    /// Sum of the squares of all deviations, those from priors among them.
+    /// Normalised coordinates of all parameters.
+    pub(super) coordinates: Vec<f64>,
+    /// Sum of squares of all deviations, including those from priors.
     pub(super) chi_square: f64,
 }
 
-/// A search for the places of the numbers `free`, the others held.
+/// Search over the `free` parameters; the others are held.
 struct Search<'a> {
     model: &'a Model<'a>,
     free: &'a [usize],
-    places: Vec<f64>,
+    coordinates: Vec<f64>,
     angles: DVector<f64>,
 }
 
@@ -38,8 +38,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
 
     fn set_params(&mut self, angles: &DVector<f64>) {
         self.angles.copy_from(angles);
-        for (number, angle) in self.free.iter().zip(angles.iter()) {
-            self.places[*number] = place_of(*angle);
+        for (parameter, angle) in self.free.iter().zip(angles.iter()) {
+            self.coordinates[*parameter] = coordinate_at(*angle);
         }
     }
 
@@ -48,18 +48,15 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let mut deviations = self.model.deviations(&self.places).ok()?;
-        deviations.extend(
-            self.model
-                .off_priors(&self.places)
-                .map(|(_, deviation, _)| deviation),
-        );
+        let mut deviations = self.model.deviations(&self.coordinates).ok()?;
+        let priors = self.model.prior_terms(&self.coordinates);
+        deviations.extend(priors.map(|prior| prior.deviation));
         Some(DVector::from_vec(deviations))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let of_tests = self.model.slopes(&self.places, self.free).ok()?;
-        let priors: Vec<_> = self.model.off_priors(&self.places).collect();
+        let of_tests = self.model.slopes(&self.coordinates, self.free).ok()?;
+        let priors: Vec<_> = self.model.prior_terms(&self.coordinates).collect();
         let rows = of_tests.nrows();
         let mut slopes = DMatrix::zeros(rows + priors.len(), of_tests.ncols());
         for (mut column, of_tests) in slopes.column_iter_mut().zip(of_tests.column_iter()) {
@@ -68,48 +65,56 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
                 .zip(of_tests.iter())
                 .for_each(|(slope, of_tests)| *slope = *of_tests);
         }
-        for (row, (number, _, slope)) in priors.into_iter().enumerate() {
-            if let Some(column) = self.free.iter().position(|free| *free == number) {
-                slopes[(rows + row, column)] = slope;
+        for (row, prior) in priors.into_iter().enumerate() {
+            if let Some(column) = self.free.iter().position(|free| *free == prior.parameter) {
+                slopes[(rows + row, column)] = prior.slope;
             }
         }
         for (column, angle) in self.angles.iter().enumerate() {
-            slopes.column_mut(column).scale_mut(place_slope(*angle));
+            slopes
+                .column_mut(column)
+                .scale_mut(coordinate_slope(*angle));
         }
         Some(slopes)
     }
 }
 
 impl Model<'_> {
-    /// The least squares from `places` on, over the numbers `free`; `None` where the search came to numbers that no damper has.
-    pub(super) fn fit(&self, places: &[f64], free: &[usize]) -> Option<Fit> {
-        self.fit_within(places, free, (TOLERANCE, 20))
+    /// Fits the `free` parameters, starting at `coordinates`; `None` if the search reached an invalid damper.
+    pub(super) fn fit(&self, coordinates: &[f64], free: &[usize]) -> Option<Fit> {
+        self.fit_within(coordinates, free, TOLERANCE, 20)
     }
 
-    /// A coarse fit of all numbers from the start on, to compare causes: to a thousandth of the squares, in a few steps.
+    /// Runs a coarse fit of all parameters from the start, to compare causes: tolerance 1e-3, few steps.
     pub(super) fn quick_fit(&self) -> Option<Fit> {
-        let start = self.varied.iter().map(|varied| varied.place(varied.start));
+        let start = self
+            .varied
+            .iter()
+            .map(|varied| varied.coordinate(varied.start));
         let all: Vec<usize> = (0..self.varied.len()).collect();
-        self.fit_within(&start.collect::<Vec<_>>(), &all, (1e-3, 2))
+        self.fit_within(&start.collect::<Vec<_>>(), &all, 1e-3, 2)
     }
 
-    /// The least squares to a relative tolerance, in so many evaluations for each number.
+    /// Fits to a relative tolerance, with at most `patience` evaluations per parameter.
     fn fit_within(
         &self,
-        places: &[f64],
+        coordinates: &[f64],
         free: &[usize],
-        (tolerance, patience): (f64, usize),
+        tolerance: f64,
+        patience: usize,
     ) -> Option<Fit> {
-        let angles = free.iter().map(|number| angle_of(places[*number]));
-        let mut places = places.to_vec();
+        let angles = free
+            .iter()
+            .map(|parameter| angle_at(coordinates[*parameter]));
+        let mut coordinates = coordinates.to_vec();
         let angles = DVector::from_iterator(free.len(), angles);
-        for (number, angle) in free.iter().zip(angles.iter()) {
-            places[*number] = place_of(*angle);
+        for (parameter, angle) in free.iter().zip(angles.iter()) {
+            coordinates[*parameter] = coordinate_at(*angle);
         }
         let search = Search {
             model: self,
             free,
-            places,
+            coordinates,
             angles,
         };
         let method = LevenbergMarquardt::new()
@@ -120,32 +125,33 @@ impl Model<'_> {
         let (search, report) = method.minimize(search);
         let chi_square = 2.0 * report.objective_function;
         chi_square.is_finite().then_some(Fit {
-            places: search.places,
+            coordinates: search.coordinates,
             chi_square,
         })
     }
 
-    /// The fits from the numbers as they are and from `starts - 1` places about them, those of the least sum of squares first; always the
-    /// same for the same tests. Each is told to `ended`.
+    /// Fits from the start and from `starts - 1` random points about it, in order of rising sum of squares.
+    ///
+    /// The result is reproducible. Calls `ended` after each fit.
     pub(super) fn fits(&self, starts: usize, ended: &(dyn Fn() + Sync)) -> Vec<Fit> {
         let first: Vec<f64> = self
             .varied
             .iter()
-            .map(|varied| varied.place(varied.start))
+            .map(|varied| varied.coordinate(varied.start))
             .collect();
         let mut rng = Rng::with_seed(0xda5_4901);
-        let mut places = vec![first.clone()];
-        while places.len() < starts.max(1) {
-            let about = first.iter().map(|place| {
-                // The sum of four is near to normal.
+        let mut coordinates = vec![first.clone()];
+        while coordinates.len() < starts.max(1) {
+            let about = first.iter().map(|coordinate| {
+                // The sum of four uniform numbers is nearly normal.
                 let sum: f64 = (0..4).map(|_| rng.f64() - 0.5).sum();
-                (place + SPREAD * sum * 3_f64.sqrt()).clamp(0.02, 0.98)
+                (coordinate + SPREAD * sum * 3_f64.sqrt()).clamp(0.02, 0.98)
             });
-            places.push(about.collect());
+            coordinates.push(about.collect());
         }
         let all: Vec<usize> = (0..self.varied.len()).collect();
-        let fits = dashpot_workers::map(&places, |places| {
-            let fit = self.fit(places, &all);
+        let fits = dashpot_workers::map(&coordinates, |coordinates| {
+            let fit = self.fit(coordinates, &all);
             ended();
             Ok::<_, ()>(fit)
         });

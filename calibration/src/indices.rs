@@ -1,4 +1,4 @@
-//! Bench tests of which only the indices are known, as a table of them has it.
+//! Bench tests of which only the indices are known, read from a table.
 
 use std::io;
 use std::path::Path;
@@ -9,10 +9,10 @@ use dashpot_files::harmonic::Harmonic;
 use dashpot_files::{FileError, input};
 use dashpot_testbench::bench_test::Indices;
 
-/// Scatter of an index, where none is given (%).
-const SCATTER_PERCENT: f64 = 1.0;
+/// Default scatter of an index (%).
+const DEFAULT_SCATTER_PERCENT: f64 = 1.0;
 
-/// Indices of one harmonic test; those that were not measured are left out. Forces are magnitudes.
+/// Indices of one harmonic test; `None` for those that were not measured. Forces are magnitudes.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct IndexTest {
@@ -20,28 +20,28 @@ pub struct IndexTest {
     pub amplitude_m: f64,
     /// Frequency (Hz).
     pub frequency_hz: f64,
-    /// Largest force in extension (N).
+    /// Maximum force in extension (N).
     #[serde(default)]
     pub max_extension_force_n: Option<f64>,
-    /// Largest force in compression (N).
+    /// Maximum force in compression (N).
     #[serde(default)]
     pub max_compression_force_n: Option<f64>,
-    /// Energy of a cycle (J).
+    /// Energy dissipated per cycle (J).
     #[serde(default)]
     pub energy_per_cycle_j: Option<f64>,
-    /// What no force exceeds (N).
+    /// Upper bound of both forces (N).
     #[serde(default)]
     pub force_at_most_n: Option<f64>,
-    /// Scatter of these, standard deviation (% of each); 1 where none is given.
+    /// Standard deviation of the indices (% of each value); 1 by default.
     #[serde(default)]
     pub scatter_percent: Option<f64>,
 }
 
 impl IndexTest {
-    /// The tests in the table at `path`, CSV with the fields of this type as columns.
+    /// Reads the CSV table at `path`; its columns are the fields of this type.
     ///
     /// # Errors
-    /// A file that cannot be read, or that is no such table; with the line.
+    /// The file cannot be read or is invalid; the error gives the line.
     pub fn read(path: &Path) -> Result<Vec<Self>, FileError> {
         let text = input::read_text(path)?;
         let mut reader = csv::ReaderBuilder::new()
@@ -67,7 +67,7 @@ impl IndexTest {
         Ok(rows)
     }
 
-    /// The motion.
+    /// Returns the motion of the test.
     pub fn motion(&self) -> Harmonic {
         Harmonic {
             amplitude_m: self.amplitude_m,
@@ -75,8 +75,10 @@ impl IndexTest {
         }
     }
 
+    /// Checks the values.
+    ///
     /// # Errors
-    /// A motion or an index that is none, or no index; in words.
+    /// Describes an invalid motion or index, or a test without any index.
     pub(super) fn check(&self) -> Result<(), String> {
         self.motion().check().map_err(|error| error.to_string())?;
         let fields = [
@@ -92,12 +94,12 @@ impl IndexTest {
             }
         }
         match self.count() {
-            0 => Err("it has no index".into()),
+            0 => Err("no index given".into()),
             _ => Ok(()),
         }
     }
 
-    /// How many indices there are.
+    /// Returns the number of deviations.
     pub(super) fn count(&self) -> usize {
         let measured = [
             self.max_extension_force_n,
@@ -108,28 +110,28 @@ impl IndexTest {
         measured.iter().flatten().count() + bounds
     }
 
-    /// Each index of the model less the measured one, in standard deviations; of a bound, what is beyond it.
+    /// Returns model minus measurement for each index, in standard deviations; for an upper bound, the excess over it.
     pub(super) fn deviations(&self, model: &Indices) -> impl Iterator<Item = f64> + use<> {
-        let scatter = self.scatter_percent.unwrap_or(SCATTER_PERCENT) * 1e-2;
+        let scatter = self.scatter_percent.unwrap_or(DEFAULT_SCATTER_PERCENT) * 1e-2;
         let (extension, compression) = (model.max_extension_force_n, model.max_compression_force_n);
         let measured = [
             (self.max_extension_force_n, extension),
             (self.max_compression_force_n, compression),
             (self.energy_per_cycle_j, model.energy_per_cycle_j),
         ];
-        let bounded = [extension, compression].map(|force| (self.force_at_most_n, force));
+        let with_bound = [extension, compression].map(|force| (self.force_at_most_n, force));
         let measured = measured.into_iter().filter_map(move |(index, value)| {
             let index = index?;
             Some((value - index) / (scatter * index.abs()))
         });
-        measured.chain(bounded.into_iter().filter_map(move |(most, value)| {
-            let most = most?;
-            Some((value - most).max(0.0) / (scatter * most))
+        measured.chain(with_bound.into_iter().filter_map(move |(bound, value)| {
+            let bound = bound?;
+            Some((value - bound).max(0.0) / (scatter * bound))
         }))
     }
 }
 
-/// The line of a row of `text`, which begins at `from` or after the comments and empty lines there.
+/// Returns the line number of the row that starts at `from`, after any comments and empty lines there.
 fn line_of_row(text: &str, from: &csv::Position) -> u64 {
     let rest = text.get(from.byte() as usize..).unwrap_or_default();
     let before = rest
@@ -138,7 +140,7 @@ fn line_of_row(text: &str, from: &csv::Position) -> u64 {
     from.line() + before.count() as u64
 }
 
-/// A cell of a row that is not what it must be.
+/// Returns the error for an invalid cell.
 fn in_cell(path: &Path, line: u64, header: &csv::StringRecord, error: csv::Error) -> FileError {
     match error.kind() {
         csv::ErrorKind::Deserialize { err, .. } => {

@@ -1,4 +1,4 @@
-//! What numbers that nobody measured with the force, such as the temperature of the oil, do to those that are found.
+//! Effect of assumed parameters, such as an oil temperature that was not measured, on the calibrated ones.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
@@ -7,37 +7,37 @@ use super::model::Model;
 use super::{Calibration, CalibrationError};
 use dashpot_files::damper::range;
 
-/// Uncertainty of the oil's temperature where the user gives none (K), with a probability of 95 %: that of a bench in a hall whose oil warms up.
+/// Default uncertainty of the oil temperature (K), half-width of the 95 % interval: an indoor bench whose oil warms up.
 pub const TEMPERATURE_UNCERTAINTY_K: f64 = 5.0;
 
-/// Key of the oil's temperature.
+/// Key of the oil temperature.
 pub const TEMPERATURE: &str = "oil.temperature_c";
 
-/// Key of the oil's density.
+/// Key of the oil density.
 pub const DENSITY: &str = "oil.density_kg_per_m3";
 
-/// A direction whose eigenvalue is below this share of the largest is unknown, and stays where it is.
-const LEAST_SHARE: f64 = 1e-6;
+/// Minimum eigenvalue, as a share of the largest, of a direction that counts as known; others are not moved.
+const MIN_EIGENVALUE_SHARE: f64 = 1e-6;
 
-/// What an assumed number does to those that are found.
+/// Effect of an assumed parameter on the calibrated ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Influence {
-    /// The assumed number.
+    /// Key of the assumed parameter.
     pub key: String,
     /// Its value in the damper.
     pub value: f64,
-    /// Half of its interval of 95 %.
+    /// Half-width of its 95 % interval.
     pub uncertainty: f64,
-    /// How far each found number moves with the assumed one at the lower and at the upper end of its interval.
+    /// Shift of each calibrated parameter with the assumed one at the lower and at the upper end of its interval.
     pub shifts: Vec<[f64; 2]>,
-    /// By how much the sum of squares changes there.
+    /// Change of the sum of squares at the lower and at the upper end.
     pub chi_square: [f64; 2],
 }
 
 impl Influence {
-    /// How far the found number `number` moves, the larger of both ends.
-    pub fn shift(&self, number: usize) -> f64 {
-        self.shifts[number]
+    /// Returns the larger shift of a calibrated parameter, as a magnitude.
+    pub fn shift(&self, parameter: usize) -> f64 {
+        self.shifts[parameter]
             .map(f64::abs)
             .into_iter()
             .fold(0.0, f64::max)
@@ -45,7 +45,7 @@ impl Influence {
 }
 
 impl Calibration {
-    /// The assumed numbers and their uncertainties.
+    /// Returns the keys of the assumed parameters and their uncertainties.
     fn assumed(&self) -> Vec<(&'static str, f64)> {
         let both = [
             (TEMPERATURE, self.assumed.temperature_uncertainty_k),
@@ -57,15 +57,16 @@ impl Calibration {
             .collect()
     }
 
-    /// What the assumed numbers of this damper do to those found at `places`: the squares' least point moves by one step of Gauss and Newton from
-    /// the forces at the end of the assumed number's interval.
+    /// Computes the effect of the assumed parameters on the parameters calibrated at `coordinates`.
+    ///
+    /// Each end of an assumed interval shifts the minimum by one Gauss-Newton step.
     ///
     /// # Errors
-    /// As [`Model::deviations`].
+    /// Same errors as [`Model::deviations`].
     pub(super) fn influences(
         &self,
         model: &Model<'_>,
-        places: &[f64],
+        coordinates: &[f64],
     ) -> Result<Vec<Influence>, CalibrationError> {
         let assumed = self.assumed();
         let known = assumed.into_iter().filter_map(|(key, uncertainty)| {
@@ -75,59 +76,71 @@ impl Calibration {
         if known.is_empty() {
             return Ok(Vec::new());
         }
-        let step = Step::new(model, places)?;
-        let of = |(key, value, uncertainty): (&str, f64, f64)| {
+        let step = Step::new(model, coordinates)?;
+        let influence = |(key, value, uncertainty): (&str, f64, f64)| {
             let [low, high] = [-uncertainty, uncertainty].map(|by| {
-                let [least, greatest] =
-                    range(key).map_or([value; 2], |range| [range.min, range.max]);
-                step.to(key, (value + by).clamp(least, greatest))
+                let [min, max] = range(key).map_or([value; 2], |range| [range.min, range.max]);
+                step.to(key, (value + by).clamp(min, max))
             });
             let (low, high) = (low?, high?);
-            let shifts = low.0.into_iter().zip(high.0).map(|(low, high)| [low, high]);
+            let shifts = low
+                .shifts
+                .into_iter()
+                .zip(high.shifts)
+                .map(|(low, high)| [low, high]);
             Ok(Influence {
                 key: key.into(),
                 value,
                 uncertainty,
                 shifts: shifts.collect(),
-                chi_square: [low.1, high.1],
+                chi_square: [low.chi_square, high.chi_square],
             })
         };
-        known.into_iter().map(of).collect()
+        known.into_iter().map(influence).collect()
     }
 }
 
-/// A step from the least squares at some places to those of a damper that differs in an assumed number.
+/// Result of a change of an assumed parameter.
+struct Moved {
+    /// Shift of each calibrated parameter.
+    shifts: Vec<f64>,
+    /// Change of the sum of squares.
+    chi_square: f64,
+}
+
+/// Gauss-Newton step from a minimum to that of a damper with a changed assumed parameter.
 struct Step<'a, 'm> {
     model: &'a Model<'m>,
-    places: &'a [f64],
-    /// The slopes of the deviations, in units of what is tolerated.
+    coordinates: &'a [f64],
+    /// Derivatives of the deviations, in units of the tolerances.
     slopes: DMatrix<f64>,
     tolerances: Vec<f64>,
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
-    /// The sum of squares of the tests here.
+    /// Sum of squares of the tests at the minimum.
     chi_square: f64,
 }
 
 impl<'a, 'm> Step<'a, 'm> {
-    fn new(model: &'a Model<'m>, places: &'a [f64]) -> Result<Self, CalibrationError> {
+    fn new(model: &'a Model<'m>, coordinates: &'a [f64]) -> Result<Self, CalibrationError> {
         let all: Vec<usize> = (0..model.varied.len()).collect();
-        let values = model.values(places);
-        let numbers = model.varied.iter().zip(&values);
-        let tolerances: Vec<f64> = numbers
+        let values = model.values(coordinates);
+        let parameters = model.varied.iter().zip(&values);
+        let tolerances: Vec<f64> = parameters
             .map(|(varied, value)| varied.tolerance(*value))
             .collect();
-        let mut slopes = model.slopes(places, &all)?;
+        let mut slopes = model.slopes(coordinates, &all)?;
         for (column, tolerance) in tolerances.iter().enumerate() {
             slopes.column_mut(column).scale_mut(*tolerance);
         }
         let mut curvature = slopes.transpose() * &slopes;
-        for (number, _, slope) in model.off_priors(places) {
-            curvature[(number, number)] += (slope * tolerances[number]).powi(2);
+        for prior in model.prior_terms(coordinates) {
+            let index = prior.parameter;
+            curvature[(index, index)] += (prior.slope * tolerances[index]).powi(2);
         }
-        let here = model.deviations(places)?;
+        let here = model.deviations(coordinates)?;
         Ok(Self {
             model,
-            places,
+            coordinates,
             slopes,
             tolerances,
             eigen: SymmetricEigen::new(curvature),
@@ -135,47 +148,54 @@ impl<'a, 'm> Step<'a, 'm> {
         })
     }
 
-    /// How far the numbers move when the damper's number at `key` is `value`, and by how much the sum of squares changes.
-    fn to(&self, key: &str, value: f64) -> Result<(Vec<f64>, f64), CalibrationError> {
-        let damper = self.model.damper_with(self.places, &[(key, value)])?;
-        let there = DVector::from_vec(self.model.deviations_of(&damper, self.places)?);
+    /// Returns the effect of setting the damper's parameter at `key` to `value`.
+    fn to(&self, key: &str, value: f64) -> Result<Moved, CalibrationError> {
+        let damper = self.model.damper_with(self.coordinates, &[(key, value)])?;
+        let there = DVector::from_vec(self.model.deviations_of(&damper, self.coordinates)?);
         let chi_square = there.norm_squared();
         let mut gradient = self.slopes.transpose() * there;
-        for (number, deviation, slope) in self.model.off_priors(self.places) {
-            gradient[number] += deviation * slope * self.tolerances[number];
+        for prior in self.model.prior_terms(self.coordinates) {
+            gradient[prior.parameter] +=
+                prior.deviation * prior.slope * self.tolerances[prior.parameter];
         }
-        let least = LEAST_SHARE * self.eigen.eigenvalues.max();
+        let min = MIN_EIGENVALUE_SHARE * self.eigen.eigenvalues.max();
         let vectors = &self.eigen.eigenvectors;
         let along = vectors.transpose() * &gradient;
         let solved = along.zip_map(&self.eigen.eigenvalues, |part, value| {
-            if value > least { -part / value } else { 0.0 }
+            if value > min { -part / value } else { 0.0 }
         });
         let gain: f64 = -along.dot(&solved);
         let step = vectors * solved;
-        let moved = self.model.varied.iter().zip(self.places).enumerate();
-        let moved = moved.map(|(number, (varied, place))| {
-            let to = (place + step[number] * self.tolerances[number]).clamp(0.0, 1.0);
-            varied.at(to) - varied.at(*place)
+        let moved = self.model.varied.iter().zip(self.coordinates).enumerate();
+        let moved = moved.map(|(parameter, (varied, coordinate))| {
+            let to = (coordinate + step[parameter] * self.tolerances[parameter]).clamp(0.0, 1.0);
+            varied.value_at(to) - varied.value_at(*coordinate)
         });
-        Ok((moved.collect(), chi_square - gain - self.chi_square))
+        Ok(Moved {
+            shifts: moved.collect(),
+            chi_square: chi_square - gain - self.chi_square,
+        })
     }
 }
 
-/// An interval that holds the noise's and the assumed numbers' parts, which are independent: their distances add as squares.
+/// Widens a noise interval by the shifts from the assumed parameters; they are independent, so they add in quadrature.
 pub(super) fn widened(
     found: f64,
-    [least, greatest]: [Option<f64>; 2],
+    [lower, upper]: [Option<f64>; 2],
     shifts: impl Iterator<Item = [f64; 2]> + Clone,
 ) -> [Option<f64>; 2] {
-    let square = |of: &dyn Fn(f64) -> f64| -> f64 {
+    let sum_of_squares = |distance: &dyn Fn(f64) -> f64| -> f64 {
         let parts = shifts.clone();
         parts
-            .map(|shift| shift.map(of).into_iter().fold(0.0, f64::max).powi(2))
+            .map(|shift| shift.map(distance).into_iter().fold(0.0, f64::max).powi(2))
             .sum()
     };
-    let (below, above) = (square(&|shift| -shift), square(&|shift| shift));
+    let (below, above) = (
+        sum_of_squares(&|shift| -shift),
+        sum_of_squares(&|shift| shift),
+    );
     [
-        least.map(|least| found - ((found - least).powi(2) + below).sqrt()),
-        greatest.map(|greatest| found + ((greatest - found).powi(2) + above).sqrt()),
+        lower.map(|lower| found - ((found - lower).powi(2) + below).sqrt()),
+        upper.map(|upper| found + ((upper - found).powi(2) + above).sqrt()),
     ]
 }

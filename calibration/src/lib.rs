@@ -8,7 +8,6 @@ mod error;
 mod fit;
 mod indices;
 mod influence;
-mod left;
 mod loops;
 mod misfit;
 mod model;
@@ -16,24 +15,25 @@ mod plausible;
 mod profile;
 mod remedy;
 mod request;
+mod residual;
 mod rig;
 mod varied;
 mod warning;
 
-pub use determined::{CLOSE, Determination, Determined};
+pub use determined::{Determination, Determined, HIGH_CORRELATION};
 pub use error::CalibrationError;
 use fit::Fit;
 pub use indices::IndexTest;
 use influence::widened;
 pub use influence::{DENSITY, Influence, TEMPERATURE, TEMPERATURE_UNCERTAINTY_K};
-use left::missed_n;
 pub use loops::{LoopTest, Recorded};
-pub use misfit::{Finding, MOST_MISSED};
+pub use misfit::{Finding, MAX_MISFIT};
 use model::Model;
 use profile::Better;
 pub use profile::{Profile, RISE_95};
 pub use remedy::{Advice, Remedy};
 pub use request::Request;
+use residual::residual_rms_n;
 pub use rig::{DISPLACEMENT_OFFSET, FORCE_OFFSET, HeldRig, RIG, SKEW};
 pub use varied::{Prior, Varied};
 pub use warning::Warning;
@@ -45,54 +45,58 @@ use dashpot_core::CheckedParameters;
 
 use dashpot_files::damper::Keyed;
 
-/// Rounds in which the scatter of the tests and the numbers are found in turn: the second changes both by a percent.
+/// Number of alternating estimates of the scatter and the parameters; the second round changes both by about a percent.
 const ROUNDS: usize = 3;
 
-/// Share of the way between its bounds within which a number is at one, whatever its interval.
-const AT_BOUND_CERTAINLY: f64 = 1e-3;
+/// Distance from a bound, as a share of the range, within which a parameter counts as at the bound regardless of its
+/// interval.
+const CERTAINLY_AT_BOUND: f64 = 1e-3;
 
-/// A model that misses so many times what is allowed does so with any weights of the tests.
-const HOPELESS: f64 = 2.0;
+/// Multiple of the allowed misfit beyond which no weighting of the tests can help.
+const HOPELESS_MISFIT: f64 = 2.0;
 
-/// Least scatter of a test, of its peak force: no sensor is better.
-const LEAST_SCATTER: f64 = 1e-4;
+/// Minimum scatter of a test over its peak force; no sensor is better.
+const MIN_SCATTER: f64 = 1e-4;
 
-/// Better minima that are taken up while intervals are searched, at most.
-const ANEW: usize = 5;
+/// Maximum number of restarts when a profile finds a better minimum.
+const MAX_RESTARTS: usize = 5;
 
-/// Two sums of squares are the same minimum within this, relative and absolute.
+/// Tolerance within which two sums of squares belong to the same minimum, relative and absolute.
 const SAME_MINIMUM: f64 = 1e-3;
 
-/// What is calibrated, and from what.
+/// Reason for a search without a result.
+const INVALID_COMBINATION: &str = "the combination of parameters is invalid for a damper";
+
+/// A calibration: the damper, the parameters to vary and the tests.
 #[derive(Clone, Debug)]
 pub struct Calibration {
-    /// The damper before.
+    /// Damper at the start.
     pub damper: Keyed,
-    /// Numbers that vary.
+    /// Parameters that vary.
     pub varied: Vec<Varied>,
     /// Recorded loops.
     pub loops: Vec<LoopTest>,
-    /// Tests of which the indices are known.
+    /// Tests of which only the indices are known.
     pub indices: Vec<IndexTest>,
-    /// The step of the model (s).
+    /// Step of the model (s).
     pub step_s: f64,
-    /// Starts of the search.
+    /// Number of starting points of the search.
     pub starts: usize,
-    /// The rig's numbers where they are not varied.
+    /// Rig parameters that are not varied.
     pub rig: HeldRig,
-    /// What is taken for granted.
+    /// Assumptions.
     pub assumed: Assumed,
 }
 
-/// What a calibration takes for granted.
+/// Assumptions of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assumed {
-    /// Half of the interval of 95 % of the oil's temperature (K).
+    /// Half-width of the 95 % interval of the oil temperature (K).
     pub temperature_uncertainty_k: f64,
-    /// Half of the interval of 95 % of the oil's density (kg/m3).
+    /// Half-width of the 95 % interval of the oil density (kg/m3).
     pub density_uncertainty_kg_per_m3: f64,
-    /// Part of the force's root mean square that the model may miss of a test, beyond the noise.
-    pub most_missed: f64,
+    /// Maximum residual of a test beyond the noise, over the rms force (1).
+    pub max_misfit: f64,
 }
 
 impl Default for Assumed {
@@ -100,122 +104,134 @@ impl Default for Assumed {
         Self {
             temperature_uncertainty_k: TEMPERATURE_UNCERTAINTY_K,
             density_uncertainty_kg_per_m3: 0.0,
-            most_missed: MOST_MISSED,
+            max_misfit: MAX_MISFIT,
         }
     }
 }
 
-/// How far a calibration is.
+/// Progress of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// What is done.
+    /// Name of the current stage.
     pub stage: &'static str,
-    /// Parts of it that are done.
+    /// Number of completed parts of the stage.
     pub done: usize,
-    /// Parts that it has.
-    pub of: usize,
+    /// Total number of parts of the stage.
+    pub total: usize,
 }
 
-/// The parts of a stage, counted by whoever does them.
+/// Reports the progress of one stage; several threads may count its parts.
 struct Stage<'a> {
     name: &'static str,
-    of: usize,
+    total: usize,
     done: AtomicUsize,
-    tell: &'a (dyn Fn(Progress) + Sync),
+    on_progress: &'a (dyn Fn(Progress) + Sync),
 }
 
 impl<'a> Stage<'a> {
-    fn new(name: &'static str, of: usize, tell: &'a (dyn Fn(Progress) + Sync)) -> Self {
+    fn new(name: &'static str, total: usize, on_progress: &'a (dyn Fn(Progress) + Sync)) -> Self {
         let stage = Self {
             name,
-            of,
+            total,
             done: AtomicUsize::new(0),
-            tell,
+            on_progress,
         };
-        stage.tell(0);
+        stage.report(0);
         stage
     }
 
-    fn tell(&self, done: usize) {
-        (self.tell)(Progress {
+    fn report(&self, done: usize) {
+        (self.on_progress)(Progress {
             stage: self.name,
             done,
-            of: self.of,
+            total: self.total,
         });
     }
 
-    fn one_more(&self) {
-        self.tell(self.done.fetch_add(1, Ordering::Relaxed) + 1);
+    fn complete_one(&self) {
+        self.report(self.done.fetch_add(1, Ordering::Relaxed) + 1);
     }
 }
 
-/// What was found.
+/// Result of a calibration.
 #[derive(Clone)]
 pub struct Calibrated {
-    /// The damper.
+    /// Calibrated damper.
     pub damper: CheckedParameters,
-    /// The varied numbers, in their order.
+    /// Values of the varied parameters, in their order.
     pub values: Vec<f64>,
-    /// What the tests tell of them.
+    /// How well the tests determine each parameter.
     pub determination: Determination,
-    /// Their intervals by the noise of the tests, the assumed numbers being exact.
+    /// Likelihood profiles, with intervals from the noise of the tests alone; the assumed parameters count as exact.
     pub profiles: Vec<Profile>,
-    /// Their intervals of 95 %, the uncertainty of the assumed numbers included; `None` where a bound comes first.
+    /// 95 % intervals that include the uncertainty of the assumed parameters; `None` for an end beyond a bound.
     pub intervals: Vec<[Option<f64>; 2]>,
-    /// What the assumed numbers do to them.
+    /// Effect of each assumed parameter on the calibrated ones.
     pub influences: Vec<Influence>,
-    /// What the numbers alone do not say.
+    /// Warnings that the user must read along with the values.
     pub warnings: Vec<Warning>,
-    /// Of each loop.
+    /// Fit of each loop.
     pub loops: Vec<LoopFit>,
-    /// Starts that led to the same minimum, of those that led to one.
-    pub same_minimum: [usize; 2],
+    /// Outcome of the searches from all starting points.
+    pub searches: Searches,
 }
 
-/// A loop beside the model.
+/// Outcome of the searches from all starting points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Searches {
+    /// Searches that converged.
+    pub converged: usize,
+    /// Searches that converged to the best minimum.
+    pub at_best_minimum: usize,
+}
+
+/// Fit of one recorded loop.
 #[derive(Clone)]
 pub struct LoopFit {
-    /// Forces of the model at the samples that count, before (N).
+    /// Forces of the start damper at the samples that count (N).
     pub before_n: Vec<f64>,
-    /// After (N).
+    /// Forces of the calibrated damper at these samples (N).
     pub after_n: Vec<f64>,
-    /// Root mean square of what the model misses, before (N).
+    /// Root mean square of the start damper's residual (N).
     pub missed_before_n: f64,
-    /// After (N).
+    /// Root mean square of the calibrated damper's residual (N).
     pub missed_after_n: f64,
-    /// Correlation time of that (samples).
+    /// Correlation length of the calibrated damper's residual in samples; 1 for white noise.
     pub correlation_samples: f64,
 }
 
 impl Calibration {
-    /// Finds the numbers; `tell` is told how far it is.
+    /// Runs the calibration, reporting progress through `on_progress`.
     ///
     /// # Errors
-    /// Nothing to do, a damper that cannot be, or numbers that the tests do not determine: then none are told.
-    pub fn run(&self, tell: &(dyn Fn(Progress) + Sync)) -> Result<Calibrated, CalibrationError> {
-        self.run_unless(tell, &|| false)
+    /// Nothing to calibrate, an invalid damper, or parameters that the tests do not determine.
+    pub fn run(
+        &self,
+        on_progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Calibrated, CalibrationError> {
+        self.run_cancellable(on_progress, &|| false)
     }
 
-    /// As [`run`](Self::run), until the numbers are unwanted, as they then stay.
+    /// Same as [`run`](Self::run), but stops once `is_cancelled` returns true; from then on it must always return true.
     ///
     /// # Errors
-    /// As [`run`](Self::run); numbers that have become unwanted.
-    pub fn run_unless(
+    /// Same errors as [`run`](Self::run), and [`CalibrationError::Cancelled`].
+    pub fn run_cancellable(
         &self,
-        tell: &(dyn Fn(Progress) + Sync),
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        on_progress: &(dyn Fn(Progress) + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Calibrated, CalibrationError> {
         self.check()?;
-        match self.attempt(tell, is_unwanted) {
+        match self.attempt(on_progress, is_cancelled) {
             Err(CalibrationError::Implausible { finding, .. }) => {
-                let _stage = Stage::new("causes", 1, tell);
-                let advice = self.advice(&finding, is_unwanted);
-                if advice.is_empty() && !is_unwanted() {
-                    // A number in vain is a cause that a user can remove.
-                    self.refuse_unfelt(is_unwanted)?;
+                let _stage = Stage::new("causes", 1, on_progress);
+                let advice = self.advice(&finding, is_cancelled);
+                if advice.is_empty() && !is_cancelled() {
+                    // A parameter without effect is a cause that the user can remove.
+                    self.reject_without_effect(is_cancelled)?;
                 }
-                match is_unwanted() {
-                    true => Err(CalibrationError::Unwanted),
+                match is_cancelled() {
+                    true => Err(CalibrationError::Cancelled),
                     false => Err(CalibrationError::Implausible { finding, advice }),
                 }
             }
@@ -223,9 +239,9 @@ impl Calibration {
         }
     }
 
-    /// The model of the tests, which scatter by the noise of their forces.
-    fn model<'a>(&self, is_unwanted: &'a (dyn Fn() -> bool + Sync)) -> Model<'a> {
-        let scatter = |test: &LoopTest| test.force_noise_n.max(LEAST_SCATTER * test.peak_force_n);
+    /// Builds the model of the tests; each test scatters by the noise of its force.
+    fn model<'a>(&self, is_cancelled: &'a (dyn Fn() -> bool + Sync)) -> Model<'a> {
+        let scatter = |test: &LoopTest| test.force_noise_n.max(MIN_SCATTER * test.peak_force_n);
         Model {
             damper: self.damper.clone(),
             varied: self.varied.clone(),
@@ -234,128 +250,136 @@ impl Calibration {
             indices: self.indices.clone(),
             step_s: self.step_s,
             scatter_n: self.loops.iter().map(scatter).collect(),
-            is_unwanted,
+            is_cancelled,
         }
     }
 
-    /// Whether a force of the tests, or a prior, depends on a number.
-    fn is_felt(&self, determination: &Determination, number: usize) -> bool {
-        determination.numbers[number].is_felt || self.varied[number].prior.is_some()
+    /// True if a force of the tests, or a prior, depends on a parameter.
+    fn has_effect(&self, determination: &Determination, parameter: usize) -> bool {
+        determination.parameters[parameter].has_effect || self.varied[parameter].prior.is_some()
     }
 
-    /// Refuses numbers that the tests do not determine. Those of the rig are not what is asked for.
-    fn refuse_undetermined(
+    /// Rejects damper parameters that the tests do not determine; rig parameters may stay undetermined.
+    fn reject_undetermined(
         &self,
         determination: &Determination,
         is_determined: &dyn Fn(usize) -> bool,
     ) -> Result<(), CalibrationError> {
         let all = 0..self.varied.len();
-        let refused =
-            all.filter(|&number| !self.varied[number].is_of_rig() && !is_determined(number));
-        let numbers: Vec<(String, Determined)> = refused
-            .map(|number| {
-                let key = self.varied[number].key.clone();
-                (key, determination.numbers[number].clone())
+        let undetermined = all.filter(|&parameter| {
+            !self.varied[parameter].is_rig_parameter() && !is_determined(parameter)
+        });
+        let parameters: Vec<(String, Determined)> = undetermined
+            .map(|parameter| {
+                let key = self.varied[parameter].key.clone();
+                (key, determination.parameters[parameter].clone())
             })
             .collect();
-        match numbers.is_empty() {
+        match parameters.is_empty() {
             true => Ok(()),
-            false => Err(CalibrationError::Undetermined { numbers }),
+            false => Err(CalibrationError::Undetermined { parameters }),
         }
     }
 
-    /// Refuses numbers that no force near the best coarse fit depends on.
-    fn refuse_unfelt(
+    /// Rejects parameters that no force near the best coarse fit depends on.
+    fn reject_without_effect(
         &self,
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<(), CalibrationError> {
-        let model = self.model(is_unwanted);
+        let model = self.model(is_cancelled);
         let Some(fit) = model.quick_fit() else {
             return Ok(());
         };
-        let determination = model.determination(&fit.places)?;
-        self.refuse_undetermined(&determination, &|number| {
-            self.is_felt(&determination, number)
+        let determination = model.determination(&fit.coordinates)?;
+        self.reject_undetermined(&determination, &|parameter| {
+            self.has_effect(&determination, parameter)
         })
     }
 
-    /// The numbers, without a search for what else may be wrong where they are no damper's.
+    /// Runs the calibration without searching for the cause of an implausible fit.
     ///
     /// # Errors
-    /// As [`run`](Self::run).
+    /// Same errors as [`run`](Self::run).
     fn attempt(
         &self,
-        tell: &(dyn Fn(Progress) + Sync),
-        is_unwanted: &(dyn Fn() -> bool + Sync),
+        on_progress: &(dyn Fn(Progress) + Sync),
+        is_cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Result<Calibrated, CalibrationError> {
-        self.refuse_impossible()?;
-        let mut model = self.model(is_unwanted);
-        let start: Vec<f64> = self.varied.iter().map(|v| v.place(v.start)).collect();
-        let searches = Stage::new("searches", self.starts, tell);
-        let fits = model.fits(self.starts, &|| searches.one_more());
+        self.reject_impossible()?;
+        let mut model = self.model(is_cancelled);
+        let start: Vec<f64> = self.varied.iter().map(|v| v.coordinate(v.start)).collect();
+        let stage = Stage::new("searches", self.starts, on_progress);
+        let fits = model.fits(self.starts, &|| stage.complete_one());
         let Some(first) = fits.first() else {
-            // What fails at the start fails everywhere.
+            // An error at the start occurs everywhere.
             let reason = model
                 .deviations(&start)
                 .err()
                 .map(|error| error.to_string());
             return Err(CalibrationError::NoFit(
-                reason.unwrap_or_else(|| "numbers that no damper has together".into()),
+                reason.unwrap_or_else(|| INVALID_COMBINATION.into()),
             ));
         };
         let is_same =
             |fit: &&Fit| fit.chi_square <= first.chi_square * (1.0 + SAME_MINIMUM) + SAME_MINIMUM;
-        let same_minimum = [fits.iter().filter(is_same).count(), fits.len()];
+        let searches = Searches {
+            converged: fits.len(),
+            at_best_minimum: fits.iter().filter(is_same).count(),
+        };
         let mut best = first.clone();
-        let most = self.assumed.most_missed;
-        let worst = model.worst_misfit(&best.places)?;
-        if worst.is_some_and(|worst| worst.share > HOPELESS * most) {
-            model.refuse_misfit(&best.places, most)?;
+        let max_misfit = self.assumed.max_misfit;
+        let worst = model.worst_misfit(&best.coordinates)?;
+        if worst.is_some_and(|worst| worst.share > HOPELESS_MISFIT * max_misfit) {
+            model.reject_misfit(&best.coordinates, max_misfit)?;
         }
         let all: Vec<usize> = (0..self.varied.len()).collect();
-        let mut left = Vec::new();
+        let mut residuals = Vec::new();
         for _ in 0..if self.loops.is_empty() { 0 } else { ROUNDS } {
-            left = model.left(&best.places)?;
-            for ((scatter, left), test) in model.scatter_n.iter_mut().zip(&left).zip(&self.loops) {
-                let rms = left.rms_n.max(LEAST_SCATTER * test.peak_force_n);
-                *scatter = rms * left.correlation_samples.sqrt();
+            residuals = model.residuals(&best.coordinates)?;
+            for ((scatter, residual), test) in
+                model.scatter_n.iter_mut().zip(&residuals).zip(&self.loops)
+            {
+                let rms = residual.rms_n.max(MIN_SCATTER * test.peak_force_n);
+                *scatter = rms * residual.correlation_samples.sqrt();
             }
-            best = model.fit(&best.places, &all).ok_or_else(|| {
-                CalibrationError::NoFit("numbers that no damper has together".into())
-            })?;
+            best = model
+                .fit(&best.coordinates, &all)
+                .ok_or_else(|| CalibrationError::NoFit(INVALID_COMBINATION.into()))?;
         }
-        model.refuse_misfit(&best.places, self.assumed.most_missed)?;
-        model.refuse_bounds(&best.places, AT_BOUND_CERTAINLY, |_, _| true)?;
-        let determination = model.determination(&best.places)?;
-        let refuse = |is_determined: &dyn Fn(usize) -> bool| {
-            self.refuse_undetermined(&determination, is_determined)
+        model.reject_misfit(&best.coordinates, max_misfit)?;
+        model.reject_bounds(&best.coordinates, CERTAINLY_AT_BOUND, |_, _| true)?;
+        let determination = model.determination(&best.coordinates)?;
+        let reject = |is_determined: &dyn Fn(usize) -> bool| {
+            self.reject_undetermined(&determination, is_determined)
         };
-        refuse(&|number| self.is_felt(&determination, number))?;
-        let (best, profiles) = self.profiles(&model, best, &determination, tell)?;
-        let values = model.values(&best.places);
-        model.refuse_bounds(&best.places, AT_BOUND, |number, is_least| {
-            profiles[number].is_open(is_least)
+        reject(&|parameter| self.has_effect(&determination, parameter))?;
+        let (best, profiles) = self.profiles(&model, best, &determination, on_progress)?;
+        let values = model.values(&best.coordinates);
+        model.reject_bounds(&best.coordinates, AT_BOUND, |parameter, is_lower| {
+            profiles[parameter].is_open(is_lower)
         })?;
-        refuse(&|number| profiles[number].is_narrow(&self.varied[number], values[number]))?;
+        reject(&|parameter| {
+            profiles[parameter].is_narrow(&self.varied[parameter], values[parameter])
+        })?;
         let before = model.forces_n(&start)?;
-        let after = model.forces_n(&best.places)?;
+        let after = model.forces_n(&best.coordinates)?;
         let forces = before.into_iter().zip(after);
-        let loops = forces.zip(&self.loops).zip(&left);
-        let loops = loops.map(|(((before_n, after_n), test), left)| LoopFit {
-            missed_before_n: missed_n(test, &before_n),
-            missed_after_n: missed_n(test, &after_n),
+        let loops = forces.zip(&self.loops).zip(&residuals);
+        let loops = loops.map(|(((before_n, after_n), test), residual)| LoopFit {
+            missed_before_n: residual_rms_n(test, &before_n),
+            missed_after_n: residual_rms_n(test, &after_n),
             before_n,
             after_n,
-            correlation_samples: left.correlation_samples,
+            correlation_samples: residual.correlation_samples,
         });
         let fits: Vec<LoopFit> = loops.collect();
-        let influences = self.influences(&model, &best.places)?;
+        let influences = self.influences(&model, &best.coordinates)?;
         let intervals = profiles.iter().zip(&values).enumerate();
-        let intervals = intervals.map(|(number, (profile, value))| {
+        let intervals = intervals.map(|(parameter, (profile, value))| {
             let shifts = influences
                 .iter()
-                .map(move |influence| influence.shifts[number]);
-            widened(*value, [profile.least, profile.greatest], shifts)
+                .map(move |influence| influence.shifts[parameter]);
+            widened(*value, [profile.lower, profile.upper], shifts)
         });
         let intervals = intervals.collect();
         let warnings = Found {
@@ -369,7 +393,7 @@ impl Calibration {
         }
         .warnings();
         Ok(Calibrated {
-            damper: model.damper_at(&best.places)?,
+            damper: model.damper_at(&best.coordinates)?,
             loops: fits,
             values,
             determination,
@@ -377,31 +401,31 @@ impl Calibration {
             intervals,
             influences,
             warnings,
-            same_minimum,
+            searches,
         })
     }
 
-    /// The profiles of all numbers about the best fit, begun anew from a better one where a profile meets that.
+    /// Computes the profiles of all parameters about the best fit; restarts when a profile finds a better minimum.
     fn profiles(
         &self,
         model: &Model<'_>,
         mut best: Fit,
         determination: &Determination,
-        tell: &(dyn Fn(Progress) + Sync),
+        on_progress: &(dyn Fn(Progress) + Sync),
     ) -> Result<(Fit, Vec<Profile>), CalibrationError> {
         let all: Vec<usize> = (0..self.varied.len()).collect();
-        for _ in 0..ANEW {
-            let intervals = Stage::new("intervals", all.len(), tell);
-            let found = dashpot_workers::map(&all, |&number| {
-                let profile = model.profile(&best, number, &determination.numbers[number]);
-                intervals.one_more();
+        for _ in 0..MAX_RESTARTS {
+            let intervals = Stage::new("intervals", all.len(), on_progress);
+            let found = dashpot_workers::map(&all, |&parameter| {
+                let profile = model.profile(&best, parameter, &determination.parameters[parameter]);
+                intervals.complete_one();
                 profile
             });
             match found {
                 Ok(profiles) => return Ok((best, profiles)),
                 Err(Better(fit)) => {
                     best = model
-                        .fit(&fit.places, &all)
+                        .fit(&fit.coordinates, &all)
                         .filter(|refined| refined.chi_square < fit.chi_square)
                         .unwrap_or(fit);
                 }
@@ -412,15 +436,16 @@ impl Calibration {
         })
     }
 
+    /// Checks that there is something to calibrate, and every index test.
     fn check(&self) -> Result<(), CalibrationError> {
         if self.varied.is_empty() {
-            return Err(CalibrationError::Nothing("number to vary"));
+            return Err(CalibrationError::Nothing("parameter to vary"));
         }
         if self.loops.is_empty() && self.indices.is_empty() {
             return Err(CalibrationError::Nothing("test"));
         }
-        for (number, varied) in self.varied.iter().enumerate() {
-            if self.varied[..number]
+        for (parameter, varied) in self.varied.iter().enumerate() {
+            if self.varied[..parameter]
                 .iter()
                 .any(|other| other.key == varied.key)
             {
@@ -428,8 +453,7 @@ impl Calibration {
                 return Err(CalibrationError::Twice { key });
             }
         }
-        for (number, test) in self.indices.iter().enumerate() {
-            let test_number = number + 1;
+        for (test_number, test) in (1..).zip(&self.indices) {
             test.check().map_err(|reason| CalibrationError::Index {
                 test: test_number,
                 reason,

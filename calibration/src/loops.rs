@@ -9,34 +9,34 @@ use dashpot_testbench::smoothing::smooth;
 /// Samples of a bench test.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorded {
-    /// Name in results.
+    /// Name used in results.
     pub name: String,
-    /// Times (s), rising.
+    /// Times (s), strictly rising.
     pub times_s: Vec<f64>,
-    /// Displacements of the seats (m), positive in extension.
+    /// Relative displacements of the two ends (m), positive in extension.
     pub displacements_m: Vec<f64>,
     /// Forces (N), positive in extension.
     pub forces_n: Vec<f64>,
 }
 
-/// Ticks of one test at most.
-const MOST_TICKS: f64 = 4e6;
+/// Maximum number of ticks per test.
+const MAX_TICKS: f64 = 4e6;
 
-/// Samples that tell something, at least.
-const FEWEST_SAMPLES: usize = 100;
+/// Minimum number of samples per test.
+const MIN_SAMPLES: usize = 100;
 
-/// Share of its peak that the force must have had in both directions before it counts: until then, where in its clearance the damper began
-/// decides.
-const CONTACT: f64 = 0.05;
+/// Share of half its range that the force must have reached in both directions before samples count; until then the
+/// force depends on the unknown initial position within the clearance.
+const CONTACT_SHARE: f64 = 0.05;
 
-/// Time before the end of a recording in which a smoothed motion is not known well enough (s).
+/// Time at the end of a recording that does not count, because the smoothed motion is inaccurate there (s).
 const END_S: f64 = 0.05;
 
 impl Recorded {
-    /// Samples that are in memory, called `name` in results.
+    /// Builds a test from samples in memory; `name` is used in results.
     ///
     /// # Errors
-    /// As many times as displacements and forces are allowed, finite numbers, and times that rise.
+    /// Series of different lengths, values that are not finite, or times that do not rise.
     pub fn new(
         name: String,
         times_s: Vec<f64>,
@@ -53,21 +53,21 @@ impl Recorded {
         if counts.iter().any(|count| *count != counts[0]) {
             let [times, displacements, forces] = counts;
             return wrong(format!(
-                "{times} times, {displacements} displacements and {forces} forces, allowed: as many of each"
+                "{times} times, {displacements} displacements and {forces} forces, allowed: the same number of each"
             ));
         }
-        let is_finite = |place: &usize| {
-            let sample = [&times_s, &displacements_m, &forces_n].map(|values| values[*place]);
+        let is_finite = |index: &usize| {
+            let sample = [&times_s, &displacements_m, &forces_n].map(|values| values[*index]);
             sample.iter().all(|value| value.is_finite())
         };
-        if let Some(place) = (0..counts[0]).find(|place| !is_finite(place)) {
-            return wrong(format!("sample {place}: allowed: finite numbers"));
+        if let Some(index) = (0..counts[0]).find(|index| !is_finite(index)) {
+            return wrong(format!("sample {index}: allowed: finite numbers"));
         }
-        if let Some(place) = times_s.windows(2).position(|pair| pair[1] <= pair[0]) {
-            let place = place + 1;
+        if let Some(before) = times_s.windows(2).position(|pair| pair[1] <= pair[0]) {
+            let index = before + 1;
             return wrong(format!(
-                "sample {place}: time {}, allowed: times that rise",
-                times_s[place]
+                "sample {index}: time {}, allowed: rising times",
+                times_s[index]
             ));
         }
         Ok(Self {
@@ -78,15 +78,15 @@ impl Recorded {
         })
     }
 
-    /// The stretches without a gap, and how many more there are that are too short to be a test.
+    /// Returns the stretches without a gap, and the number of further stretches that are too short for a test.
     fn tests(&self) -> (Vec<Range<usize>>, usize) {
         let (tests, short): (Vec<_>, Vec<_>) = stretches(&self.times_s)
             .into_iter()
-            .partition(|stretch| stretch.len() >= FEWEST_SAMPLES);
+            .partition(|stretch| stretch.len() >= MIN_SAMPLES);
         (tests, short.len())
     }
 
-    /// How many stretches without a gap are no test, for they have less than 100 samples.
+    /// Returns the number of stretches without a gap that have fewer than 100 samples and are left out.
     pub fn too_short(&self) -> usize {
         self.tests().1
     }
@@ -95,75 +95,94 @@ impl Recorded {
 /// One bench test, ready to be compared with a model.
 #[derive(Clone, Debug)]
 pub struct LoopTest {
-    /// Name in results.
+    /// Name used in results.
     pub name: String,
-    /// Displacements at ticks of the step (m), without the noise of their recording.
+    /// Smoothed displacements at each tick (m).
     pub displacements_m: Vec<f64>,
-    /// Times of the samples, in ticks.
+    /// Times of the samples in ticks.
     pub(super) positions: Vec<f64>,
-    /// Forces of the samples (N).
+    /// Recorded forces at the samples (N).
     pub forces_n: Vec<f64>,
-    /// The samples that count.
+    /// Range of the samples that count.
     pub(super) counted: Range<usize>,
-    /// Noise of the displacement and of the force, standard deviation (m, N).
+    /// Standard deviation of the displacement noise (m).
     pub displacement_noise_m: f64,
-    /// As above.
+    /// Standard deviation of the force noise (N).
     pub force_noise_n: f64,
-    /// Half of the way from the least to the greatest displacement (m).
+    /// Half the range of the displacement (m).
     pub amplitude_m: f64,
-    /// Largest velocity (m/s).
+    /// Peak velocity (m/s).
     pub peak_velocity_m_per_s: f64,
-    /// Largest force, without noise (N).
+    /// Peak of the smoothed force, as a magnitude (N).
     pub peak_force_n: f64,
-    /// Half of the way from the least to the greatest force, without noise (N).
+    /// Half the range of the smoothed force (N).
     pub force_half_range_n: f64,
-    /// The middle between the least and the greatest displacement as recorded (m). No force depends on it.
+    /// Middle of the range of the recorded displacement (m); no force depends on it.
     pub displacement_offset_m: f64,
 }
 
-/// About its zero a force reaches this share of half its range in both directions, or its median is no guess of that zero.
-const BALANCED: f64 = 0.25;
+/// Share of half its range by which the force must exceed its median in both directions for the median to be an
+/// estimate of zero force.
+const BALANCE_SHARE: f64 = 0.25;
 
-/// A guess of what the sensor shows at no force, from forces with these ends: a damper pulls and pushes for about as long, so their median; 0
-/// where the forces about it are in one direction. It decides where a test begins to count, and nothing else.
-fn zero_guess_n(forces: &[f64], [least, greatest]: [f64; 2]) -> f64 {
+/// Estimates the reading of the sensor at zero force from forces between `min` and `max` (N).
+///
+/// The estimate is the median, because a damper pulls and pushes for about the same time; it is 0 if the forces about
+/// the median are one-sided. It only decides where a test begins to count.
+fn estimated_zero_n(forces: &[f64], min: f64, max: f64) -> f64 {
     let mut sorted = forces.to_vec();
     sorted.sort_by(f64::total_cmp);
     let median = sorted[sorted.len() / 2];
-    let enough = BALANCED * 0.5 * (greatest - least);
-    if greatest - median > enough && median - least > enough {
+    let enough = BALANCE_SHARE * 0.5 * (max - min);
+    if max - median > enough && median - min > enough {
         median
     } else {
         0.0
     }
 }
 
+/// Factors of both signals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Factors {
+    pub(super) displacement: f64,
+    pub(super) force: f64,
+}
+
+/// Work of a recorded force.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Work {
+    /// Energy dissipated by the damper (J).
+    pub(super) net_j: f64,
+    /// Sum of the magnitudes of all increments (J).
+    pub(super) magnitude_j: f64,
+}
+
 impl LoopTest {
-    /// The tests of a recording, one for each stretch without gaps, at ticks of `step_s` (s).
+    /// Splits a recording into tests at ticks of `step_s` (s), one per stretch without gaps.
     ///
     /// # Errors
     /// Too few samples, too many ticks, or a force that never acts in both directions.
-    pub fn of(recorded: &Recorded, step_s: f64) -> Result<Vec<Self>, CalibrationError> {
+    pub fn from_recording(recorded: &Recorded, step_s: f64) -> Result<Vec<Self>, CalibrationError> {
         let (stretches, _) = recorded.tests();
         let count = stretches.len();
-        let tests = stretches.into_iter().enumerate().map(|(number, stretch)| {
+        let tests = stretches.into_iter().enumerate().map(|(index, stretch)| {
             let name = match count {
                 1 => recorded.name.clone(),
-                _ => format!("{} ({} of {count})", recorded.name, number + 1),
+                _ => format!("{} ({} of {count})", recorded.name, index + 1),
             };
-            Self::of_stretch(name, recorded, stretch, step_s)
+            Self::from_stretch(name, recorded, stretch, step_s)
         });
         let tests: Vec<Self> = tests.collect::<Result<_, _>>()?;
         if tests.is_empty() {
             return Err(CalibrationError::TooShort {
                 test: recorded.name.clone(),
-                fewest: FEWEST_SAMPLES,
+                min: MIN_SAMPLES,
             });
         }
         Ok(tests)
     }
 
-    fn of_stretch(
+    fn from_stretch(
         name: String,
         recorded: &Recorded,
         stretch: Range<usize>,
@@ -176,11 +195,11 @@ impl LoopTest {
             .map(|time_s| (time_s - start_s) / step_s)
             .collect();
         let last = positions.last().copied().unwrap_or(0.0);
-        if last > MOST_TICKS {
+        if last > MAX_TICKS {
             return Err(CalibrationError::TooLong {
                 test: name,
-                seconds: last * step_s,
-                most: MOST_TICKS * step_s,
+                duration_s: last * step_s,
+                max_s: MAX_TICKS * step_s,
             });
         }
         let ticks = last as usize + 2;
@@ -193,17 +212,18 @@ impl LoopTest {
         let force = smooth(&positions, &forces_n, ticks);
         let x = displacement.values;
         let span = |values: &[f64]| {
-            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-            let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            (least, greatest)
+            let min = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let max = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            (min, max)
         };
         let (shortest, longest) = span(&x);
         let (compression, extension) = span(&force.values);
         let peak_force_n = extension.max(-compression);
         let force_half_range_n = 0.5 * (extension - compression);
-        let zero_n = zero_guess_n(&force.values, [compression, extension]);
+        let zero_n = estimated_zero_n(&force.values, compression, extension);
         let reaches = |sign: f64| {
-            let reached = |force: &f64| sign * (force - zero_n) > CONTACT * force_half_range_n;
+            let reached =
+                |force: &f64| sign * (force - zero_n) > CONTACT_SHARE * force_half_range_n;
             force.values.iter().position(reached)
         };
         let (Some(first), Some(second)) = (reaches(1.0), reaches(-1.0)) else {
@@ -230,8 +250,9 @@ impl LoopTest {
         })
     }
 
-    /// The same test with its displacements and forces multiplied by these factors.
-    pub(super) fn scaled(&self, [of_x, of_force]: [f64; 2]) -> Self {
+    /// Returns the same test with its signals multiplied by `factors`.
+    pub(super) fn scaled(&self, factors: Factors) -> Self {
+        let (of_x, of_force) = (factors.displacement, factors.force);
         let times =
             |values: &[f64], factor: f64| values.iter().map(|value| value * factor).collect();
         Self {
@@ -248,59 +269,61 @@ impl LoopTest {
         }
     }
 
-    /// Root mean square of the velocity (m/s), at ticks of `step_s` (s).
+    /// Returns the root mean square velocity (m/s) for ticks of `step_s` (s).
     pub(super) fn rms_velocity_m_per_s(&self, step_s: f64) -> f64 {
         let pairs = self.displacements_m.windows(2);
         let square: f64 = pairs.map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         (square / self.displacements_m.len() as f64).sqrt() / step_s
     }
 
-    /// The work that the recorded force takes from the motion (J), and the sum of the magnitudes of its parts (J). The mean force is left out, for
-    /// an offset of the sensor takes no work on a closed path.
-    pub(super) fn work_j(&self) -> [f64; 2] {
+    /// Returns the work that the recorded force takes from the motion.
+    ///
+    /// The mean force is subtracted, because a sensor offset does no work on a closed path.
+    pub(super) fn work(&self) -> Work {
         let (x, forces) = (self.counted_displacements_m(), self.counted_forces_n());
         let mean = forces.iter().sum::<f64>() / forces.len().max(1) as f64;
         let moved = x.windows(2).map(|pair| pair[1] - pair[0]);
-        let parts = forces
+        let increments = forces
             .windows(2)
             .zip(moved)
             .map(|(pair, moved)| (0.5 * (pair[0] + pair[1]) - mean) * moved);
-        parts.fold([0.0, 0.0], |[work, size], part| {
-            [work + part, size + part.abs()]
+        increments.fold(Work::default(), |work, increment_j| Work {
+            net_j: work.net_j + increment_j,
+            magnitude_j: work.magnitude_j + increment_j.abs(),
         })
     }
 
-    /// The forces that count (N).
+    /// Returns the forces that count (N).
     pub fn counted_forces_n(&self) -> &[f64] {
         &self.forces_n[self.counted.clone()]
     }
 
-    /// Displacements at the samples that count (m).
+    /// Returns the displacements at the samples that count (m).
     pub fn counted_displacements_m(&self) -> Vec<f64> {
         self.at_counted(&self.displacements_m, 0.0)
     }
 
-    /// Velocities at the samples that count (m/s), at ticks of `step_s` (s).
+    /// Returns the velocities at the samples that count (m/s) for ticks of `step_s` (s).
     pub fn counted_velocities_m_per_s(&self, step_s: f64) -> Vec<f64> {
         let pairs = self.displacements_m.windows(2);
         let velocities: Vec<f64> = pairs.map(|pair| (pair[1] - pair[0]) / step_s).collect();
-        // Each is that of the middle between two ticks.
+        // Each velocity applies midway between two ticks.
         self.at_counted(&velocities, 0.5)
     }
 
-    /// Times of the samples that count (s), from the first of the test.
+    /// Returns the times of the samples that count (s), relative to the first sample of the test.
     pub fn counted_times_s(&self, step_s: f64) -> Vec<f64> {
         let counted = &self.positions[self.counted.clone()];
         counted.iter().map(|position| position * step_s).collect()
     }
 
-    /// Values at ticks, taken `later` ticks before each sample that counts, linear between.
-    pub(super) fn at_counted(&self, values: &[f64], later: f64) -> Vec<f64> {
+    /// Interpolates values at ticks linearly, `delay` ticks before each sample that counts.
+    pub(super) fn at_counted(&self, values: &[f64], delay: f64) -> Vec<f64> {
         let last = values.len() - 1;
         self.positions[self.counted.clone()]
             .iter()
             .map(|position| {
-                let position = (position - later).clamp(0.0, last as f64);
+                let position = (position - delay).clamp(0.0, last as f64);
                 let tick = (position as usize).min(last - 1);
                 let fraction = position - tick as f64;
                 values[tick] + fraction * (values[tick + 1] - values[tick])

@@ -1,70 +1,73 @@
-//! What shows that a fit is no damper's, however small its intervals are.
+//! Checks whether a fit is plausible for a damper, however small its intervals are.
 
 use std::fmt;
 
-use super::loops::LoopTest;
+use super::loops::{LoopTest, Work};
 use super::model::Model;
 use super::remedy::{Advice, Remedy};
-use super::{Calibration, CalibrationError, left};
+use super::residual::residual_rms_n;
+use super::{Calibration, CalibrationError};
 
-/// Largest part of the force's root mean square that a model may miss beyond the noise, by default. A quadratic law misses this much of a linear
-/// damper; laws of real dampers miss some percent.
-pub const MOST_MISSED: f64 = 0.2;
+/// Default maximum residual beyond the noise, over the rms force (1).
+///
+/// A quadratic law misses this much of a linear damper; the laws of real dampers miss a few percent.
+pub const MAX_MISFIT: f64 = 0.2;
 
-/// Largest amplitude of a test (m): no damper of a vehicle has such a stroke.
-const LARGEST_AMPLITUDE_M: f64 = 0.5;
+/// Maximum amplitude of a test (m); no vehicle damper has a longer stroke.
+const MAX_AMPLITUDE_M: f64 = 0.5;
 
-/// Work of the recorded force over the sum of its parts' magnitudes, beyond which its sign is certain. That of a damper is near 1, that of a spring 0.
-const CERTAIN: f64 = 0.1;
+/// Net work over the sum of the magnitudes of its increments beyond which its sign is certain. It is near 1 for a
+/// damper and 0 for a spring.
+const CERTAIN_SHARE: f64 = 0.1;
 
-/// Why a fit, or the search for one, is refused.
+/// Reason to reject a fit or a recording.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Finding {
-    /// The recorded force drives the damper.
+    /// The recorded force drives the damper instead of resisting the motion.
     Driven {
-        /// Work that the force takes from the motion (J).
+        /// Work that the force takes from the motion; negative here (J).
         work_j: f64,
     },
-    /// The recorded motion is faster or longer than the damper can follow.
+    /// The recorded motion is too fast or too large for the damper.
     TooFast {
-        /// The test.
+        /// Name of the test.
         test: String,
-        /// Its amplitude (m).
+        /// Amplitude of the motion (m).
         amplitude_m: f64,
-        /// Its largest velocity (m/s).
+        /// Peak velocity of a harmonic motion with the same rms velocity (m/s).
         velocity_m_per_s: f64,
-        /// The fastest motion that the damper follows (m/s).
-        most_m_per_s: f64,
+        /// Velocity limit of the damper (m/s).
+        max_velocity_m_per_s: f64,
     },
-    /// The model misses more of a test than noise explains.
+    /// The residual of a test is larger than noise explains.
     Missed {
-        /// The test.
+        /// Name of the test.
         test: String,
-        /// Root mean square of what the model misses (N).
+        /// Root mean square residual (N).
         missed_n: f64,
-        /// Noise of the force (N).
+        /// Standard deviation of the force noise (N).
         noise_n: f64,
         /// Root mean square of the force about its mean (N).
         force_rms_n: f64,
-        /// The largest part of that which may be missed.
-        most: f64,
-        /// Numbers that ended at a bound that nobody asked for, and their bounds.
+        /// Maximum residual beyond the noise, over `force_rms_n` (1).
+        max: f64,
+        /// Parameters that ended at a default bound, and their bounds.
         at_bounds: Vec<(String, [f64; 2])>,
     },
-    /// A number ended at a bound that nobody asked for.
+    /// A parameter ended at a default bound.
     AtBound {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// The bound.
+        /// Value of the bound.
         bound: f64,
-        /// Both bounds.
+        /// Lower and upper bound.
         bounds: [f64; 2],
     },
 }
 
 impl Finding {
-    /// What a user can do who wants the nearest fit all the same; `None` where there is none.
+    /// Returns the changes that accept the best fit despite this finding; `None` if nothing can.
     pub(super) fn acceptance(&self) -> Option<Advice> {
         match self {
             Self::Missed {
@@ -73,7 +76,7 @@ impl Finding {
                 at_bounds,
                 ..
             } => {
-                // Up to the next ten percent.
+                // Rounds up to the next ten percent.
                 let part = (10.0 * missed_n / force_rms_n).floor() / 10.0 + 0.1;
                 let bounds = at_bounds.iter().map(|(key, bounds)| Remedy::Bounds {
                     key: key.clone(),
@@ -100,32 +103,32 @@ impl fmt::Display for Finding {
         match self {
             Self::Driven { work_j } => write!(
                 f,
-                "the recorded force drives the damper: it gives {:.3} J to the motion, where a damper takes energy",
+                "the recorded force drives the damper: it adds {:.3} J to the motion, but a damper dissipates energy",
                 -work_j
             ),
             Self::TooFast {
                 test,
                 amplitude_m,
                 velocity_m_per_s,
-                most_m_per_s,
+                max_velocity_m_per_s,
             } => write!(
                 f,
                 "{test}: a motion of +-{amplitude_m:.3} m at {velocity_m_per_s:.3} m/s; a damper moves by at most \
-                 {LARGEST_AMPLITUDE_M} m, and this one follows at most {most_m_per_s} m/s (limits.rate_m_per_s)"
+                 {MAX_AMPLITUDE_M} m, and this one follows at most {max_velocity_m_per_s} m/s (limits.rate_m_per_s)"
             ),
             Self::Missed {
                 test,
                 missed_n,
                 noise_n,
                 force_rms_n,
-                most,
+                max,
                 at_bounds,
             } => {
                 write!(
                     f,
-                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms) where the force has {noise_n:.3} N of noise; \
-                     allowed beyond the noise: {:.0} %",
-                    100.0 * most
+                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms), and the noise of the force \
+                     is {noise_n:.3} N; allowed beyond the noise: {:.0} %",
+                    100.0 * max
                 )?;
                 at_bounds
                     .iter()
@@ -141,32 +144,35 @@ impl fmt::Display for Finding {
     }
 }
 
-/// How much of a test a model misses.
+/// Misfit of a test.
 pub(super) struct Misfit {
-    /// The test's number.
+    /// Index of the test.
     test: usize,
     missed_n: f64,
     force_rms_n: f64,
-    /// What is missed beyond the noise, over the force.
+    /// Residual beyond the noise over the rms force (1).
     pub(super) share: f64,
 }
 
 impl Model<'_> {
-    /// The test of which the model misses the largest share; `None` without loops.
+    /// Returns the largest misfit of all loops; `None` if there are no loops.
     ///
     /// # Errors
-    /// As [`Model::forces_n`].
-    pub(super) fn worst_misfit(&self, places: &[f64]) -> Result<Option<Misfit>, CalibrationError> {
-        let forces = self.forces_n(places)?;
+    /// Same errors as [`Model::forces_n`].
+    pub(super) fn worst_misfit(
+        &self,
+        coordinates: &[f64],
+    ) -> Result<Option<Misfit>, CalibrationError> {
+        let forces = self.forces_n(coordinates)?;
         let misfits = self.loops.iter().zip(&forces).enumerate();
-        let misfits = misfits.map(|(number, (test, forces))| {
-            let missed_n = left::missed_n(test, forces);
+        let misfits = misfits.map(|(index, (test, forces))| {
+            let missed_n = residual_rms_n(test, forces);
             let force_rms_n = force_rms_n(test);
             let beyond = (missed_n * missed_n - test.force_noise_n.powi(2))
                 .max(0.0)
                 .sqrt();
             Misfit {
-                test: number,
+                test: index,
                 missed_n,
                 force_rms_n,
                 share: beyond / force_rms_n.max(f64::MIN_POSITIVE),
@@ -175,27 +181,33 @@ impl Model<'_> {
         Ok(misfits.max_by(|a, b| a.share.total_cmp(&b.share)))
     }
 
+    /// Rejects a fit whose largest misfit exceeds `max`.
+    ///
     /// # Errors
-    /// The model misses more than the part `most` of a test.
-    pub(super) fn refuse_misfit(&self, places: &[f64], most: f64) -> Result<(), CalibrationError> {
-        let worst = self.worst_misfit(places)?;
-        match worst.filter(|worst| worst.share > most || worst.share.is_nan()) {
+    /// [`Finding::Missed`].
+    pub(super) fn reject_misfit(
+        &self,
+        coordinates: &[f64],
+        max: f64,
+    ) -> Result<(), CalibrationError> {
+        let worst = self.worst_misfit(coordinates)?;
+        match worst.filter(|worst| worst.share > max || worst.share.is_nan()) {
             Some(worst) => Err(CalibrationError::implausible(Finding::Missed {
                 test: self.loops[worst.test].name.clone(),
                 missed_n: worst.missed_n,
                 noise_n: self.loops[worst.test].force_noise_n,
                 force_rms_n: worst.force_rms_n,
-                most,
-                at_bounds: self.at_bounds(places),
+                max,
+                at_bounds: self.at_bounds(coordinates),
             })),
             None => Ok(()),
         }
     }
 
-    /// Numbers at bounds that neither a damper nor the user sets.
-    fn at_bounds(&self, places: &[f64]) -> Vec<(String, [f64; 2])> {
-        let numbers = self.varied.iter().zip(self.values(places));
-        let at = numbers.filter(|(varied, value)| {
+    /// Returns the parameters at default bounds that are not physical limits.
+    fn at_bounds(&self, coordinates: &[f64]) -> Vec<(String, [f64; 2])> {
+        let parameters = self.varied.iter().zip(self.values(coordinates));
+        let at = parameters.filter(|(varied, value)| {
             let bound = varied.bound_at(*value, super::warning::AT_BOUND);
             bound.is_some_and(|bound| !bound.is_physical && !bound.is_own)
         });
@@ -203,20 +215,26 @@ impl Model<'_> {
             .collect()
     }
 
+    /// Rejects a parameter that is at a default bound, unless the bound is a physical limit.
+    ///
+    /// `tolerance` is the distance from a bound that counts as at the bound, as a share of the range.
+    /// `is_suspect(parameter, is_lower)` selects the bounds to check.
+    ///
     /// # Errors
-    /// A number, of those that `is_suspect`, is at a bound that neither a damper nor the user sets, within the share `part` of the way between its
-    /// bounds.
-    pub(super) fn refuse_bounds(
+    /// [`Finding::AtBound`].
+    pub(super) fn reject_bounds(
         &self,
-        places: &[f64],
-        part: f64,
+        coordinates: &[f64],
+        tolerance: f64,
         is_suspect: impl Fn(usize, bool) -> bool,
     ) -> Result<(), CalibrationError> {
-        for (number, (varied, value)) in self.varied.iter().zip(self.values(places)).enumerate() {
-            let Some(bound) = varied.bound_at(value, part) else {
+        for (parameter, (varied, value)) in
+            self.varied.iter().zip(self.values(coordinates)).enumerate()
+        {
+            let Some(bound) = varied.bound_at(value, tolerance) else {
                 continue;
             };
-            if !bound.is_physical && !bound.is_own && is_suspect(number, bound.is_least) {
+            if !bound.is_physical && !bound.is_own && is_suspect(parameter, bound.is_lower) {
                 return Err(CalibrationError::implausible(Finding::AtBound {
                     key: varied.key.clone(),
                     bound: bound.value,
@@ -228,7 +246,7 @@ impl Model<'_> {
     }
 }
 
-/// Root mean square of a test's forces about their mean (N).
+/// Returns the root mean square of a test's forces about their mean (N).
 fn force_rms_n(test: &LoopTest) -> f64 {
     let forces = test.counted_forces_n();
     let count = forces.len().max(1) as f64;
@@ -242,47 +260,56 @@ fn force_rms_n(test: &LoopTest) -> f64 {
 }
 
 impl Calibration {
-    /// Work of the force in all tests (J), and that over the sum of the magnitudes of its parts.
-    pub(super) fn work(&self) -> [f64; 2] {
-        let works = self.loops.iter().map(LoopTest::work_j);
-        let [work, size] = works.fold([0.0; 2], |sum, work| [sum[0] + work[0], sum[1] + work[1]]);
-        [work, if size > 0.0 { work / size } else { 0.0 }]
+    /// Returns the work of the force in all tests.
+    fn work(&self) -> Work {
+        let works = self.loops.iter().map(LoopTest::work);
+        works.fold(Work::default(), |sum, work| Work {
+            net_j: sum.net_j + work.net_j,
+            magnitude_j: sum.magnitude_j + work.magnitude_j,
+        })
     }
 
-    /// Whether the sign of the work is certain.
+    /// Returns the sign of the work; `None` if it is uncertain.
     pub(super) fn certain_sign(&self) -> Option<f64> {
-        let [_, share] = self.work();
-        (share.abs() > CERTAIN).then(|| share.signum())
+        let work = self.work();
+        let share = if work.magnitude_j > 0.0 {
+            work.net_j / work.magnitude_j
+        } else {
+            0.0
+        };
+        (share.abs() > CERTAIN_SHARE).then(|| share.signum())
     }
 
-    /// The first test whose motion no damper makes.
+    /// Returns a finding for the first test whose motion is too fast or too large.
     pub(super) fn too_fast(&self) -> Option<Finding> {
-        let most_m_per_s = self
+        let max_velocity_m_per_s = self
             .damper
             .number("limits.rate_m_per_s")
             .unwrap_or(f64::INFINITY);
         self.loops.iter().find_map(|test| {
             let velocity_m_per_s = 2_f64.sqrt() * test.rms_velocity_m_per_s(self.step_s);
             let is_too_fast =
-                velocity_m_per_s > most_m_per_s || test.amplitude_m > LARGEST_AMPLITUDE_M;
+                velocity_m_per_s > max_velocity_m_per_s || test.amplitude_m > MAX_AMPLITUDE_M;
             is_too_fast.then(|| Finding::TooFast {
                 test: test.name.clone(),
                 amplitude_m: test.amplitude_m,
                 velocity_m_per_s,
-                most_m_per_s,
+                max_velocity_m_per_s,
             })
         })
     }
 
+    /// Rejects recordings that no damper can produce.
+    ///
     /// # Errors
-    /// Recordings that no damper can have made.
-    pub(super) fn refuse_impossible(&self) -> Result<(), CalibrationError> {
+    /// [`Finding::TooFast`] or [`Finding::Driven`].
+    pub(super) fn reject_impossible(&self) -> Result<(), CalibrationError> {
         if let Some(finding) = self.too_fast() {
             return Err(CalibrationError::implausible(finding));
         }
         match self.certain_sign() {
             Some(sign) if sign < 0.0 => {
-                let [work_j, _] = self.work();
+                let work_j = self.work().net_j;
                 Err(CalibrationError::implausible(Finding::Driven { work_j }))
             }
             _ => Ok(()),

@@ -1,4 +1,4 @@
-//! What is compared: the forces of a damper with these numbers, and those of the tests.
+//! Compares the forces of a damper with those of the tests.
 
 use dashpot_core::CheckedParameters;
 use nalgebra::DMatrix;
@@ -11,95 +11,111 @@ use super::varied::Varied;
 use dashpot_files::damper::Keyed;
 use dashpot_testbench::bench_test;
 
-/// Change for a derivative, of what is tolerated: some percent of a force, beside the hundredth of a percent that a built table misses.
-const CHANGE: f64 = 0.3;
+/// Difference for a derivative, as a share of the tolerance: it changes a force by some percent, while tables of a
+/// built damper are accurate to 0.01 %.
+const DIFFERENCE: f64 = 0.3;
 
-/// A damper, the numbers of it that vary, and the tests.
+/// A damper, its varied parameters and the tests.
 pub(super) struct Model<'a> {
     pub(super) damper: Keyed,
     pub(super) varied: Vec<Varied>,
-    /// The rig's numbers where they are not varied.
+    /// Rig parameters that are not varied.
     pub(super) rig: HeldRig,
     pub(super) loops: Vec<LoopTest>,
     pub(super) indices: Vec<IndexTest>,
-    /// The step of all loops (s): the damper is built once for all of them.
+    /// Step of all loops (s), so that the damper is built once for all of them.
     pub(super) step_s: f64,
-    /// What one sample of each loop scatters by (N), so that the samples count as if they were independent.
+    /// Scatter of one sample of each loop (N), enlarged so that correlated samples can count as independent.
     pub(super) scatter_n: Vec<f64>,
-    /// Whether nobody wants the result any more: then nothing is compared.
-    pub(super) is_unwanted: &'a (dyn Fn() -> bool + Sync),
+    /// Returns true if the caller cancelled the calibration.
+    pub(super) is_cancelled: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// Deviation of a parameter from its prior.
+pub(super) struct PriorTerm {
+    /// Index of the parameter.
+    pub(super) parameter: usize,
+    /// Distance from the mean, in standard deviations.
+    pub(super) deviation: f64,
+    /// Derivative of the deviation with respect to the coordinate.
+    pub(super) slope: f64,
 }
 
 impl Model<'_> {
-    /// The damper with the varied numbers at `places`.
+    /// Returns the damper with the varied parameters at `coordinates`.
     ///
     /// # Errors
-    /// Numbers that no damper has together.
-    pub(super) fn damper_at(&self, places: &[f64]) -> Result<CheckedParameters, CalibrationError> {
-        self.damper_with(places, &[])
+    /// Invalid combination of parameters.
+    pub(super) fn damper_at(
+        &self,
+        coordinates: &[f64],
+    ) -> Result<CheckedParameters, CalibrationError> {
+        self.damper_with(coordinates, &[])
     }
 
-    /// The same with `more` numbers at their keys.
+    /// Returns the same damper with `more` parameters set by key.
     ///
     /// # Errors
-    /// As [`Model::damper_at`].
+    /// Same errors as [`Model::damper_at`].
     pub(super) fn damper_with(
         &self,
-        places: &[f64],
+        coordinates: &[f64],
         more: &[(&str, f64)],
     ) -> Result<CheckedParameters, CalibrationError> {
-        let values = self.values(places);
-        let numbers: Vec<(&str, f64)> = self
+        let values = self.values(coordinates);
+        let parameters: Vec<(&str, f64)> = self
             .varied
             .iter()
             .zip(values)
-            .filter(|(varied, _)| !varied.is_of_rig())
+            .filter(|(varied, _)| !varied.is_rig_parameter())
             .map(|(varied, value)| (varied.key.as_str(), value))
             .chain(more.iter().copied())
             .collect();
-        Ok(self.damper.with(&numbers)?)
+        Ok(self.damper.with(&parameters)?)
     }
 
-    /// The varied numbers at `places`.
-    pub(super) fn values(&self, places: &[f64]) -> Vec<f64> {
-        let values = self.varied.iter().zip(places);
-        values.map(|(varied, place)| varied.at(*place)).collect()
+    /// Returns the values of the varied parameters at `coordinates`.
+    pub(super) fn values(&self, coordinates: &[f64]) -> Vec<f64> {
+        let values = self.varied.iter().zip(coordinates);
+        values
+            .map(|(varied, coordinate)| varied.value_at(*coordinate))
+            .collect()
     }
 
-    /// The number at `key` where it is varied, else `held`.
-    fn varied_or(&self, places: &[f64], key: &str, held: f64) -> f64 {
-        let mut values = self.varied.iter().zip(places);
+    /// Returns the parameter at `key` if it is varied, otherwise `held`.
+    fn varied_or(&self, coordinates: &[f64], key: &str, held: f64) -> f64 {
+        let mut values = self.varied.iter().zip(coordinates);
         let found = values.find(|(varied, _)| varied.key == key);
-        found.map_or(held, |(varied, place)| varied.at(*place))
+        found.map_or(held, |(varied, coordinate)| varied.value_at(*coordinate))
     }
 
-    /// What the force sensor shows at no force (N).
-    pub(super) fn force_offset_n(&self, places: &[f64]) -> f64 {
-        self.varied_or(places, FORCE_OFFSET, self.rig.force_offset_n)
+    /// Returns the reading of the force sensor at zero force (N).
+    pub(super) fn force_offset_n(&self, coordinates: &[f64]) -> f64 {
+        self.varied_or(coordinates, FORCE_OFFSET, self.rig.force_offset_n)
     }
 
-    /// What the sensor shows of the model's forces at the samples that count (N), loop by loop.
+    /// Returns the model's forces as the sensor would show them at the samples that count (N), by loop.
     ///
     /// # Errors
-    /// Numbers that no damper has together; forces that are unwanted.
-    pub(super) fn forces_n(&self, places: &[f64]) -> Result<Vec<Vec<f64>>, CalibrationError> {
-        self.forces_of(&self.damper_at(places)?, places)
+    /// Invalid combination of parameters, or cancelled.
+    pub(super) fn forces_n(&self, coordinates: &[f64]) -> Result<Vec<Vec<f64>>, CalibrationError> {
+        self.forces_of(&self.damper_at(coordinates)?, coordinates)
     }
 
-    /// The same of `damper`.
+    /// Same as [`Model::forces_n`] for `damper`.
     fn forces_of(
         &self,
         damper: &CheckedParameters,
-        places: &[f64],
+        coordinates: &[f64],
     ) -> Result<Vec<Vec<f64>>, CalibrationError> {
-        if (self.is_unwanted)() {
-            return Err(CalibrationError::Unwanted);
+        if (self.is_cancelled)() {
+            return Err(CalibrationError::Cancelled);
         }
         let built = damper.build::<f64>(self.step_s)?;
-        let later = self.varied_or(places, SKEW, self.rig.skew_s) / self.step_s;
-        let offset_n = self.force_offset_n(places);
+        let delay = self.varied_or(coordinates, SKEW, self.rig.skew_s) / self.step_s;
+        let offset_n = self.force_offset_n(coordinates);
         let forces = self.loops.iter().map(|test| {
-            // The force knows motion only, so every motion is about zero, wherever the sensor has its own.
+            // The force depends on the motion only, so every motion is centred on zero, whatever the sensor offset.
             let middle = test.displacement_offset_m;
             let x = &test.displacements_m;
             let mut state = built.at_rest(x[0] - middle);
@@ -107,29 +123,29 @@ impl Model<'_> {
                 .iter()
                 .map(|x| built.step(&mut state, *x - middle) + offset_n)
                 .collect();
-            test.at_counted(&forces, later)
+            test.at_counted(&forces, delay)
         });
         Ok(forces.collect())
     }
 
-    /// What the tests have and the model lacks, each over what it scatters by: loops, then indices.
+    /// Returns model minus test, in standard deviations: samples of the loops, then indices.
     ///
     /// # Errors
-    /// As [`Model::forces_n`]; a damper whose force does not become periodic.
-    pub(super) fn deviations(&self, places: &[f64]) -> Result<Vec<f64>, CalibrationError> {
-        self.deviations_of(&self.damper_at(places)?, places)
+    /// Same errors as [`Model::forces_n`], and a force that does not become periodic.
+    pub(super) fn deviations(&self, coordinates: &[f64]) -> Result<Vec<f64>, CalibrationError> {
+        self.deviations_of(&self.damper_at(coordinates)?, coordinates)
     }
 
-    /// The same of `damper`.
+    /// Same as [`Model::deviations`] for `damper`.
     ///
     /// # Errors
-    /// As [`Model::deviations`].
+    /// Same errors as [`Model::deviations`].
     pub(super) fn deviations_of(
         &self,
         damper: &CheckedParameters,
-        places: &[f64],
+        coordinates: &[f64],
     ) -> Result<Vec<f64>, CalibrationError> {
-        let forces = self.forces_of(damper, places)?;
+        let forces = self.forces_of(damper, coordinates)?;
         let mut deviations = Vec::with_capacity(self.count());
         for ((test, scatter), forces) in self.loops.iter().zip(&self.scatter_n).zip(&forces) {
             let measured = test.counted_forces_n().iter();
@@ -137,50 +153,59 @@ impl Model<'_> {
         }
         if !self.indices.is_empty() {
             for test in &self.indices {
-                let cycle =
-                    bench_test::run_unless(damper, test.motion(), self.step_s, self.is_unwanted)?;
+                let cycle = bench_test::run_cancellable(
+                    damper,
+                    test.motion(),
+                    self.step_s,
+                    self.is_cancelled,
+                )?;
                 deviations.extend(test.deviations(&cycle.indices()));
             }
         }
         Ok(deviations)
     }
 
-    /// Which numbers have priors, how far they are from them at `places`, in standard deviations, and that over the place.
-    pub(super) fn off_priors(&self, places: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
-        let numbers = self.varied.iter().zip(places).enumerate();
-        numbers.filter_map(|(number, (varied, place))| {
-            let (deviation, slope) = varied.off_prior(varied.at(*place))?;
-            Some((number, deviation, slope))
+    /// Returns one term per parameter with a prior.
+    pub(super) fn prior_terms(&self, coordinates: &[f64]) -> impl Iterator<Item = PriorTerm> {
+        let parameters = self.varied.iter().zip(coordinates).enumerate();
+        parameters.filter_map(|(parameter, (varied, coordinate))| {
+            let prior = varied.prior?;
+            let value = varied.value_at(*coordinate);
+            Some(PriorTerm {
+                parameter,
+                deviation: (value - prior.mean) / prior.standard_deviation,
+                slope: varied.slope(value) / prior.standard_deviation,
+            })
         })
     }
 
-    /// How many deviations there are.
+    /// Returns the number of deviations.
     fn count(&self) -> usize {
         let loops = self.loops.iter().map(|test| test.counted.len());
         let indices = self.indices.iter().map(IndexTest::count);
         loops.chain(indices).sum()
     }
 
-    /// The deviations over the places of the numbers `of`, by central differences.
+    /// Returns the derivatives of the deviations with respect to the coordinates `columns`, by central differences.
     ///
     /// # Errors
-    /// As [`Model::deviations`].
+    /// Same errors as [`Model::deviations`].
     pub(super) fn slopes(
         &self,
-        places: &[f64],
-        of: &[usize],
+        coordinates: &[f64],
+        columns: &[usize],
     ) -> Result<DMatrix<f64>, CalibrationError> {
-        let mut slopes = DMatrix::zeros(self.count(), of.len());
-        for (column, number) in of.iter().enumerate() {
+        let mut slopes = DMatrix::zeros(self.count(), columns.len());
+        for (column, parameter) in columns.iter().enumerate() {
             let moved = |by: f64| {
-                let mut moved = places.to_vec();
-                moved[*number] = (moved[*number] + by).clamp(0.0, 1.0);
+                let mut moved = coordinates.to_vec();
+                moved[*parameter] = (moved[*parameter] + by).clamp(0.0, 1.0);
                 moved
             };
-            let varied = &self.varied[*number];
-            let change = CHANGE * varied.tolerance(varied.at(places[*number]));
+            let varied = &self.varied[*parameter];
+            let change = DIFFERENCE * varied.tolerance(varied.value_at(coordinates[*parameter]));
             let (below, above) = (moved(-change), moved(change));
-            let between = above[*number] - below[*number];
+            let between = above[*parameter] - below[*parameter];
             let (above, below) = (self.deviations(&above)?, self.deviations(&below)?);
             for (row, (above, below)) in above.iter().zip(&below).enumerate() {
                 slopes[(row, column)] = (above - below) / between;

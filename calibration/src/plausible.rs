@@ -1,28 +1,27 @@
-//! Where each number of a damper plausibly lies: the bounds of a calibration where none are given, and what is known of it before
-//! any test.
+//! Plausible range of each damper parameter, which gives the default bounds of a calibration, and default priors.
 
 use super::Prior;
 
-/// Bounds of a number, how it is searched, and what is known of it before.
+/// Default bounds, scale and prior of a parameter.
 pub(super) struct Plausible {
     pub(super) bounds: [f64; 2],
-    /// By equal ratios, else by equal differences.
+    /// True for a logarithmic scale, false for a linear one.
     pub(super) by_ratio: bool,
     pub(super) prior: Option<Prior>,
 }
 
-const fn ratio(least: f64, greatest: f64) -> Plausible {
+const fn ratio(min: f64, max: f64) -> Plausible {
     Plausible {
-        bounds: [least, greatest],
+        bounds: [min, max],
         by_ratio: true,
         prior: None,
     }
 }
 
-const fn difference(least: f64, greatest: f64) -> Plausible {
+const fn difference(min: f64, max: f64) -> Plausible {
     Plausible {
         by_ratio: false,
-        ..ratio(least, greatest)
+        ..ratio(min, max)
     }
 }
 
@@ -36,12 +35,13 @@ const fn known(mean: f64, standard_deviation: f64, plausible: Plausible) -> Plau
     }
 }
 
-/// What is plausible for the number called `key` in the table `table` of a damper file; `None` for numbers that are measured on the
-/// part, not found from forces.
+/// Returns the plausible range of `key` in the table `table` of a damper file; `None` for parameters that are measured
+/// on the part, not calibrated from forces.
 ///
-/// Priors: a sharp edge contracts a jet to `pi/(pi + 2) = 0.611` (Kirchhoff), a short bore passes 0.6 to 0.8 (Idelchik, Handbook of
-/// Hydraulic Resistance); mineral oil has 870 kg/m3 at 15 degC and a bulk modulus of 1.3 to 1.8 GPa, spring steel 200 GPa.
-pub(super) fn of(table: &str, key: &str) -> Option<Plausible> {
+/// Sources of the priors: a sharp edge contracts a jet to `pi/(pi + 2) = 0.611` (Kirchhoff); a short bore has a
+/// discharge coefficient of 0.6 to 0.8 (Idelchik, Handbook of Hydraulic Resistance); mineral oil has 870 kg/m3 at 15
+/// degC and a bulk modulus of 1.3 to 1.8 GPa; spring steel has 200 GPa.
+pub(super) fn plausible(table: &str, key: &str) -> Option<Plausible> {
     let is_valve = table.starts_with("valves.");
     Some(match (table, key) {
         ("orifice", "diameter_m") => ratio(1e-4, 2e-2),
@@ -83,28 +83,25 @@ mod tests {
     use dashpot_files::damper::{Keyed, PRESETS, load, range};
 
     #[test]
-    fn what_is_plausible_is_allowed() {
+    fn plausible_ranges_are_allowed_and_contain_the_presets() {
         let mut found = 0;
         for (preset, _) in PRESETS {
             let damper = Keyed::new(preset, &load(preset, &[]).unwrap()).unwrap();
             for key in damper.keys() {
                 let (table, last) = key.rsplit_once('.').unwrap();
-                let Some(plausible) = of(table, last) else {
+                let Some(plausible) = plausible(table, last) else {
                     continue;
                 };
                 let allowed = range(&key).unwrap();
-                let [least, greatest] = plausible.bounds;
-                assert!(
-                    allowed.contains(least) && allowed.contains(greatest),
-                    "{key}"
-                );
+                let [min, max] = plausible.bounds;
+                assert!(allowed.contains(min) && allowed.contains(max), "{key}");
                 if let Some(prior) = plausible.prior {
-                    assert!((least..greatest).contains(&prior.mean), "{key}");
+                    assert!((min..max).contains(&prior.mean), "{key}");
                 }
-                // Every preset of ours is plausible but for what it leaves out by a zero.
-                let number = damper.number(&key).unwrap();
+                // A preset may also turn a part off with zero.
+                let parameter = damper.number(&key).unwrap();
                 assert!(
-                    number == 0.0 || (least..=greatest).contains(&number),
+                    parameter == 0.0 || (min..=max).contains(&parameter),
                     "{key}"
                 );
                 found += 1;

@@ -1,4 +1,4 @@
-//! Intervals by the profile of the likelihood: what a number may be when all others follow.
+//! Intervals from the likelihood profile: one parameter is held at each value while all others are refitted.
 
 use serde::Serialize;
 
@@ -7,133 +7,135 @@ use super::fit::Fit;
 use super::model::Model;
 use super::varied::Varied;
 
-/// Rise of the sum of squares at the ends of an interval of 95 %, chi-square of one degree of freedom.
+/// Rise of the sum of squares at the ends of a 95 % interval: chi-square with one degree of freedom.
 pub const RISE_95: f64 = 3.841;
 
-/// Searches a side, at most: the rise is nearly a parabola.
-const SEARCHES: usize = 6;
+/// Maximum number of fits per side; the rise is nearly a parabola.
+const MAX_FITS: usize = 6;
 
-/// A sum of squares lower by this is another minimum, not rounding.
+/// A sum of squares lower by more than this is a different minimum, not rounding.
 const BETTER: f64 = 0.1;
 
-/// How near the root of the rise comes to that of [`RISE_95`].
-const NEAR: f64 = 0.05;
+/// Relative tolerance of the square root of the rise at an end.
+const END_TOLERANCE: f64 = 0.05;
 
-/// The interval of 95 % of a number, and the profile it is from.
+/// 95 % interval of a parameter, and the likelihood profile that it comes from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Profile {
-    /// Least value, `None` where the rise is not reached within the bounds.
-    pub least: Option<f64>,
-    /// Greatest value, likewise.
-    pub greatest: Option<f64>,
-    /// Values and the rise of the sum of squares at them, over the inflation of the variance, in the order of the values.
+    /// Lower end; `None` if it lies beyond the lower bound.
+    #[serde(rename = "least")]
+    pub lower: Option<f64>,
+    /// Upper end; `None` if it lies beyond the upper bound.
+    #[serde(rename = "greatest")]
+    pub upper: Option<f64>,
+    /// Values in rising order, each with the rise of the sum of squares over the variance inflation factor.
     pub points: Vec<(f64, f64)>,
 }
 
 impl Profile {
-    /// Whether the interval is so much narrower than what was known before that the tests tell the number.
-    pub fn is_by_tests(&self, varied: &Varied) -> bool {
+    /// True if the interval is so much narrower than the prior that the tests determine the parameter.
+    pub fn is_determined_by_tests(&self, varied: &Varied) -> bool {
         let known = varied
             .prior
             .map_or(f64::INFINITY, |prior| prior.standard_deviation);
-        let [least, greatest] = varied.bounds;
-        let width = self.greatest.unwrap_or(greatest) - self.least.unwrap_or(least);
+        let [lower, upper] = varied.bounds;
+        let width = self.upper.unwrap_or(upper) - self.lower.unwrap_or(lower);
         width < RISE_95.sqrt() * known
     }
 
-    /// Whether a bound comes before the end of the interval on this side.
-    pub(super) fn is_open(&self, is_least: bool) -> bool {
-        if is_least {
-            self.least.is_none()
+    /// True if the interval extends beyond the lower or the upper bound.
+    pub(super) fn is_open(&self, is_lower: bool) -> bool {
+        if is_lower {
+            self.lower.is_none()
         } else {
-            self.greatest.is_none()
+            self.upper.is_none()
         }
     }
 
-    /// Half of the interval's width; `None` where a bound comes first.
+    /// Returns half the width of the interval; `None` if it extends beyond a bound.
     pub(super) fn half_width(&self) -> Option<f64> {
-        Some(0.5 * (self.greatest? - self.least?))
+        Some(0.5 * (self.upper? - self.lower?))
     }
 
-    /// Whether the interval is as narrow as that of a number whose standard deviation is tolerated, and not only as the bounds are.
+    /// True if the interval is no wider than the tolerance of the parameter allows, and at least one end is within the
+    /// bounds.
     pub(super) fn is_narrow(&self, varied: &Varied, value: f64) -> bool {
-        let [least, greatest] = varied.bounds;
-        let ends = [
-            self.least.unwrap_or(least),
-            self.greatest.unwrap_or(greatest),
-        ];
-        let [least, greatest] = ends.map(|end| varied.place(end));
-        let is_open = self.least.is_none() && self.greatest.is_none();
-        !is_open && greatest - least <= 2.0 * RISE_95.sqrt() * varied.tolerance(value)
+        let [lower, upper] = varied.bounds;
+        let ends = [self.lower.unwrap_or(lower), self.upper.unwrap_or(upper)];
+        let [lower, upper] = ends.map(|end| varied.coordinate(end));
+        let is_open = self.lower.is_none() && self.upper.is_none();
+        !is_open && upper - lower <= 2.0 * RISE_95.sqrt() * varied.tolerance(value)
     }
 }
 
-/// A better minimum than the one that the profile was to be about.
+/// A better minimum than the one that the profile started from.
 pub(super) struct Better(pub(super) Fit);
 
 impl Model<'_> {
-    /// The profile of the number `number` about `best`; its rise is that of the sum of squares over the inflation.
+    /// Computes the likelihood profile of a parameter about `best`.
     ///
     /// # Errors
-    /// A better minimum was met on the way.
+    /// A better minimum found on the way.
     pub(super) fn profile(
         &self,
         best: &Fit,
-        number: usize,
+        parameter: usize,
         determined: &Determined,
     ) -> Result<Profile, Better> {
-        let value = |place: f64| self.varied[number].at(place);
-        let mut points = vec![(value(best.places[number]), 0.0)];
-        let slope = self.varied[number].slope(value(best.places[number]));
+        let value = |coordinate: f64| self.varied[parameter].value_at(coordinate);
+        let mut points = vec![(value(best.coordinates[parameter]), 0.0)];
+        let slope = self.varied[parameter].slope(value(best.coordinates[parameter]));
         let deviation = determined.standard_deviation / slope;
         let inflation = determined.inflation;
-        let least = self.side(best, number, (-deviation, inflation), &mut points)?;
-        let greatest = self.side(best, number, (deviation, inflation), &mut points)?;
+        let lower = self.side(best, parameter, -deviation, inflation, &mut points)?;
+        let upper = self.side(best, parameter, deviation, inflation, &mut points)?;
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(Profile {
-            least,
-            greatest,
+            lower,
+            upper,
             points,
         })
     }
 
-    /// The end of the interval on the side of the sign of `deviation`; `None` where a bound comes first. Every end was evaluated: where the
-    /// search does not come near enough, it is a point beyond.
+    /// Returns the end of the interval on the side given by the sign of `deviation`; `None` if it lies beyond a bound.
+    ///
+    /// The end is always an evaluated point; if the search does not converge, it is a point outside the interval.
     fn side(
         &self,
         best: &Fit,
-        number: usize,
-        (deviation, inflation): (f64, f64),
+        parameter: usize,
+        deviation: f64,
+        inflation: f64,
         points: &mut Vec<(f64, f64)>,
     ) -> Result<Option<f64>, Better> {
-        let value = |place: f64| self.varied[number].at(place);
-        let (centre, root) = (best.places[number], RISE_95.sqrt());
+        let value = |coordinate: f64| self.varied[parameter].value_at(coordinate);
+        let (centre, root) = (best.coordinates[parameter], RISE_95.sqrt());
         let bound = if deviation < 0.0 { 0.0 } else { 1.0 };
         let room = (bound - centre).abs();
-        // Linear theory may know nothing of the number.
-        let tolerance = self.varied[number].tolerance(value(centre));
+        // Linear theory may give no useful deviation.
+        let tolerance = self.varied[parameter].tolerance(value(centre));
         let mut distance = (root * deviation.abs().min(tolerance)).clamp(1e-4, 1.0);
         distance = distance.min(room);
-        let mut places = best.places.clone();
+        let mut coordinates = best.coordinates.clone();
         let (mut inside, mut outside) = (0.0, None);
-        for _ in 0..SEARCHES {
-            places[number] = (centre + distance.copysign(deviation)).clamp(0.0, 1.0);
-            let rise = match self.follow(&places, number) {
+        for _ in 0..MAX_FITS {
+            coordinates[parameter] = (centre + distance.copysign(deviation)).clamp(0.0, 1.0);
+            let rise = match self.refit_others(&coordinates, parameter) {
                 Some(fit) => {
                     let rise = (fit.chi_square - best.chi_square) / inflation;
                     if rise < -BETTER {
                         return Err(Better(fit));
                     }
-                    places = fit.places;
-                    points.push((value(places[number]), rise.max(0.0)));
+                    coordinates = fit.coordinates;
+                    points.push((value(coordinates[parameter]), rise.max(0.0)));
                     rise.max(1e-6)
                 }
-                // No damper has such numbers.
+                // Invalid combination of parameters.
                 None => f64::INFINITY,
             };
             let reached = rise.sqrt();
-            if (reached / root - 1.0).abs() < NEAR {
-                return Ok(Some(value(places[number])));
+            if (reached / root - 1.0).abs() < END_TOLERANCE {
+                return Ok(Some(value(coordinates[parameter])));
             }
             if reached < root {
                 if distance >= room {
@@ -144,31 +146,33 @@ impl Model<'_> {
                 outside = Some(distance);
             }
             let next = distance * (root / reached).clamp(0.2, 5.0);
-            let most = outside.unwrap_or(room);
-            // Between what is known on both sides, where the guess leaves that.
-            distance = if next > inside && (next < most || outside.is_none()) {
+            let limit = outside.unwrap_or(room);
+            // Bisects if the guess leaves the bracket.
+            distance = if next > inside && (next < limit || outside.is_none()) {
                 next.min(room)
             } else {
-                0.5 * (inside + most)
+                0.5 * (inside + limit)
             };
         }
         let end = outside.map(|distance| centre + distance.copysign(deviation));
-        Ok(end.map(|place| value(place.clamp(0.0, 1.0))))
+        Ok(end.map(|coordinate| value(coordinate.clamp(0.0, 1.0))))
     }
 
-    /// The least squares with the number `number` held at its place.
-    fn follow(&self, places: &[f64], number: usize) -> Option<Fit> {
-        let free: Vec<usize> = (0..places.len()).filter(|other| *other != number).collect();
+    /// Refits all other parameters with `parameter` held.
+    fn refit_others(&self, coordinates: &[f64], parameter: usize) -> Option<Fit> {
+        let free: Vec<usize> = (0..coordinates.len())
+            .filter(|other| *other != parameter)
+            .collect();
         if !free.is_empty() {
-            return self.fit(places, &free);
+            return self.fit(coordinates, &free);
         }
         let square = |deviation: f64| deviation * deviation;
-        let tests = self.deviations(places).ok()?.into_iter().map(square);
+        let tests = self.deviations(coordinates).ok()?.into_iter().map(square);
         let priors = self
-            .off_priors(places)
-            .map(|(_, deviation, _)| square(deviation));
+            .prior_terms(coordinates)
+            .map(|prior| square(prior.deviation));
         Some(Fit {
-            places: places.to_vec(),
+            coordinates: coordinates.to_vec(),
             chi_square: tests.chain(priors).sum(),
         })
     }

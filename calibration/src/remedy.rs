@@ -1,63 +1,63 @@
-//! What a user can do about an error, as data: the command and the Python package word it in their own terms.
+//! Remedies for errors, as data: each front end puts them into its own words.
 
 use serde::Serialize;
 
-/// One thing that a user can do.
+/// One change that the user can make.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-// Exhaustive: each front end has its own words for every one.
+// Exhaustive, because each front end has its own words for every variant.
 pub enum Remedy {
     /// Reverse the sign of the force.
     ReverseForce,
     /// Reverse the sign of the displacement.
     ReverseDisplacement,
-    /// Multiply the displacement as it was read by this factor: it was read in a wrong unit.
+    /// Multiply the displacement by this factor, because it was read in the wrong unit.
     ScaleDisplacement(f64),
-    /// Multiply the force as it was read by this factor.
+    /// Multiply the force by this factor, because it was read in the wrong unit.
     ScaleForce(f64),
-    /// Vary a number between these bounds.
+    /// Vary a parameter between these bounds.
     Bounds {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// The bounds.
+        /// Lower and upper bound.
         bounds: [f64; 2],
     },
-    /// Vary these numbers too.
+    /// Vary these parameters too.
     VaryAlso(Vec<String>),
     /// Start from another damper.
     OtherDamper {
-        /// The preset.
+        /// Name of the preset.
         name: String,
-        /// The numbers to vary in place of those that do not exist there; empty where all of them do.
+        /// Parameters to vary instead, if the preset lacks any of the current ones; otherwise empty.
         vary: Vec<String>,
     },
-    /// Do not vary a number.
+    /// Do not vary a parameter.
     Leave(String),
-    /// Say what is known of a number before.
+    /// Give a prior for a parameter.
     Know(String),
-    /// Say nothing of what is known of a number before.
+    /// Give no prior for a parameter.
     Forget(String),
-    /// Hold a number of the rig.
+    /// Hold a rig parameter.
     Hold(String),
-    /// Do not hold a number of the rig.
+    /// Do not hold a rig parameter.
     Release(String),
-    /// Set a number in the damper.
+    /// Set a parameter of the damper.
     Set {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// A value that is allowed.
+        /// An allowed value.
         value: f64,
     },
-    /// Search from so many starts.
+    /// Search from this number of starting points.
     Starts(u16),
-    /// Allow the model to miss this part of the force.
+    /// Allow this misfit: residual over rms force (1).
     AllowMisfit(f64),
 }
 
-/// What must be done together.
+/// Remedies that must be applied together.
 pub type Advice = Vec<Remedy>;
 
 impl Remedy {
-    /// What the remedy says of the recordings, as the beginning of a message; `None` where it says nothing.
+    /// Describes the cause that the remedy removes, as the start of a message; `None` if the remedy implies no cause.
     pub fn cause(&self) -> Option<String> {
         Some(match self {
             Self::ReverseForce => "the force has the opposite sign".into(),
@@ -78,7 +78,7 @@ impl Remedy {
             }
             Self::Bounds { key, .. } => format!("{key} lies outside its bounds"),
             Self::VaryAlso(_) => {
-                "the damper differs from the start in more numbers than vary".into()
+                "the damper differs from the start in more parameters than those varied".into()
             }
             Self::OtherDamper { name, .. } => {
                 format!("the start is another kind of damper: `{name}` explains the recordings")

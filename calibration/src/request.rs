@@ -1,46 +1,46 @@
-//! What a user asks to vary, to hold and what is known before, as the numbers of a calibration.
+//! Translates a user's request into the parameters of a calibration.
 
 use super::loops::LoopTest;
-use super::rig::{DISPLACEMENT_OFFSET, HeldRig, RIG, SKEW, is_of_rig};
+use super::rig::{DISPLACEMENT_OFFSET, HeldRig, RIG, SKEW, is_rig_parameter};
 use super::varied::{Prior, Varied};
 use super::{CalibrationError, plausible};
 use dashpot_files::damper::Keyed;
 
-/// What a user asks for.
+/// A user's request: parameters to vary, priors and rig parameters to hold.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// Numbers to vary, with bounds where the user has some. The rig's numbers vary with or without being named.
+    /// Parameters to vary, with optional bounds. Rig parameters vary whether or not they are listed.
     pub vary: Vec<(String, Option<[f64; 2]>)>,
-    /// What is known of numbers before.
+    /// Priors by key.
     pub priors: Vec<(String, Prior)>,
-    /// Numbers of the rig that are held, at zero where no value is given.
+    /// Rig parameters to hold, by default at zero.
     pub hold: Vec<(String, Option<f64>)>,
-    /// Leave out the priors that hold for every damper.
+    /// True to ignore the default priors.
     pub only_own_priors: bool,
 }
 
 impl Request {
-    /// Checks what can be checked before a recording is read.
+    /// Checks everything that can be checked before a recording is read.
     ///
     /// # Errors
-    /// As [`Request::varied`].
+    /// Same errors as [`Request::varied`].
     pub fn check(&self, damper: &Keyed) -> Result<(), CalibrationError> {
         self.check_names()?;
-        self.of_damper(damper).map(|_| ())
+        self.damper_parameters(damper).map(|_| ())
     }
 
-    /// The numbers that vary in a calibration of `damper` from `loops`, and the values of the rig's numbers that do not.
+    /// Returns the parameters that vary for `damper` and `loops`, and the values of the other rig parameters.
     ///
     /// # Errors
-    /// A number that does not exist or that forces do not determine, one that is named twice, bounds that are not in order, a prior of a
-    /// number that does not vary, or a number of the rig without a recorded loop.
+    /// A parameter that does not exist, cannot be calibrated or is given twice; bounds that are not in order; a prior
+    /// of a parameter that does not vary; or a rig parameter without recorded loops.
     pub fn varied(
         &self,
         damper: &Keyed,
         loops: &[LoopTest],
     ) -> Result<(Vec<Varied>, HeldRig), CalibrationError> {
         self.check_names()?;
-        let mut varied = self.of_damper(damper)?;
+        let mut varied = self.damper_parameters(damper)?;
         let mut rig = HeldRig::default();
         for (key, value) in &self.hold {
             let held = if key == SKEW {
@@ -59,20 +59,21 @@ impl Request {
                 }
                 continue;
             }
-            // The rig's numbers alone are no calibration of a damper.
-            if varied.iter().all(Varied::is_of_rig) || self.hold.iter().any(|(held, _)| held == key)
+            // Rig parameters alone do not make a calibration.
+            if varied.iter().all(Varied::is_rig_parameter)
+                || self.hold.iter().any(|(held, _)| held == key)
             {
                 continue;
             }
             let bounds = named.and_then(|(_, bounds)| *bounds);
-            varied.push(Varied::of_rig(key, loops, bounds, self.prior(key))?);
+            varied.push(Varied::rig(key, loops, bounds, self.prior(key))?);
         }
         Ok((varied, rig))
     }
 
-    /// The damper's numbers.
-    fn of_damper(&self, damper: &Keyed) -> Result<Vec<Varied>, CalibrationError> {
-        let named = self.vary.iter().filter(|(key, _)| !is_of_rig(key));
+    /// Returns the damper parameters that vary.
+    fn damper_parameters(&self, damper: &Keyed) -> Result<Vec<Varied>, CalibrationError> {
+        let named = self.vary.iter().filter(|(key, _)| !is_rig_parameter(key));
         let varied = named.map(|(key, bounds)| {
             let prior = self.prior(key);
             let mut varied = Varied::new(damper, key, *bounds, prior)?;
@@ -85,18 +86,18 @@ impl Request {
     }
 
     fn prior(&self, key: &str) -> Option<Prior> {
-        let mut given = self.priors.iter().filter(|(of, _)| of == key);
+        let mut given = self.priors.iter().filter(|(name, _)| name == key);
         given.next().map(|(_, prior)| *prior)
     }
 
     fn check_names(&self) -> Result<(), CalibrationError> {
-        let of = |named: &[&str]| -> Result<(), CalibrationError> {
-            for (number, key) in named.iter().enumerate() {
+        let check_unique = |named: &[&str]| -> Result<(), CalibrationError> {
+            for (parameter, key) in named.iter().enumerate() {
                 let key = (*key).to_owned();
                 if key == DISPLACEMENT_OFFSET {
                     return Err(CalibrationError::NoForceDepends { key });
                 }
-                if named[..number].contains(&key.as_str()) {
+                if named[..parameter].contains(&key.as_str()) {
                     return Err(CalibrationError::Twice { key });
                 }
             }
@@ -112,25 +113,25 @@ impl Request {
         ];
         [&vary, &priors, &hold]
             .into_iter()
-            .try_for_each(|named| of(named))?;
+            .try_for_each(|named| check_unique(named))?;
         for (key, value) in &self.hold {
-            if !is_of_rig(key) {
+            if !is_rig_parameter(key) {
                 return Err(CalibrationError::NotOfRig { key: key.clone() });
             }
             if vary.contains(&key.as_str()) || priors.contains(&key.as_str()) {
                 return Err(CalibrationError::HeldAndVaried { key: key.clone() });
             }
-            let most = super::rig::largest(key);
-            if let Some(value) = value.filter(|value| !(-most..=most).contains(value)) {
+            let max = super::rig::max_magnitude(key);
+            if let Some(value) = value.filter(|value| !(-max..=max).contains(value)) {
                 let key = key.clone();
-                return Err(CalibrationError::Held { key, value, most });
+                return Err(CalibrationError::Held { key, value, max });
             }
         }
         for key in priors {
-            if !vary.contains(&key) && !is_of_rig(key) {
+            if !vary.contains(&key) && !is_rig_parameter(key) {
                 let is_known = key
                     .rsplit_once('.')
-                    .is_some_and(|(table, last)| plausible::of(table, last).is_some());
+                    .is_some_and(|(table, last)| plausible::plausible(table, last).is_some());
                 let key = key.to_owned();
                 return Err(CalibrationError::PriorOfHeld { key, is_known });
             }

@@ -1,71 +1,82 @@
-//! The numbers of the rig: what the sensors do to a recording. They are found beside those of the damper, and no damper file has them.
+//! Rig parameters: skew and offset of the sensors. They are calibrated together with the damper and are not part of a
+//! damper file.
 
 use serde::Serialize;
 
 use super::CalibrationError;
 use super::loops::LoopTest;
 
-/// Key of the time by which the force is recorded later than the displacement (s).
+/// Key of the delay of the recorded force relative to the displacement (s).
 pub const SKEW: &str = "sensor_skew_s";
 
-/// Key of what the force sensor shows at no force (N).
+/// Key of the reading of the force sensor at zero force (N).
 pub const FORCE_OFFSET: &str = "force_offset_n";
 
-/// Key of what the displacement sensor shows at the middle of the motion (m). No force of a damper depends on it, so it is reported for each
-/// test and never varied.
+/// Key of the reading of the displacement sensor at the middle of the motion (m).
+///
+/// No force of a damper depends on it, so it is reported for each test and never varied.
 pub const DISPLACEMENT_OFFSET: &str = "displacement_offset_m";
 
-/// The numbers of the rig that forces determine.
+/// Rig parameters that forces determine.
 pub const RIG: [&str; 2] = [SKEW, FORCE_OFFSET];
 
 /// Default bounds of the skew (s).
 const SKEW_BOUNDS_S: [f64; 2] = [-0.02, 0.02];
 
-/// Default bounds of the force offset, as a share of half of the way from the least to the greatest force.
+/// Default bounds of the force offset, as a share of half the range of the force.
 const OFFSET_SHARE: f64 = 0.5;
 
-/// The largest skew (s) and force offset (N) that bounds may include.
-const LARGEST: [f64; 2] = [1.0, 1e7];
+/// Maximum magnitude of the skew (s).
+const MAX_SKEW_S: f64 = 1.0;
 
-/// Values of the rig's numbers where they are not varied.
+/// Maximum magnitude of the force offset (N).
+const MAX_FORCE_OFFSET_N: f64 = 1e7;
+
+/// Values of the rig parameters that are not varied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct HeldRig {
-    /// Time by which the force is recorded later (s).
+    /// Delay of the recorded force relative to the displacement (s).
     pub skew_s: f64,
-    /// What the force sensor shows at no force (N).
+    /// Reading of the force sensor at zero force (N).
     pub force_offset_n: f64,
 }
 
-/// Whether the number at `key` belongs to the rig.
-pub fn is_of_rig(key: &str) -> bool {
+/// True if `key` is a rig parameter.
+pub fn is_rig_parameter(key: &str) -> bool {
     RIG.contains(&key)
 }
 
-/// The default bounds of the rig's number at `key` for these loops.
+/// Returns the default bounds of a rig parameter for these loops.
 pub(super) fn default_bounds(key: &str, loops: &[LoopTest]) -> [f64; 2] {
     if key == SKEW {
         return SKEW_BOUNDS_S;
     }
     let half_ranges = loops.iter().map(|test| test.force_half_range_n);
-    let most = OFFSET_SHARE * half_ranges.fold(0.0, f64::max);
-    [-most, most]
+    let max = OFFSET_SHARE * half_ranges.fold(0.0, f64::max);
+    [-max, max]
 }
 
-/// The largest magnitude that the rig's number at `key` may have.
-pub(super) fn largest(key: &str) -> f64 {
-    LARGEST[usize::from(key == FORCE_OFFSET)]
+/// Returns the maximum magnitude of a rig parameter.
+pub(super) fn max_magnitude(key: &str) -> f64 {
+    if key == FORCE_OFFSET {
+        MAX_FORCE_OFFSET_N
+    } else {
+        MAX_SKEW_S
+    }
 }
 
+/// Checks the bounds of a rig parameter; `default` are its default bounds.
+///
 /// # Errors
-/// Bounds of the rig's number at `key` that are not in order or go beyond what a rig can have.
+/// The bounds are not in order or out of range.
 pub(super) fn check_bounds(
     key: &str,
     bounds: [f64; 2],
     default: [f64; 2],
 ) -> Result<(), CalibrationError> {
-    let [least, greatest] = bounds;
-    let most = largest(key);
-    if least < greatest && -most <= least && greatest <= most {
+    let [lower, upper] = bounds;
+    let max = max_magnitude(key);
+    if lower < upper && -max <= lower && upper <= max {
         return Ok(());
     }
     Err(CalibrationError::Bounds {

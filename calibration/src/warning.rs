@@ -1,91 +1,95 @@
-//! What a result does not say by its numbers alone.
+//! Warnings about a result.
 
 use serde::Serialize;
 
 use super::influence::Influence;
 use super::loops::LoopTest;
 use super::varied::Varied;
-use super::{CLOSE, Determination, LoopFit, Profile};
+use super::{Determination, HIGH_CORRELATION, LoopFit, Profile};
 
-/// A model that misses more than so many times the noise of the force lacks something.
-const MISSES: f64 = 2.0;
+/// Residual over noise above which the model lacks an effect of the test.
+const MAX_RESIDUAL_OVER_NOISE: f64 = 2.0;
 
-/// Noise below this part of the peak force is no measure of what a model may miss.
-const LEAST_NOISE: f64 = 0.01;
+/// Minimum noise for this comparison, as a share of the peak force.
+const MIN_NOISE: f64 = 0.01;
 
-/// Standard errors and part of the peak force by which the mean of what is missed must differ from zero.
-const OFF_ZERO: (f64, f64) = (4.0, 0.005);
+/// Minimum mean residual for a zero that differs, in standard errors.
+const ZERO_STANDARD_ERRORS: f64 = 4.0;
 
-/// Fall of the sum of squares that chance hardly gives: of one degree of freedom, twenty times in a million, the sum being inflated by no model error.
-const FITS_BETTER: f64 = 20.0;
+/// Minimum mean residual for a zero that differs, as a share of the peak force.
+const ZERO_SHARE_OF_PEAK: f64 = 0.005;
 
-/// Share of the way between its bounds within which a number is at one.
+/// Significant decrease of the sum of squares: with one degree of freedom and no model error, chance causes it with a
+/// probability below 1e-5.
+const SIGNIFICANT_DECREASE: f64 = 20.0;
+
+/// Distance from a bound, as a share of the range, within which a parameter counts as at the bound.
 pub(super) const AT_BOUND: f64 = 5e-3;
 
-/// Something that the user of a result must know.
+/// A warning about a result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
-// Exhaustive: each front end has its own words for every one.
+// Exhaustive, because each front end has its own words for every variant.
 pub enum Warning {
-    /// The model lacks something that a test has.
+    /// The model lacks an effect that a test shows.
     Missed {
-        /// The test.
+        /// Name of the test.
         test: String,
-        /// Root mean square of what the model misses (N).
+        /// Root mean square residual (N).
         missed_n: f64,
-        /// Noise of the force (N).
+        /// Standard deviation of the force noise (N).
         noise_n: f64,
     },
-    /// The zero of the force in a test differs from that in the others.
+    /// The force zero of one test differs from that of the others.
     ZeroDiffers {
-        /// The test.
+        /// Name of the test.
         test: String,
-        /// Mean of what the model misses (N).
+        /// Mean residual (N).
         mean_n: f64,
     },
-    /// A number is at a bound that the user or the damper sets.
+    /// A parameter is at a bound that the user chose or that is a physical limit.
     AtBound {
-        /// The number.
+        /// Key of the parameter.
         key: String,
-        /// The bound.
+        /// Value of the bound.
         bound: f64,
-        /// Whether no damper goes beyond it.
+        /// True for a physical limit.
         is_physical: bool,
     },
-    /// Two numbers that the tests hardly tell apart.
+    /// The tests hardly distinguish two parameters.
     Close {
-        /// One.
+        /// Key of one parameter.
         a: String,
-        /// The other.
+        /// Key of the other parameter.
         b: String,
-        /// Their correlation.
+        /// Correlation of the two.
         correlation: f64,
     },
-    /// An assumed number decides a found one more than the tests' noise does.
+    /// The uncertainty of an assumed parameter affects a calibrated one more than the noise of the tests does.
     Assumed {
-        /// The found number.
+        /// Key of the calibrated parameter.
         key: String,
-        /// The assumed one.
+        /// Key of the assumed parameter.
         assumed: String,
-        /// Its value.
+        /// Value of the assumed parameter.
         value: f64,
-        /// Half of its interval of 95 %.
+        /// Half-width of its 95 % interval.
         uncertainty: f64,
-        /// How far the found number moves with it (%).
+        /// Shift of the calibrated parameter over the interval (%).
         shift_percent: f64,
     },
-    /// The recordings fit better with another value of an assumed number.
+    /// The recordings fit better with a different value of an assumed parameter.
     FitsBetter {
-        /// The assumed number.
+        /// Key of the assumed parameter.
         assumed: String,
-        /// Its value.
+        /// Assumed value.
         value: f64,
-        /// The value at which the recordings fit better.
+        /// Value at which the recordings fit better.
         better: f64,
     },
 }
 
-/// What a calibration found, as far as warnings ask for it.
+/// Parts of a result that warnings depend on.
 pub(super) struct Found<'a> {
     pub(super) varied: &'a [Varied],
     pub(super) values: &'a [f64],
@@ -115,10 +119,10 @@ impl Found<'_> {
     }
 
     fn at_bounds(&self) -> Vec<Warning> {
-        let numbers = self.varied.iter().zip(self.values).zip(self.profiles);
-        let at = numbers.filter_map(|((varied, value), profile)| {
+        let parameters = self.varied.iter().zip(self.values).zip(self.profiles);
+        let at = parameters.filter_map(|((varied, value), profile)| {
             let bound = varied.bound_at(*value, AT_BOUND)?;
-            profile.is_open(bound.is_least).then(|| Warning::AtBound {
+            profile.is_open(bound.is_lower).then(|| Warning::AtBound {
                 key: varied.key.clone(),
                 bound: bound.value,
                 is_physical: bound.is_physical,
@@ -129,10 +133,10 @@ impl Found<'_> {
 
     fn close(&self) -> Vec<Warning> {
         let mut close = Vec::new();
-        for (number, row) in self.determination.correlation.iter().enumerate() {
+        for (parameter, row) in self.determination.correlation.iter().enumerate() {
             for (other, &correlation) in row.iter().enumerate() {
-                let [a, b] = [number, other].map(|number| &self.varied[number].key);
-                if a < b && correlation.abs() > CLOSE {
+                let [a, b] = [parameter, other].map(|parameter| &self.varied[parameter].key);
+                if a < b && correlation.abs() > HIGH_CORRELATION {
                     let [a, b] = [a, b].map(Clone::clone);
                     close.push(Warning::Close { a, b, correlation });
                 }
@@ -144,10 +148,12 @@ impl Found<'_> {
     fn assumed(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for influence in self.influences {
-            for (number, varied) in self.varied.iter().enumerate() {
-                let (shift, value) = (influence.shift(number), self.values[number]);
-                let noise = self.profiles[number].half_width().unwrap_or(f64::INFINITY);
-                if shift > noise && !varied.is_of_rig() {
+            for (parameter, varied) in self.varied.iter().enumerate() {
+                let (shift, value) = (influence.shift(parameter), self.values[parameter]);
+                let noise = self.profiles[parameter]
+                    .half_width()
+                    .unwrap_or(f64::INFINITY);
+                if shift > noise && !varied.is_rig_parameter() {
                     warnings.push(Warning::Assumed {
                         key: varied.key.clone(),
                         assumed: influence.key.clone(),
@@ -158,9 +164,9 @@ impl Found<'_> {
                 }
             }
             let [low, high] = influence.chi_square;
-            // A model that lacks something takes any number that makes up for it.
+            // If the model lacks an effect, a wrong assumed value may compensate for it.
             let mut tests = self.loops.iter().zip(self.fits);
-            if low.min(high) < -FITS_BETTER && !tests.any(|(test, fit)| fit.misses(test)) {
+            if low.min(high) < -SIGNIFICANT_DECREASE && !tests.any(|(test, fit)| fit.misses(test)) {
                 let by = if low < high {
                     -influence.uncertainty
                 } else {
@@ -178,22 +184,24 @@ impl Found<'_> {
 }
 
 impl LoopFit {
-    /// Whether the model lacks something that the test has.
+    /// True if the model lacks an effect that the test shows.
     pub fn misses(&self, test: &LoopTest) -> bool {
-        self.missed_after_n > MISSES * test.force_noise_n.max(LEAST_NOISE * test.peak_force_n)
+        self.missed_after_n
+            > MAX_RESIDUAL_OVER_NOISE * test.force_noise_n.max(MIN_NOISE * test.peak_force_n)
     }
 
     fn zero_differs(&self, test: &LoopTest) -> Option<Warning> {
         let measured = test.counted_forces_n();
         let count = measured.len().max(1) as f64;
-        let missed = measured
+        let residuals = measured
             .iter()
             .zip(&self.after_n)
             .map(|(force, model)| force - model);
-        let mean_n = missed.sum::<f64>() / count;
+        let mean_n = residuals.sum::<f64>() / count;
         let error_n = self.missed_after_n * (self.correlation_samples / count).sqrt();
-        let (errors, part) = OFF_ZERO;
-        let differs = mean_n.abs() > (errors * error_n).max(part * test.peak_force_n);
+        let threshold_n =
+            (ZERO_STANDARD_ERRORS * error_n).max(ZERO_SHARE_OF_PEAK * test.peak_force_n);
+        let differs = mean_n.abs() > threshold_n;
         differs.then(|| Warning::ZeroDiffers {
             test: test.name.clone(),
             mean_n,

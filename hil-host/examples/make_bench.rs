@@ -76,7 +76,7 @@ fn recorded(start_s: f64, x: &[f64], changes: &[&str], seed: u64) -> Result<Rows
     let set = TRUTH.iter().chain(changes).map(|set| (*set).to_owned());
     let damper = damper::load("in-service", &set.collect::<Vec<_>>())?;
     let forces = reference_forces(&damper, INTERVAL_S, x)?;
-    let (x, forces) = Noise::of_rms(NOISE, x, &forces).on(x, &forces, seed);
+    let (x, forces) = Noise::from_rms(NOISE, x, &forces).add_to(x, &forces, seed);
     let late = x.iter().skip(1).zip(&forces);
     let rows = late.zip(1..).map(|((x, force), sample)| {
         let time_s = start_s + f64::from(sample) * INTERVAL_S;

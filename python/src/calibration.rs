@@ -93,7 +93,7 @@ impl Calibrated {
     /// Standard deviations of the fitted parameters by linear theory, in their units.
     #[getter]
     fn standard_deviations<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
-        let numbers = self.found.determination.numbers.iter();
+        let numbers = self.found.determination.parameters.iter();
         self.by_key(py, numbers.map(|number| number.standard_deviation))
     }
 
@@ -219,7 +219,7 @@ pub fn calibrate(
             density_uncertainty_kg_per_m3,
             [0.0, 1e3],
         )?,
-        most_missed: 0.01 * within("max_misfit_percent", max_misfit_percent, [0.1, 1e4])?,
+        max_misfit: 0.01 * within("max_misfit_percent", max_misfit_percent, [0.1, 1e4])?,
     };
     let tests: Vec<Recorded> = tests
         .unwrap_or_default()
@@ -231,7 +231,7 @@ pub fn calibrate(
     let work = |is_unwanted: &(dyn Fn() -> bool + Sync)| {
         let mut loops = Vec::new();
         for test in &tests {
-            loops.extend(LoopTest::of(test, step_s)?);
+            loops.extend(LoopTest::from_recording(test, step_s)?);
         }
         // Without loops there is no skew to hold.
         if loops.is_empty() && !skew {
@@ -248,7 +248,7 @@ pub fn calibrate(
             rig,
             assumed,
         };
-        let found = calibration.run_unless(&|_| {}, is_unwanted)?;
+        let found = calibration.run_cancellable(&|_| {}, is_unwanted)?;
         Ok::<_, Refusal>((calibration, found))
     };
     let (calibration, found) = py.detach(|| run_in_thread(work))??;

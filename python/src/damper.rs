@@ -3,7 +3,7 @@
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
 use dashpot_files::damper::{self, Keyed};
-use dashpot_testbench::verification::reference_forces_unless;
+use dashpot_testbench::verification::reference_forces_cancellable;
 use numpy::{Ix1, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyList};
@@ -277,7 +277,7 @@ impl Damper {
         let displacements = motion.as_slice().map_err(PyErr::from)?;
         let parameters = &self.parameters;
         let solve = |is_unwanted: &dyn Fn() -> bool| {
-            reference_forces_unless(parameters, step_s, displacements, is_unwanted)
+            reference_forces_cancellable(parameters, step_s, displacements, is_unwanted)
         };
         Ok(PyArray1::from_vec(
             py,

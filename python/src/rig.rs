@@ -35,7 +35,7 @@ impl Cycle {
             frequency_hz,
         };
         let run = |is_unwanted: &dyn Fn() -> bool| {
-            bench_test::run_unless(parameters, motion, step_s, is_unwanted)
+            bench_test::run_cancellable(parameters, motion, step_s, is_unwanted)
         };
         Ok(Self(py.detach(|| run_cancellable(run))??))
     }

@@ -130,13 +130,13 @@ class Calibration(Test):
 
     def test_wrong_requests_are_refused(self):
         test, calibrate = self.tests[0], dashpot.calibrate
-        self.assert_refused("no number to vary", calibrate, self.start, [test], [])
+        self.assert_refused("no parameter to vary", calibrate, self.start, [test], [])
         self.assert_refused("no test", calibrate, self.start, [], [DAMPING])
         self.assert_refused(f"{DAMPING}: varied twice", calibrate, self.start, [test], [DAMPING, DAMPING])
         self.assert_refused(f"prior {STIFFNESS}: not varied; allowed: a number that is varied", calibrate, self.start,
                             [test], [DAMPING], priors={STIFFNESS: (1, 1)})
-        self.assert_refused("hold mount.clearance_m: only numbers of the rig are held so (sensor_skew_s, force_offset_n); one of the damper is "
-                            'held unless it is varied; leave "mount.clearance_m" out of hold', calibrate, self.start, [test], [DAMPING],
+        self.assert_refused("hold mount.clearance_m: only rig parameters can be held (sensor_skew_s, force_offset_n); a damper "
+                            'parameter keeps its value unless it is varied; leave "mount.clearance_m" out of hold', calibrate, self.start, [test], [DAMPING],
                             hold={"mount.clearance_m": None})
         self.assert_refused("temperature_uncertainty_k: -1, allowed: 0 to 1000", calibrate, self.start, [test], [DAMPING],
                             temperature_uncertainty_k=-1)
@@ -165,10 +165,10 @@ class Calibration(Test):
 
         nan, back = x.copy(), time_s.copy()
         nan[7], back[9] = math.nan, back[8]
-        self.assert_refused("test 0: 3000 times, 2999 displacements and 3000 forces, allowed: as many of each", calibrate,
+        self.assert_refused("test 0: 3000 times, 2999 displacements and 3000 forces, allowed: the same number of each", calibrate,
                             time_s, x[:-1], force_n)
         self.assert_refused("test 0: sample 7: allowed: finite numbers", calibrate, time_s, nan, force_n)
-        self.assert_refused("test 0: sample 9: time 0.008, allowed: times that rise", calibrate, back, x, force_n)
+        self.assert_refused("test 0: sample 9: time 0.008, allowed: rising times", calibrate, back, x, force_n)
         self.assert_refused("test 0: too short, allowed: 100 samples or more without a gap", calibrate, time_s[:5], x[:5],
                             force_n[:5])
         self.assert_refused("test 0: too short, allowed: 100 samples or more without a gap", calibrate,

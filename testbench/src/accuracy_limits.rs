@@ -1,34 +1,34 @@
-//! The accuracy that the shipped dampers keep over the shipped motions at 1 kHz and at 10 kHz: docs/numerics.md, "What
-//! the accuracy promise covers". What is promised for any other damper is in [`super::step_errors`].
+//! Accuracy of the shipped dampers over the shipped motions at 1 kHz and at 10 kHz; see docs/numerics.md, "What the
+//! accuracy promise covers". For any other damper, see [`super::step_errors`].
 
 use dashpot_core::DamperParameters;
 use dashpot_reference::deviation::root_mean_square;
 
 use dashpot_files::Scalar;
 
-/// Largest NRMSE of the fixed step for shipped dampers and motions with a relaxation time of at least so much.
+/// Maximum NRMSE of the fixed step for shipped dampers and motions above a minimum relaxation time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AccuracyLimits {
-    /// Least relaxation time (s), see [`relaxation_time_s`].
-    pub least_relaxation_time_s: f64,
-    /// Largest NRMSE at 1 kHz, in either scalar (1).
+    /// Minimum relaxation time (s), see [`relaxation_time_s`].
+    pub min_relaxation_time_s: f64,
+    /// Maximum NRMSE at 1 kHz, in either scalar type (1).
     pub nrmse_1_khz: f64,
-    /// Largest NRMSE at 10 kHz in `f64` (1).
+    /// Maximum NRMSE at 10 kHz in `f64` (1).
     pub nrmse_10_khz_f64: f64,
-    /// Largest NRMSE at 10 kHz in `f32` (1).
+    /// Maximum NRMSE at 10 kHz in `f32` (1).
     pub nrmse_10_khz_f32: f64,
 }
 
-/// The limits, the longest relaxation time first; there is none below the last.
+/// Limits in order of falling relaxation time; nothing is promised below the last one.
 pub const ACCURACY_LIMITS: [AccuracyLimits; 2] = [
     AccuracyLimits {
-        least_relaxation_time_s: 3e-3,
+        min_relaxation_time_s: 3e-3,
         nrmse_1_khz: 1e-3,
         nrmse_10_khz_f64: 3e-5,
         nrmse_10_khz_f32: 6e-5,
     },
     AccuracyLimits {
-        least_relaxation_time_s: 1.5e-3,
+        min_relaxation_time_s: 1.5e-3,
         nrmse_1_khz: 3e-3,
         nrmse_10_khz_f64: 3e-5,
         nrmse_10_khz_f32: 6e-5,
@@ -36,15 +36,15 @@ pub const ACCURACY_LIMITS: [AccuracyLimits; 2] = [
 ];
 
 impl AccuracyLimits {
-    /// The limits for a relaxation time (s); `None` where there are none.
-    pub fn of(relaxation_time_s: f64) -> Option<&'static Self> {
+    /// Returns the limits for a relaxation time (s); `None` if it is below all limits.
+    pub fn for_relaxation_time(relaxation_time_s: f64) -> Option<&'static Self> {
         ACCURACY_LIMITS
             .iter()
-            .find(|promise| relaxation_time_s >= promise.least_relaxation_time_s)
+            .find(|promise| relaxation_time_s >= promise.min_relaxation_time_s)
     }
 
-    /// Largest NRMSE with a step of `step_s` (s) in `scalar`: that at 10 kHz up to 100 us, that at 1 kHz up to 1 ms,
-    /// `None` above.
+    /// Returns the maximum NRMSE for a step of `step_s` (s) in `scalar`: the 10 kHz limit for steps up to 100 us, the
+    /// 1 kHz limit up to 1 ms, `None` above.
     ///
     /// ```
     /// use dashpot_files::Scalar;
@@ -54,8 +54,8 @@ impl AccuracyLimits {
     /// assert_eq!(ACCURACY_LIMITS[0].nrmse(2e-3, Scalar::F32), None);
     /// ```
     pub fn nrmse(&self, step_s: f64, scalar: Scalar) -> Option<f64> {
-        // 1/10000 s may be written in several ways.
-        let is_up_to = |longest_s: f64| step_s <= longest_s * (1.0 + 1e-9);
+        // The slack absorbs the rounding of a step such as 1/10000 s.
+        let is_up_to = |max_s: f64| step_s <= max_s * (1.0 + 1e-9);
         match scalar {
             Scalar::F64 if is_up_to(1e-4) => Some(self.nrmse_10_khz_f64),
             Scalar::F32 if is_up_to(1e-4) => Some(self.nrmse_10_khz_f32),
@@ -64,8 +64,10 @@ impl AccuracyLimits {
     }
 }
 
-/// Relaxation time of a damper on a motion (s): rms force over rms velocity and stiffness of the springs in
-/// series, `F/(v Ke)`. The motion has `displacements_m` (m) at ticks of `step_s` (s), and `forces_n` (N) there.
+/// Returns the relaxation time of a damper on a motion (s), `F/(v Ke)`: rms force F over rms velocity v and the
+/// stiffness Ke of the mounts in series.
+///
+/// `displacements_m` (m) and `forces_n` (N) are sampled every `step_s` (s).
 pub fn relaxation_time_s(
     parameters: &DamperParameters,
     step_s: f64,

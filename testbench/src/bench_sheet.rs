@@ -1,4 +1,4 @@
-//! Bench tests of a sheet: each a periodic cycle at its temperature, and what became of its limits.
+//! Runs the tests of a bench sheet: one periodic cycle per test, at the temperature of the test.
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::Element;
@@ -8,22 +8,22 @@ use super::response::Response;
 use dashpot_files::damper::Keyed;
 use dashpot_files::sheet::{Index, SheetFileError, SheetParameters, Test};
 
-/// The key of the temperature of the oil.
+/// Key of the oil temperature in a damper file.
 const TEMPERATURE: &str = "oil.temperature_c";
 
-/// A test and its periodic cycle.
+/// A bench-sheet test and its result.
 #[derive(Clone, Debug)]
 pub struct Tested<'a> {
     /// The test.
     pub test: &'a Test,
-    /// Temperature of the oil (degC), where the damper has oil.
+    /// Oil temperature (degC); `None` for a damper without oil.
     pub temperature_c: Option<f64>,
-    /// The cycle.
+    /// The periodic cycle.
     pub cycle: Cycle,
 }
 
 impl Tested<'_> {
-    /// The value of each index, in the order of [`Index::ALL`].
+    /// Returns the value of each index, in the order of [`Index::ALL`].
     pub fn values(&self) -> impl Iterator<Item = (Index, Option<f64>)> {
         Index::ALL
             .into_iter()
@@ -31,7 +31,7 @@ impl Tested<'_> {
     }
 }
 
-/// Value of an index for a cycle, in the unit of the index's key; `None` where the cycle does not define it.
+/// Returns the value of an index in the unit of its key; `None` if undefined, such as the asymmetry of zero force.
 pub fn index_value(cycle: &Cycle, index: Index) -> Option<f64> {
     let indices = cycle.indices();
     match index {
@@ -42,16 +42,18 @@ pub fn index_value(cycle: &Cycle, index: Index) -> Option<f64> {
         Index::AsymmetryRate => indices.asymmetry_rate,
         Index::EnergyPerCycleJ => Some(indices.energy_per_cycle_j),
         Index::DampingCoefficientNSPerM => Some(indices.damping_coefficient_n_s_per_m),
-        Index::DynamicStiffnessNPerM => Some(Response::of(cycle).stiffness_n_per_m()),
-        Index::LossAngleDeg => Response::of(cycle).loss_angle_deg(),
+        Index::DynamicStiffnessNPerM => Some(Response::from_cycle(cycle).stiffness_n_per_m()),
+        Index::LossAngleDeg => Response::from_cycle(cycle).loss_angle_deg(),
     }
 }
 
-/// Runs every test of a sheet with steps of at most `step_s` (s), once all of them can be: `name` stands for the damper in errors.
+/// Runs every test of a sheet with steps of at most `step_s` (s), after checking all of them.
+///
+/// `name` is the name of the damper in error messages.
 ///
 /// # Errors
-/// A temperature of a damper without oil or out of its range, a motion faster than the damper's limit or with too few steps in a cycle, a force that
-/// does not become periodic; with the line of the test.
+/// Each error gives the line of the test: a temperature for a damper without oil or out of range, a motion beyond the
+/// damper's limits, too few steps per cycle, or a force that does not become periodic.
 pub fn run<'a>(
     sheet: &'a SheetParameters,
     name: &str,

@@ -1,4 +1,4 @@
-//! Bench test: a harmonic motion until the force is periodic, and the indices of one periodic cycle.
+//! Bench test: repeats a harmonic motion until the force is periodic, and computes the indices of one cycle.
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -11,54 +11,54 @@ use dashpot_files::harmonic::Harmonic;
 
 use super::TestbenchError;
 
-/// The force is periodic when none differs from the cycle before by more than this fraction of the peak.
-const PERIODIC: f64 = 1e-9;
+/// The force counts as periodic when no sample changes from one cycle to the next by more than this fraction of the
+/// peak.
+const PERIODIC_TOLERANCE: f64 = 1e-9;
 
-/// A force that is not periodic after so many cycles will not become so.
-const MOST_CYCLES: usize = 200;
+/// Cycles after which a force that is still not periodic counts as never becoming so.
+const MAX_CYCLES: usize = 200;
 
-/// Ticks between two looks whether the cycle is still wanted.
-const TICKS_A_LOOK: usize = 1 << 16;
+/// Ticks between two checks for cancellation.
+const TICKS_PER_CHECK: usize = 1 << 16;
 
-/// Steps that a cycle may have.
+/// Allowed number of steps per cycle.
 pub const STEPS_PER_CYCLE: RangeInclusive<f64> = 20.0..=2e7;
 
 /// Indices of one periodic cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Indices {
-    /// Largest force in extension F_e (N).
+    /// Maximum force in extension F_e (N).
     pub max_extension_force_n: f64,
-    /// Largest force in compression F_c (N), as a magnitude.
+    /// Maximum force in compression F_c (N), as a magnitude.
     pub max_compression_force_n: f64,
-    /// `(F_e - F_c)/(F_e + F_c)` (1); `None` without force.
+    /// `(F_e - F_c)/(F_e + F_c)` (1); `None` if the force is zero.
     pub asymmetry_rate: Option<f64>,
-    /// Energy taken from the motion in the cycle, the integral of F dx (J).
+    /// Energy dissipated per cycle, the integral of F dx (J).
     pub energy_per_cycle_j: f64,
-    /// Mean of both largest forces over the peak velocity (N s/m).
+    /// Mean of F_e and F_c over the peak velocity (N s/m).
     pub damping_coefficient_n_s_per_m: f64,
 }
 
-/// One periodic cycle: displacement (m) and force (N) at each step.
+/// One periodic cycle, sampled at each step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cycle {
     /// The motion.
     pub motion: Harmonic,
-    /// Displacements (m), from the first step after zero.
+    /// Displacements (m); the first is one step after the displacement passes zero.
     pub displacements_m: Vec<f64>,
-    /// Forces (N) at them.
+    /// Forces (N) at these displacements.
     pub forces_n: Vec<f64>,
-    /// Step used (s): the requested one, shortened to a whole number of steps a cycle.
+    /// Step used (s): the requested step, shortened so that a cycle has a whole number of steps.
     pub step_s: f64,
-    /// Cycles run until the force was periodic.
+    /// Number of cycles until the force was periodic.
     pub cycles: usize,
 }
 
-/// Runs a damper in double precision through `motion` with steps of at most `step_s` (s) until the
-/// force is periodic.
+/// Runs a damper in double precision through `motion` with steps of at most `step_s` (s) until the force is periodic.
 ///
 /// # Errors
-/// A motion or step outside its range or faster than the damper's limit; a damper that does not build;
-/// a force that does not become periodic.
+/// A motion or step out of range, a motion beyond the damper's limits, a damper that cannot be built, or a force that
+/// does not become periodic.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -66,7 +66,7 @@ pub struct Cycle {
 /// let damper = damper::load("reduced-vertical", &["mount.clearance_m=0.0".into()])?;
 /// let motion = dashpot_files::harmonic::Harmonic { amplitude_m: 1e-3, frequency_hz: 1.0 };
 /// let indices = bench_test::run_until_periodic(&damper, motion, 1e-4)?.indices();
-/// // A spring K behind a damper C: C w A/sqrt(1 + (w C/K)^2).
+/// // Spring K in series with dashpot C: C w A/sqrt(1 + (w C/K)^2).
 /// assert!((indices.max_extension_force_n / 750.65 - 1.0).abs() < 1e-4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -75,20 +75,20 @@ pub fn run_until_periodic(
     motion: Harmonic,
     step_s: f64,
 ) -> Result<Cycle, TestbenchError> {
-    run_unless(parameters, motion, step_s, &|| false)
+    run_cancellable(parameters, motion, step_s, &|| false)
 }
 
-/// As [`run_until_periodic`], until it is unwanted.
+/// Same as [`run_until_periodic`], but stops when `is_cancelled` returns true.
 ///
 /// # Errors
-/// As [`run_until_periodic`]; [`TestbenchError::Unwanted`].
-pub fn run_unless(
+/// Same errors as [`run_until_periodic`], and [`TestbenchError::Cancelled`].
+pub fn run_cancellable(
     parameters: &CheckedParameters,
     motion: Harmonic,
     step_s: f64,
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Cycle, TestbenchError> {
-    let ticks = ticks_of(motion, step_s)?;
+    let ticks = steps_per_cycle(motion, step_s)?;
     let period = 1.0 / motion.frequency_hz;
     let step_s = period / ticks as f64;
     let damper = parameters.build::<f64>(step_s)?;
@@ -98,11 +98,11 @@ pub fn run_unless(
         .collect();
     let mut state = damper.at_rest(0.0);
     let mut forces = vec![0.0; ticks];
-    for cycle in 1..=MOST_CYCLES {
+    for cycle in 1..=MAX_CYCLES {
         let (mut peak, mut change) = (0.0_f64, 0.0_f64);
         for (tick, (force, &x)) in forces.iter_mut().zip(&displacements).enumerate() {
-            if tick.is_multiple_of(TICKS_A_LOOK) && is_unwanted() {
-                return Err(TestbenchError::Unwanted);
+            if tick.is_multiple_of(TICKS_PER_CHECK) && is_cancelled() {
+                return Err(TestbenchError::Cancelled);
             }
             let before = *force;
             *force = damper.step(&mut state, x);
@@ -115,7 +115,7 @@ pub fn run_unless(
                 limit_m_per_s: parameters.limits.rate_m_per_s,
             });
         }
-        if cycle > 1 && change <= PERIODIC * peak {
+        if cycle > 1 && change <= PERIODIC_TOLERANCE * peak {
             return Ok(Cycle {
                 motion,
                 displacements_m: displacements,
@@ -126,18 +126,18 @@ pub fn run_unless(
         }
     }
     Err(TestbenchError::NotPeriodic {
-        cycles: MOST_CYCLES,
+        cycles: MAX_CYCLES,
         motion,
     })
 }
 
-/// What a damper latches at a displacement that it does not take as it comes.
+/// Status bits that a damper sets when it does not follow the given displacement exactly.
 pub(super) const NOT_FOLLOWED: Status = Status::INPUT_LIMITED
     .union(Status::INPUT_HELD)
     .union(Status::RESTARTED);
 
-/// Steps of a cycle.
-fn ticks_of(motion: Harmonic, step_s: f64) -> Result<usize, TestbenchError> {
+/// Returns the number of steps per cycle.
+fn steps_per_cycle(motion: Harmonic, step_s: f64) -> Result<usize, TestbenchError> {
     motion.check()?;
     if !STEP_RANGE_S.contains(&step_s) {
         return Err(TestbenchError::Step { step_s });
@@ -152,16 +152,16 @@ fn ticks_of(motion: Harmonic, step_s: f64) -> Result<usize, TestbenchError> {
     Ok(ticks as usize)
 }
 
-/// Whether [`run_until_periodic`] can begin, without its run.
+/// Checks the arguments of [`run_until_periodic`] without running it.
 ///
 /// # Errors
-/// As [`run_until_periodic`], but for a force that does not become periodic.
+/// Same errors as [`run_until_periodic`], except for a force that does not become periodic.
 pub fn check_steps(
     parameters: &CheckedParameters,
     motion: Harmonic,
     step_s: f64,
 ) -> Result<(), TestbenchError> {
-    let ticks = ticks_of(motion, step_s)?;
+    let ticks = steps_per_cycle(motion, step_s)?;
     let velocity_m_per_s = motion.peak_velocity_m_per_s();
     let limit_m_per_s = parameters.limits.rate_m_per_s;
     if velocity_m_per_s > limit_m_per_s {
@@ -175,7 +175,7 @@ pub fn check_steps(
     Ok(())
 }
 
-/// Refuses a motion out of the damper's range; one that is too fast too is refused for that.
+/// Rejects an amplitude beyond the damper's range, unless the motion is also too fast: that has an error of its own.
 fn check_range(parameters: &CheckedParameters, motion: Harmonic) -> Result<(), TestbenchError> {
     let amplitude_m = motion.amplitude_m;
     let limit_m = parameters.limits.displacement_m;
@@ -190,7 +190,7 @@ fn check_range(parameters: &CheckedParameters, motion: Harmonic) -> Result<(), T
 }
 
 impl Cycle {
-    /// Velocities (m/s) at the displacements: `2 pi f A cos(2 pi f t)`.
+    /// Returns the velocities (m/s) at the displacements, `2 pi f A cos(2 pi f t)`.
     pub fn velocities_m_per_s(&self) -> Vec<f64> {
         let ticks = self.displacements_m.len();
         let peak = self.motion.peak_velocity_m_per_s();
@@ -199,30 +199,29 @@ impl Cycle {
             .collect()
     }
 
-    /// Force (N) at the peak velocity, in extension where `sign` is positive, else in compression: where the displacement passes zero.
+    /// Returns the force (N) at the peak velocity, where the displacement passes zero: in extension if `sign` is
+    /// positive, otherwise in compression.
     pub fn force_at_peak_velocity_n(&self, sign: f64) -> f64 {
         let ticks = self.forces_n.len();
         if sign > 0.0 {
-            // The last step of the cycle ends there.
+            // The last step of the cycle ends at zero displacement.
             return self.forces_n.last().copied().unwrap_or(0.0);
         }
-        // Half a cycle is at a step or midway between two.
+        // Half a cycle ends at a step, or midway between two.
         let [before, after] = [ticks / 2, ticks.div_ceil(2)].map(|tick| tick.max(1) - 1);
         0.5 * (self.forces_n[before] + self.forces_n[after])
     }
 
-    /// The indices of this cycle; its energy by the trapezoidal rule.
+    /// Returns the indices of this cycle; the energy by the trapezoidal rule.
     pub fn indices(&self) -> Indices {
         let (forces, x) = (&self.forces_n, &self.displacements_m);
-        let extension = forces.iter().fold(0.0, |most: f64, &force| most.max(force));
-        let compression = forces
-            .iter()
-            .fold(0.0, |most: f64, &force| most.max(-force));
+        let extension = forces.iter().fold(0.0, |max: f64, &force| max.max(force));
+        let compression = forces.iter().fold(0.0, |max: f64, &force| max.max(-force));
         let ticks = forces.len();
         let energy = (0..ticks)
             .map(|tick| {
-                let last = (tick + ticks - 1) % ticks;
-                0.5 * (forces[tick] + forces[last]) * (x[tick] - x[last])
+                let previous = (tick + ticks - 1) % ticks;
+                0.5 * (forces[tick] + forces[previous]) * (x[tick] - x[previous])
             })
             .sum();
         let sum = extension + compression;

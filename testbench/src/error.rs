@@ -1,4 +1,4 @@
-//! Why a study has no result.
+//! Errors of the test bench.
 
 use dashpot_core::BuildError;
 use dashpot_core::parameters::STEP_ALLOWED;
@@ -7,10 +7,10 @@ use dashpot_reference::ReferenceError;
 use dashpot_files::harmonic::{Harmonic, HarmonicError};
 
 use super::bench_test::STEPS_PER_CYCLE;
-use super::swept_sine::MOST_STEPS as MOST_SWEPT_STEPS;
+use super::swept_sine::MAX_STEPS as MAX_SWEEP_STEPS;
 use dashpot_files::FileError;
 
-/// Why a study has no result.
+/// Errors of the test bench.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TestbenchError {
@@ -26,7 +26,7 @@ pub enum TestbenchError {
     /// Invalid harmonic motion.
     #[error(transparent)]
     Motion(#[from] HarmonicError),
-    /// The step is out of its range.
+    /// The step is out of range.
     #[error("step: {step_s} s, allowed: {STEP_ALLOWED}")]
     Step {
         /// The step (s).
@@ -34,32 +34,32 @@ pub enum TestbenchError {
     },
     /// A cycle has too few or too many steps.
     #[error(
-        "{steps} steps of {step_s} s a cycle, allowed: {} to {:e}; choose another step or frequency",
+        "{steps} steps of {step_s} s per cycle, allowed: {} to {:e}; choose another step or frequency",
         STEPS_PER_CYCLE.start(),
         STEPS_PER_CYCLE.end()
     )]
     StepsPerCycle {
-        /// Steps of a cycle.
+        /// Steps per cycle.
         steps: f64,
         /// The step (s).
         step_s: f64,
     },
-    /// The motion is faster than the damper follows.
+    /// The motion is faster than the damper can follow.
     #[error(
         "the motion reaches {velocity_m_per_s:.3} m/s, allowed: limits.rate_m_per_s = {limit_m_per_s} m/s"
     )]
     Velocity {
-        /// Largest velocity of the motion (m/s).
+        /// Peak velocity of the motion (m/s).
         velocity_m_per_s: f64,
-        /// The damper's limit (m/s).
+        /// Velocity limit of the damper (m/s).
         limit_m_per_s: f64,
     },
-    /// The motion leaves the damper's range of displacement.
+    /// The motion leaves the displacement range of the damper.
     #[error("the motion reaches {amplitude_m} m, allowed: limits.displacement_m = {limit_m} m")]
     Displacement {
         /// Amplitude of the motion (m).
         amplitude_m: f64,
-        /// The damper's limit (m).
+        /// Displacement limit of the damper (m).
         limit_m: f64,
     },
     /// The force does not become periodic.
@@ -69,51 +69,51 @@ pub enum TestbenchError {
         motion.frequency_hz
     )]
     NotPeriodic {
-        /// Cycles run.
+        /// Number of cycles run.
         cycles: usize,
         /// The motion.
         motion: Harmonic,
     },
-    /// Nobody wants the result any more.
-    #[error("ended before its end, as was asked")]
-    Unwanted,
-    /// A swept sine rises too fast for its first frequency.
+    /// The caller cancelled the computation.
+    #[error("cancelled")]
+    Cancelled,
+    /// The sweep rate is zero, negative or too high for the first frequency.
     #[error(
-        "{octaves_per_minute} octaves a minute from {from_hz} Hz on, allowed: above 0 and at most {most:.4}"
+        "{octaves_per_minute} octaves per minute from {from_hz} Hz, allowed: above 0 and at most {max:.4}"
     )]
     SweepRate {
-        /// The rate (octaves a minute).
+        /// Sweep rate (octaves per minute).
         octaves_per_minute: f64,
-        /// The first frequency (Hz).
+        /// First frequency (Hz).
         from_hz: f64,
-        /// The greatest rate there (octaves a minute).
-        most: f64,
+        /// Maximum sweep rate at this frequency (octaves per minute).
+        max: f64,
     },
-    /// A swept sine is too long.
+    /// The sweep takes too many steps.
     #[error(
-        "a sweep of {steps:.1e} steps, allowed: {MOST_SWEPT_STEPS:e}; sweep faster or to a lower frequency"
+        "the sweep takes {steps:.1e} steps, allowed: at most {MAX_SWEEP_STEPS:e}; sweep faster or to a lower frequency"
     )]
     SweepSteps {
-        /// Its steps.
+        /// Number of steps.
         steps: f64,
     },
-    /// Two series of forces have different lengths.
-    #[error("{forces} forces against {references} of the reference")]
+    /// Forces and reference forces differ in number.
+    #[error("{forces} forces, but {references} reference forces")]
     Lengths {
-        /// Forces of the fixed step.
+        /// Number of forces of the fixed step.
         forces: usize,
-        /// Forces of the reference.
+        /// Number of reference forces.
         references: usize,
     },
     /// The reference force is zero throughout.
     #[error(
-        "the reference force is zero throughout: the motion stays within the clearance, there is nothing to compare"
+        "the reference force is zero throughout: the motion stays within the clearance, so there is nothing to compare"
     )]
     NoForce,
-    /// A published table in the program is not as it was shipped.
-    #[error("a published table: {0}")]
+    /// A built-in published table is corrupt.
+    #[error("published table: {0}")]
     PublishedTable(#[from] csv::Error),
-    /// Table 5 in the program is not as it was shipped.
+    /// The built-in Table 5 is corrupt.
     #[error("Table 5: {0}")]
     Table5(String),
 }

@@ -1,31 +1,31 @@
-//! Made excitations: displacement over time in closed form, the same in demonstration, tests and benches.
+//! Synthetic excitations: displacement over time in closed form, shared by the demonstration, tests and benches.
 //!
-//! Sine and exponential are those of `libm`, so the samples are the same on every machine.
+//! The functions of `libm` give the same samples on every machine.
 
 use std::f64::consts::TAU;
 
 use libm::{exp, log, sin};
 
-/// A made excitation.
+/// A synthetic excitation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Excitation {
-    /// Random ride, 0.4-20 Hz shaped by a body mode of 1.4 Hz, v_rms 0.04 m/s.
+    /// Random ride, 0.4-20 Hz, shaped by a body mode at 1.4 Hz, rms velocity 0.04 m/s.
     Ride,
     /// Logarithmic sweep 0.2-25 Hz at 0.8 mm.
     Sweep,
-    /// Constant speed 0.1 m/s between +-12.5 mm with corners, then rest.
+    /// Triangular motion at 0.1 m/s between +-12.5 mm, then rest.
     Saw,
-    /// 1.4 Hz from 10 mm, decaying to nothing.
+    /// Decaying oscillation at 1.4 Hz from 10 mm.
     Decay,
-    /// 26 mm at 2 Hz: in compression to 0.5 % below the force limit of the published damper.
+    /// 26 mm at 2 Hz: the compression force of the published damper comes within 0.5 % of its limit.
     Stroke,
-    /// Velocity rising and falling evenly in strokes out and back, to 0.1, 0.4 and 1.6 m/s: through every corner
-    /// of every law.
+    /// Strokes out and back with linearly rising and falling velocity, to 0.1, 0.4 and 1.6 m/s: passes every corner of
+    /// every law.
     Ramp,
 }
 
 impl Excitation {
-    /// All of them.
+    /// All excitations.
     pub const ALL: [Self; 6] = [
         Self::Ride,
         Self::Sweep,
@@ -35,7 +35,7 @@ impl Excitation {
         Self::Ramp,
     ];
 
-    /// Name in tables and file names.
+    /// Returns the name used in tables and file names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ride => "ride",
@@ -47,7 +47,7 @@ impl Excitation {
         }
     }
 
-    /// Length (s).
+    /// Returns the duration (s).
     pub fn duration_s(self) -> f64 {
         match self {
             Self::Sweep => 10.0,
@@ -57,7 +57,7 @@ impl Excitation {
         }
     }
 
-    /// Displacement (m) at ticks 0, 1, 2, ... of `step_s` (s), the first one 0.
+    /// Returns the displacement (m) at each tick of `step_s` (s); the first is 0.
     pub fn displacements_m(self, step_s: f64) -> Vec<f64> {
         let ticks = (self.duration_s() / step_s).round() as usize;
         let time = (0..=ticks).map(|tick| tick as f64 * step_s);
@@ -95,7 +95,7 @@ impl Line {
     }
 }
 
-/// Spectral lines of the ride: white base motion through a mode of 1.4 Hz with damping ratio 0.3.
+/// Returns the spectral lines of the ride: white base motion filtered by a mode at 1.4 Hz with damping ratio 0.3.
 fn ride_lines() -> Vec<Line> {
     const LINES: u32 = 98;
     const VELOCITY_RMS: f64 = 0.04;
@@ -152,12 +152,12 @@ fn saw(time_s: f64) -> f64 {
 }
 
 fn ramp(time_s: f64) -> f64 {
-    /// Largest velocity (m/s) of strokes and their duration (s), each out and back.
+    /// Peak velocity (m/s) and duration (s) of each stroke; each goes out and back.
     const STROKES: [(f64, f64); 3] = [(0.1, 0.8), (0.4, 0.4), (1.6, 0.16)];
     let mut start = 0.0;
     for (velocity, duration) in STROKES {
         let length = 0.5 * velocity * duration;
-        // Displacement over the fraction of a stroke that has gone, 0 to 1.
+        // Displacement over the completed fraction of a stroke, 0 to 1.
         let along = |fraction: f64| {
             if fraction < 0.5 {
                 length * 2.0 * fraction * fraction

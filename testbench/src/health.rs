@@ -1,4 +1,4 @@
-//! Health of a damper from recorded displacement and force: the estimates over time.
+//! Condition of a damper over time, estimated from recorded displacement and force.
 
 use std::f64::consts::TAU;
 
@@ -8,26 +8,31 @@ use fastrand::Rng;
 use super::smoothing::smooth;
 use dashpot_recording::stretches::{median_interval, stretches};
 
-/// Standard deviations of white noise, one for each sensor.
+/// Standard deviations of the white noise of both sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Of the displacement (m).
+    /// Displacement noise (m).
     pub displacement_m: f64,
-    /// Of the force (N).
+    /// Force noise (N).
     pub force_n: f64,
 }
 
 impl Noise {
-    /// This part (1) of the root mean square of either signal about its mean.
-    pub fn of_rms(part: f64, displacements_m: &[f64], forces_n: &[f64]) -> Self {
+    /// Returns noise that is a fraction (1) of the rms of each signal about its mean.
+    pub fn from_rms(fraction: f64, displacements_m: &[f64], forces_n: &[f64]) -> Self {
         Self {
-            displacement_m: part * rms(displacements_m),
-            force_n: part * rms(forces_n),
+            displacement_m: fraction * rms(displacements_m),
+            force_n: fraction * rms(forces_n),
         }
     }
 
-    /// Both signals with noise of this seed.
-    pub fn on(&self, displacements_m: &[f64], forces_n: &[f64], seed: u64) -> (Vec<f64>, Vec<f64>) {
+    /// Returns both signals with noise added, from a generator with this seed.
+    pub fn add_to(
+        &self,
+        displacements_m: &[f64],
+        forces_n: &[f64],
+        seed: u64,
+    ) -> (Vec<f64>, Vec<f64>) {
         let mut rng = Rng::with_seed(seed);
         let mut noisy = |signal: &[f64], sd: f64| -> Vec<f64> {
             signal
@@ -41,22 +46,23 @@ impl Noise {
         )
     }
 
-    /// What is noise in samples at `times_s` (s), as the ticks of `step_s` (s) between them have it: what a smoothing spline leaves of the
-    /// longest stretch without a gap, at least a ten-thousandth of its root mean square, for no sensor is better. Ticks that are closer
-    /// than the samples repeat one noise, which counts as a greater one of each. `None` where no stretch is long enough.
-    pub fn found_in(
+    /// Estimates the noise of a recording as it appears at ticks of `step_s` (s); `None` if no stretch is long enough.
+    ///
+    /// The noise is the residual of a smoothing spline over the longest stretch without a gap, but at least 1e-4 of the
+    /// signal's rms, because no sensor is better. If the ticks are closer together than the samples, consecutive ticks
+    /// share one sample's noise; a larger standard deviation accounts for that.
+    pub fn estimate(
         times_s: &[f64],
         displacements_m: &[f64],
         forces_n: &[f64],
         step_s: f64,
     ) -> Option<Self> {
-        /// Fewer tell nothing.
-        const FEWEST: usize = 100;
-        const LEAST: f64 = 1e-4;
+        const MIN_SAMPLES: usize = 100;
+        const MIN_SHARE_OF_RMS: f64 = 1e-4;
         let interval_s = median_interval(times_s)?;
         let stretches = stretches(times_s).into_iter();
         let stretch = stretches.max_by_key(std::ops::Range::len)?;
-        if stretch.len() < FEWEST {
+        if stretch.len() < MIN_SAMPLES {
             return None;
         }
         let times_s = &times_s[stretch.clone()];
@@ -65,20 +71,20 @@ impl Noise {
             .map(|time_s| (time_s - times_s[0]) / interval_s)
             .collect();
         let ticks = positions.last().copied().unwrap_or(0.0) as usize + 2;
-        let ticks_a_sample = (interval_s / step_s).max(1.0);
-        let of = |signal: &[f64]| {
+        let ticks_per_sample = (interval_s / step_s).max(1.0);
+        let noise_of = |signal: &[f64]| {
             let signal = &signal[stretch.clone()];
             let noise = smooth(&positions, signal, ticks).noise;
-            noise.max(LEAST * rms(signal)) * ticks_a_sample.sqrt()
+            noise.max(MIN_SHARE_OF_RMS * rms(signal)) * ticks_per_sample.sqrt()
         };
         Some(Self {
-            displacement_m: of(displacements_m),
-            force_n: of(forces_n),
+            displacement_m: noise_of(displacements_m),
+            force_n: noise_of(forces_n),
         })
     }
 }
 
-/// Root mean square about the mean.
+/// Returns the root mean square about the mean.
 fn rms(signal: &[f64]) -> f64 {
     let count = signal.len().max(1) as f64;
     let mean = signal.iter().sum::<f64>() / count;
@@ -89,13 +95,13 @@ fn rms(signal: &[f64]) -> f64 {
     (square / count).sqrt()
 }
 
-/// A normal number (Box and Muller 1958), with functions that are the same on every machine.
+/// Returns a standard normal random number (Box and Muller 1958); `libm` gives the same value on every machine.
 pub(super) fn normal(rng: &mut Rng) -> f64 {
     let radius = (-2.0 * libm::log(1.0 - rng.f64())).sqrt();
     radius * libm::cos(TAU * rng.f64())
 }
 
-/// What was known at a time.
+/// Estimates at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Time since the first sample (s).
@@ -104,18 +110,18 @@ pub struct Reading {
     pub reading: HealthReading,
 }
 
-/// Estimates over a run.
+/// Estimates over a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
-    /// What it was compared with and by which limits.
+    /// Baseline and alarm limits.
     pub model: HealthModel,
-    /// In order of time, the last after the last sample.
+    /// Readings in order of time; the last follows the last sample.
     pub readings: Vec<Reading>,
-    /// When each alarm was first raised (s).
+    /// Each alarm that was raised, and when it first was (s).
     pub alarms: Vec<(HealthStatus, f64)>,
 }
 
-/// The alarms and what they are called.
+/// Alarms and their names.
 pub const ALARMS: [(HealthStatus, &str); 5] = [
     (HealthStatus::FLOW, "flow"),
     (HealthStatus::STIFFNESS, "stiffness"),
@@ -124,16 +130,16 @@ pub const ALARMS: [(HealthStatus, &str); 5] = [
     (HealthStatus::FORCE_ZERO, "force zero"),
 ];
 
-/// The name of an alarm; empty where it is none.
+/// Returns the name of an alarm; empty for any other status bit.
 pub fn alarm_name(alarm: HealthStatus) -> &'static str {
     let known = ALARMS.iter().find(|(known, _)| *known == alarm);
     known.map_or("", |(_, name)| name)
 }
 
-/// An alarm as a sentence without its end; `last` is the reading at the end.
+/// Describes an alarm in a sentence without a full stop; `last` is the last reading.
 pub fn alarm_in_words(alarm: HealthStatus, last: &HealthReading) -> String {
     if alarm == HealthStatus::NO_FORCE {
-        return "NO FORCE: the damper moved and the measured force did not follow. The force channel is dead or stuck, \
+        return "NO FORCE: the damper moved, but the measured force did not follow. The force channel is dead or stuck, \
                 the oil is full of air, or the clearance is wider than the motion"
             .into();
     }
@@ -146,7 +152,8 @@ pub fn alarm_in_words(alarm: HealthStatus, last: &HealthReading) -> String {
     format!("{} differs from the baseline", alarm_name(alarm))
 }
 
-/// Why the intervals of a reading may not contain the truth, a sentence each; none where it can be trusted.
+/// Lists reasons why the intervals of a reading may miss the true values, one sentence each without a full stop; empty
+/// if the reading can be trusted.
 pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
     let sentences = [
         (
@@ -155,8 +162,8 @@ pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
         ),
         (
             HealthStatus::LATE,
-            "do not trust stiffness and clearance: force and displacement are further apart in time than is known; \
-             measure the lag and give it as --lag-s",
+            "do not trust stiffness and clearance: force and displacement are further apart in time than the model \
+             assumes; measure the lag and enter it in the health model",
         ),
         (
             HealthStatus::SEVERAL_CHANGED,
@@ -165,7 +172,7 @@ pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
         ),
         (
             HealthStatus::MISFIT,
-            "do not trust the estimates: what is measured does not follow from the model of this damper",
+            "do not trust the estimates: the measured force does not fit the model of this damper",
         ),
     ];
     let found = sentences.into_iter();
@@ -175,37 +182,39 @@ pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
         .collect()
 }
 
-/// An estimate in whole units and its standard deviation: `205 ± 7`.
+/// Formats an estimate and its standard deviation in whole units: `205 ± 7`.
 pub fn whole_in_words(estimate: Estimate) -> String {
     format!("{:.0} ± {:.0}", estimate.value, estimate.sd)
 }
 
-/// An estimate, scaled to its unit, and its standard deviation: `1.604 ± 0.012`.
+/// Formats an estimate and its standard deviation, both multiplied by `scale`: `1.604 ± 0.012`.
 pub fn in_words(estimate: Estimate, scale: f32) -> String {
     let (value, sd) = (estimate.value * scale, estimate.sd * scale);
     format!("{value:.3} ± {sd:.3}")
 }
 
-/// A stiffness (N/m) in MN/m as [`in_words`]; where its compliance is not told from none, the least stiffness within two
-/// standard deviations: `above 12.1`.
+/// Formats a stiffness (N/m) in MN/m like [`in_words`]; if its compliance does not differ from zero by two standard
+/// deviations, formats the lower bound of the stiffness instead: `above 12.1`.
 pub fn stiffness_in_words(stiffness: Estimate, compliance: Estimate) -> String {
     let Estimate { value, sd } = compliance;
-    let most = value + 2.0 * sd;
+    let max_compliance = value + 2.0 * sd;
     if value > 2.0 * sd {
         in_words(stiffness, 1e-6)
-    } else if most > 0.0 {
-        format!("above {:.3}", 1e-6 / most)
+    } else if max_compliance > 0.0 {
+        format!("above {:.3}", 1e-6 / max_compliance)
     } else {
         "unknown".into()
     }
 }
 
-/// Most readings that are kept of a run.
-const MOST_READINGS: usize = 4000;
+/// Maximum number of readings kept.
+const MAX_READINGS: usize = 4000;
 
-/// Runs the estimator over samples of displacement (m) and force (N), one at each step of `model`, and keeps a
-/// reading every `every_s` (s), every second of them again where a run is longer than 4000 readings. A sample that
-/// is missing has NaN for its displacement.
+/// Runs the estimator over samples of displacement (m) and force (N), one per step of `model`, and keeps a reading
+/// every `every_s` (s).
+///
+/// The interval doubles whenever 4000 readings are kept: every second one is then dropped. A missing sample has NaN as
+/// its displacement.
 pub fn watch(
     model: &HealthModel,
     samples: impl IntoIterator<Item = (f64, f64)>,
@@ -233,7 +242,7 @@ pub fn watch(
             }
         }
         if count.is_multiple_of(every) {
-            if history.readings.len() == MOST_READINGS {
+            if history.readings.len() == MAX_READINGS {
                 let mut number = 0_usize;
                 history.readings.retain(|_| {
                     number += 1;
@@ -256,7 +265,7 @@ pub fn watch(
 }
 
 impl History {
-    /// The last reading, `None` without samples.
+    /// Returns the last reading; `None` if there were no samples.
     pub fn last(&self) -> Option<&HealthReading> {
         self.readings.last().map(|reading| &reading.reading)
     }

@@ -1,14 +1,15 @@
-//! A motion in memory through a damper, or through each damper of a bank: the same bits as a step a tick.
+//! Steps a damper, or a bank of dampers, through a motion held in memory; the result is bit-identical to stepping tick
+//! by tick.
 
 use dashpot_core::{Damper, DamperState, Real, step_bank};
 
-/// Dampers that step together: those of a vector of the widest processors.
-const TOGETHER: usize = 8;
+/// Dampers stepped together: as many as fit into the widest SIMD vectors.
+const LANES: usize = 8;
 
-/// Ticks between two looks whether the forces are still wanted.
-const TICKS_A_LOOK: usize = 1 << 16;
+/// Ticks between two checks for cancellation.
+const TICKS_PER_CHECK: usize = 1 << 16;
 
-/// Steps `damper` over `displacements` (m) and writes the force (N) of each, until no more is wanted; whether it came to the end.
+/// Steps `damper` through `displacements` (m) and writes the forces (N); returns false if cancelled.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -24,11 +25,11 @@ pub fn follow<T: Real>(
     state: &mut DamperState<T>,
     displacements: &[T],
     forces: &mut [T],
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> bool {
-    let parts = displacements.chunks(TICKS_A_LOOK);
-    for (displacements, forces) in parts.zip(forces.chunks_mut(TICKS_A_LOOK)) {
-        if is_unwanted() {
+    let parts = displacements.chunks(TICKS_PER_CHECK);
+    for (displacements, forces) in parts.zip(forces.chunks_mut(TICKS_PER_CHECK)) {
+        if is_cancelled() {
             return false;
         }
         for (displacement, force) in displacements.iter().zip(forces) {
@@ -38,7 +39,7 @@ pub fn follow<T: Real>(
     true
 }
 
-/// As [`follow`], of a bank: a row a tick, in it a displacement and a force for each damper.
+/// Same as [`follow`] for a bank: each tick is a row with one displacement and one force per damper.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -57,12 +58,12 @@ pub fn follow_bank<T: Real>(
     states: &mut [DamperState<T>],
     displacements: &[T],
     forces: &mut [T],
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> bool {
     let count = dampers.len().max(1);
     let rows = displacements.chunks_exact(count);
     for (tick, (displacements, forces)) in rows.zip(forces.chunks_exact_mut(count)).enumerate() {
-        if tick.is_multiple_of(TICKS_A_LOOK / TOGETHER) && is_unwanted() {
+        if tick.is_multiple_of(TICKS_PER_CHECK / LANES) && is_cancelled() {
             return false;
         }
         step_row(dampers, states, displacements, forces);
@@ -76,7 +77,7 @@ fn step_row<T: Real>(
     displacements: &[T],
     forces: &mut [T],
 ) {
-    let (groups, alone) = dampers.as_chunks::<TOGETHER>();
+    let (groups, alone) = dampers.as_chunks::<LANES>();
     let (states, states_alone) = states.as_chunks_mut();
     let (displacements, displacements_alone) = displacements.as_chunks();
     let (forces, forces_alone) = forces.as_chunks_mut();
@@ -96,7 +97,7 @@ mod tests {
     use dashpot_files::damper;
 
     #[test]
-    fn a_bank_of_any_size_has_the_bits_of_single_dampers() {
+    fn banks_of_any_size_match_single_dampers_bit_for_bit() {
         let built = ["paper", "in-service", "reduced-lateral"].map(|name| {
             let damper = damper::load(name, &[]).unwrap();
             damper.build::<f32>(1e-3).unwrap()
@@ -105,10 +106,9 @@ mod tests {
             let dampers: Vec<&Damper<f32>> = built.iter().cycle().take(count).collect();
             let mut states: Vec<_> = dampers.iter().map(|damper| damper.at_rest(0.0)).collect();
             let mut alone = states.clone();
-            let x = |tick: usize, place: usize| {
-                5e-3 * (0.01 * tick as f32 * (1.0 + place as f32)).sin()
-            };
-            let cells = (0..500).flat_map(|tick| (0..count).map(move |place| x(tick, place)));
+            let x =
+                |tick: usize, slot: usize| 5e-3 * (0.01 * tick as f32 * (1.0 + slot as f32)).sin();
+            let cells = (0..500).flat_map(|tick| (0..count).map(move |slot| x(tick, slot)));
             let displacements: Vec<f32> = cells.collect();
             let mut forces = vec![0.0; displacements.len()];
             assert!(follow_bank(
@@ -118,18 +118,18 @@ mod tests {
                 &mut forces,
                 &|| false
             ));
-            for (place, damper) in dampers.iter().enumerate() {
-                let column: Vec<f32> = (0..500).map(|tick| x(tick, place)).collect();
+            for (slot, damper) in dampers.iter().enumerate() {
+                let column: Vec<f32> = (0..500).map(|tick| x(tick, slot)).collect();
                 let mut singles = vec![0.0; 500];
                 assert!(follow(
                     damper,
-                    &mut alone[place],
+                    &mut alone[slot],
                     &column,
                     &mut singles,
                     &|| false
                 ));
                 for (tick, force) in singles.iter().enumerate() {
-                    assert_eq!(force.to_bits(), forces[tick * count + place].to_bits());
+                    assert_eq!(force.to_bits(), forces[tick * count + slot].to_bits());
                 }
             }
             assert_eq!(states, alone);
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_unwanted_ends() {
+    fn cancellation_stops_the_motion() {
         let damper = damper::load("paper", &[]).unwrap().build(1e-3).unwrap();
         let (mut state, mut forces) = (damper.at_rest(0.0), [7.0_f32; 2]);
         assert!(!follow(

@@ -1,4 +1,4 @@
-//! The source paper's tables that results are shown beside.
+//! Tables of the source paper that results are compared with.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -14,53 +14,53 @@ pub(crate) const TABLE_3: &str = include_str!("../data/published/table3_piston_c
 pub(crate) const TABLE_4: &str = include_str!("../data/published/table4_foot_compression.csv");
 const TABLE_5: &str = include_str!("../data/published/table5_nominal_characteristic.csv");
 
-/// A row of Tables 2-4: deflection of a shim pack's edge under pressure.
+/// Row of Tables 2-4: edge deflection of a shim pack under pressure.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Deflection {
     /// Pressure (MPa).
     pub pressure_mpa: f64,
     /// Deflection by theory under uniform pressure (mm).
     pub theory_uniform_mm: f64,
-    /// Deflection by finite elements under the real pressure (mm).
+    /// Deflection by finite elements under the actual pressure distribution (mm).
     pub fea_real_mm: f64,
 }
 
 impl Deflection {
-    /// Pressure (Pa).
+    /// Returns the pressure (Pa).
     pub fn pressure_pa(&self) -> f64 {
         self.pressure_mpa * 1e6
     }
 
-    /// Deflection by theory under uniform pressure (m).
+    /// Returns the deflection by theory under uniform pressure (m).
     pub fn theory_uniform_m(&self) -> f64 {
         self.theory_uniform_mm * 1e-3
     }
 
-    /// Deflection by finite elements under the real pressure (m).
+    /// Returns the deflection by finite elements under the actual pressure distribution (m).
     pub fn fea_real_m(&self) -> f64 {
         self.fea_real_mm * 1e-3
     }
 }
 
-/// A row of Table 5: an index of the bench test, its numbers as printed.
+/// Row of Table 5: an index of the bench test, with its values as printed.
 #[derive(Clone, Debug, Deserialize)]
 pub struct NominalIndex {
-    /// Name.
+    /// Name of the index.
     pub index: String,
-    /// Unit of the numbers.
+    /// Unit of the values.
     pub unit: String,
-    /// The paper's simulation.
+    /// Value from the paper's simulation.
     pub simulation: String,
-    /// The paper's test.
+    /// Value from the paper's bench test.
     pub test: String,
 }
 
 impl NominalIndex {
-    /// The same index of `indices` in this row's unit.
+    /// Formats the same index of `indices` in this row's unit.
     ///
     /// # Errors
-    /// A name that [`Indices`] does not have.
-    pub fn of(&self, indices: &Indices) -> Result<String, TestbenchError> {
+    /// The name is unknown to [`Indices`].
+    pub fn format_value(&self, indices: &Indices) -> Result<String, TestbenchError> {
         Ok(match self.index.as_str() {
             "damping coefficient" => format!("{:.2}", indices.damping_coefficient_n_s_per_m * 1e-3),
             "maximum extension force" => format!("{:.0}", indices.max_extension_force_n),
@@ -77,46 +77,46 @@ impl NominalIndex {
 /// Table 5 in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct NominalCharacteristic {
-    /// The paper's simulation.
+    /// Indices of the paper's simulation.
     pub simulation: Indices,
-    /// The paper's test, measured.
+    /// Indices measured in the paper's bench test.
     pub test: Indices,
 }
 
-/// Rows of Table 2, 3 or 4.
+/// Parses Table 2, 3 or 4.
 ///
 /// # Errors
-/// The table in the program is not as it was shipped.
+/// The built-in table is corrupt.
 pub(crate) fn deflections(table: &str) -> Result<Vec<Deflection>, TestbenchError> {
     rows(table)
 }
 
-/// Rows of Table 5.
+/// Parses Table 5.
 ///
 /// # Errors
-/// The table in the program is not as it was shipped.
+/// The built-in table is corrupt.
 pub fn nominal_indices() -> Result<Vec<NominalIndex>, TestbenchError> {
     rows(TABLE_5)
 }
 
-/// Table 5 in SI units.
+/// Returns Table 5 in SI units.
 ///
 /// # Errors
-/// The table in the program is not as it was shipped.
+/// The built-in table is corrupt.
 pub fn nominal_characteristic() -> Result<NominalCharacteristic, TestbenchError> {
     let rows = nominal_indices()?;
     let column = |printed: fn(&NominalIndex) -> &str| -> Result<Indices, TestbenchError> {
-        let of = |name: &str| {
+        let value = |name: &str| {
             let row = rows.iter().find(|row| row.index == name);
             row.and_then(|row| printed(row).parse::<f64>().ok())
-                .ok_or_else(|| TestbenchError::Table5(format!("no number of the {name}")))
+                .ok_or_else(|| TestbenchError::Table5(format!("no value for the {name}")))
         };
         Ok(Indices {
-            max_extension_force_n: of("maximum extension force")?,
-            max_compression_force_n: of("maximum compression force")?,
-            asymmetry_rate: Some(of("asymmetry rate")? * 1e-2),
-            energy_per_cycle_j: of("energy per cycle")?,
-            damping_coefficient_n_s_per_m: of("damping coefficient")? * 1e3,
+            max_extension_force_n: value("maximum extension force")?,
+            max_compression_force_n: value("maximum compression force")?,
+            asymmetry_rate: Some(value("asymmetry rate")? * 1e-2),
+            energy_per_cycle_j: value("energy per cycle")?,
+            damping_coefficient_n_s_per_m: value("damping coefficient")? * 1e3,
         })
     };
     Ok(NominalCharacteristic {

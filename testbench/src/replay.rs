@@ -1,4 +1,4 @@
-//! Recorded motion through the step.
+//! Replay of a recorded motion through a damper.
 
 use dashpot_core::{Damper, DamperState, Status};
 
@@ -8,35 +8,38 @@ use dashpot_files::FileError;
 use dashpot_realtime::pacing::Pacer;
 use dashpot_recording::tick_grid::{Tick, TickGrid};
 
-/// What a replay did. Force and energy are of the motion that the damper followed: where the recorded
-/// displacement was held or limited, not the recorded one.
+/// Summary of a replay.
+///
+/// Force and energy belong to the motion that the damper actually followed, which differs from the recording where the
+/// displacement was held or rate-limited.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// Ticks stepped.
+    /// Number of ticks stepped.
     pub ticks: u64,
-    /// Root mean square of the force (N).
+    /// Root mean square force (N).
     pub force_rms_n: f64,
-    /// Largest force in extension (N).
+    /// Maximum force in extension (N).
     pub max_extension_force_n: f64,
-    /// Largest force in compression (N), positive.
+    /// Maximum force in compression (N), as a magnitude.
     pub max_compression_force_n: f64,
-    /// Energy taken from the motion, `integral F dx` by the trapezoidal rule (J).
+    /// Energy dissipated, `integral F dx` by the trapezoidal rule (J).
     pub energy_j: f64,
-    /// Ticks whose displacement was held: not finite in the step's precision, out of range or too far away.
+    /// Ticks that kept the previous displacement: the new one was not finite in the step's precision, out of range or
+    /// too far away.
     pub held_inputs: u64,
-    /// Ticks whose displacement moved faster than the damper's limit and was followed at that rate.
+    /// Ticks whose displacement moved faster than the damper's rate limit and was followed at that rate.
     pub limited_inputs: u64,
-    /// Ticks whose displacement was too far away to catch up with, so that the damper restarted at rest there.
+    /// Ticks whose displacement was too far away to catch up with; the damper restarted there at rest.
     pub restarts: u64,
-    /// Time of the first tick held, limited or restarted (s).
+    /// Time of the first tick that was held, limited or restarted (s).
     pub first_rejected_s: Option<f64>,
-    /// Ticks at the saturation force or force limit.
+    /// Ticks at the saturation force or the force limit.
     pub saturated_ticks: u64,
 }
 
 impl Summary {
-    /// Books the status of the tick at `time_s` (s) alone.
-    fn book(&mut self, time_s: f64, status: Status) {
+    /// Counts the status bits of the tick at `time_s` (s).
+    fn count(&mut self, time_s: f64, status: Status) {
         let held = status.contains(Status::INPUT_HELD);
         let limited = status.contains(Status::INPUT_LIMITED);
         self.held_inputs += u64::from(held);
@@ -50,11 +53,14 @@ impl Summary {
     }
 }
 
-/// Steps `damper` over `ticks`, in real ticks where there is a pacer, and hands each tick with its force
-/// (N) to `sink`. Reading and writing happen within the ticks and are timed with them: the work of a tick is all from its release to the next.
+/// Steps `damper` through `ticks`, in real time if there is a `pacer`, and passes each tick and its force (N) to
+/// `sink`.
+///
+/// Reading and writing happen within the ticks and are timed with them: the work of a tick is everything between its
+/// release and the next.
 ///
 /// # Errors
-/// What `ticks` or `sink` return.
+/// Errors from `ticks` or `sink`.
 pub fn replay<T: Compiled, E: From<FileError>>(
     damper: &Damper<T>,
     ticks: &mut TickGrid,
@@ -74,10 +80,10 @@ pub fn replay<T: Compiled, E: From<FileError>>(
         let force = T::compiled_step(damper, state, displacement);
         sink(tick, force, ticks)?;
         let status = state.status();
-        summary.book(tick.time_s, status);
+        summary.count(tick.time_s, status);
         state.clear_status();
         let (followed, force) = (state.displacement_m().to_f64(), force.to_f64());
-        // The damper does not move when it restarts elsewhere.
+        // A restart is no motion and takes no energy.
         let moved = last.filter(|_| !status.contains(Status::RESTARTED));
         if let Some((x, f)) = moved {
             summary.energy_j += 0.5 * (force + f) * (followed - x);
@@ -92,7 +98,7 @@ pub fn replay<T: Compiled, E: From<FileError>>(
         pacer.end();
     }
     summary.force_rms_n = (square / summary.ticks.max(1) as f64).sqrt();
-    // A sum, so that no compression is 0 and not -0.
+    // A subtraction gives 0 for no compression; a negation would give -0.
     summary.max_compression_force_n = 0.0 - lowest;
     Ok(summary)
 }

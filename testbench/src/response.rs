@@ -1,5 +1,5 @@
-//! Frequency response of a damper: first harmonic of the settled force over that of the displacement (describing function), and the
-//! linearised one.
+//! Frequency response of a damper: the describing function, which is the first harmonic of the periodic force over that
+//! of the displacement, and the linearised response.
 
 use std::f64::consts::TAU;
 
@@ -11,16 +11,16 @@ use super::TestbenchError;
 use super::bench_test::{Cycle, run_until_periodic};
 use dashpot_files::harmonic::Harmonic;
 
-/// Steps of a cycle, where the shortest step allows as many: the first harmonic is then within 1e-5.
-const STEPS: f64 = 4000.0;
+/// Steps per cycle, if the minimum step allows that many; the first harmonic is then accurate to 1e-5.
+const STEPS_PER_CYCLE: f64 = 4000.0;
 
-/// Peak velocity that counts as small, m/s: that of the secant by which a vehicle's modes have a damper.
+/// Peak velocity of the linearised response (m/s); vehicle modes linearise dampers by a secant at the same velocity.
 pub const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
-/// A force of this amplitude is rounding (N).
+/// Force amplitude below which a force is only rounding (N).
 const ROUNDING_N: f64 = 1e-9;
 
-/// Response of a damper to a harmonic motion `x = A sin w t`: of its force `F` the part of the same frequency,
+/// Response of a damper to a harmonic motion `x = A sin w t`: the first harmonic of the force,
 /// `F_1 = A (K' sin w t + K'' cos w t)`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Response {
@@ -30,13 +30,13 @@ pub struct Response {
     pub amplitude_m: f64,
     /// Storage stiffness K', in phase with the displacement (N/m).
     pub storage_n_per_m: f64,
-    /// Loss stiffness K'', in phase with the velocity (N/m); `pi A^2 K''` is the energy of a cycle.
+    /// Loss stiffness K'', in phase with the velocity (N/m); the energy per cycle is `pi A^2 K''`.
     pub loss_n_per_m: f64,
 }
 
 impl Response {
-    /// That of a periodic cycle.
-    pub fn of(cycle: &Cycle) -> Self {
+    /// Computes the response from a periodic cycle.
+    pub fn from_cycle(cycle: &Cycle) -> Self {
         let Harmonic {
             amplitude_m,
             frequency_hz,
@@ -57,23 +57,23 @@ impl Response {
         }
     }
 
-    /// Dynamic stiffness, the magnitude `|K' + i K''|` of force over displacement (N/m).
+    /// Returns the dynamic stiffness, the magnitude of force over displacement `|K' + i K''|` (N/m).
     pub fn stiffness_n_per_m(&self) -> f64 {
         self.storage_n_per_m.hypot(self.loss_n_per_m)
     }
 
-    /// Phase by which the force leads the displacement (rad): 0 of a spring, a quarter turn of a dashpot.
+    /// Returns the phase by which the force leads the displacement (rad): 0 for a spring, pi/2 for a dashpot.
     pub fn phase_rad(&self) -> f64 {
         self.loss_n_per_m.atan2(self.storage_n_per_m)
     }
 
-    /// Loss angle, that phase in degrees; `None` without force.
+    /// Returns the loss angle, which is the phase in degrees; `None` if there is no force.
     pub fn loss_angle_deg(&self) -> Option<f64> {
         self.has_force().then(|| self.phase_rad().to_degrees())
     }
 
-    /// By how much the force differs from that of `other` at the same motion, over it: `|K - K_o|/|K_o|` of the complex stiffnesses
-    /// (1); `None` where the other has no force.
+    /// Returns the relative difference from `other` at the same motion, `|K - K_o|/|K_o|` of the complex stiffnesses
+    /// (1); `None` if `other` has no force.
     pub fn difference_from(&self, other: &Self) -> Option<f64> {
         let storage = self.storage_n_per_m - other.storage_n_per_m;
         let loss = self.loss_n_per_m - other.loss_n_per_m;
@@ -82,23 +82,23 @@ impl Response {
             .then(|| storage.hypot(loss) / other.stiffness_n_per_m())
     }
 
-    /// Whether there is a force: within the clearance there is none.
+    /// True if there is a force; there is none within the clearance.
     pub fn has_force(&self) -> bool {
         self.stiffness_n_per_m() * self.amplitude_m > ROUNDING_N
     }
 
-    /// Damping, the part of force over velocity in phase with the velocity, `K''/w` (N s/m).
+    /// Returns the damping, the component of force over velocity in phase with the velocity, `K''/w` (N s/m).
     pub fn damping_n_s_per_m(&self) -> f64 {
         self.loss_n_per_m / (TAU * self.frequency_hz)
     }
 
-    /// Magnitude of force over velocity (N s/m).
+    /// Returns the impedance, the magnitude of force over velocity (N s/m).
     pub fn impedance_n_s_per_m(&self) -> f64 {
         self.stiffness_n_per_m() / (TAU * self.frequency_hz)
     }
 }
 
-/// `count` frequencies with equal ratios, two or more (Hz).
+/// Returns `count` (at least 2) logarithmically spaced frequencies (Hz).
 ///
 /// ```
 /// let decades = dashpot_testbench::response::frequencies(0.1, 10.0, 3);
@@ -114,16 +114,17 @@ pub fn frequencies(from_hz: f64, to_hz: f64, count: usize) -> Vec<f64> {
     (0..count).map(at).collect()
 }
 
-/// The response at each frequency (Hz) to a motion of `amplitude_m`: the describing function, by the core's step in double precision until
-/// the force is periodic.
+/// Computes the describing function at each frequency (Hz) for an amplitude (m).
+///
+/// Runs the core's step in double precision until the force is periodic.
 ///
 /// # Errors
-/// As [`run_until_periodic`].
+/// Same errors as [`run_until_periodic`].
 ///
 /// ```
 /// use dashpot_files::damper;
 /// use dashpot_testbench::response;
-/// // A spring of 8 MN/m behind a dashpot of 120 kN s/m: C w/sqrt(1 + (C w/K)^2).
+/// // Spring of 8 MN/m in series with a dashpot of 120 kN s/m: C w/sqrt(1 + (C w/K)^2).
 /// let damper = damper::load("reduced-vertical", &["mount.clearance_m=0.0".into()])?;
 /// for response in response::at_amplitude(&damper, 0.5e-3, &[0.5, 2.0, 8.0])? {
 ///     let dashpot = 120e3 * std::f64::consts::TAU * response.frequency_hz;
@@ -145,11 +146,12 @@ pub fn at_amplitude(
     responses(parameters, frequencies.map(motion))
 }
 
-/// The linearised response at each frequency (Hz): to motions of a peak velocity of [`SMALL_VELOCITY_M_PER_S`], the clearance taken up
-/// and without the friction of the seals, which would hold so small a motion.
+/// Computes the linearised response at each frequency (Hz): for motions with a peak velocity of
+/// [`SMALL_VELOCITY_M_PER_S`], with the clearance taken up and without seal friction, which would block so small a
+/// motion.
 ///
 /// # Errors
-/// As [`run_until_periodic`].
+/// Same errors as [`run_until_periodic`].
 pub fn linearised(
     parameters: &CheckedParameters,
     frequencies_hz: &[f64],
@@ -173,13 +175,13 @@ fn responses(
 ) -> Result<Vec<Response>, TestbenchError> {
     let of_motion = |motion: Harmonic| {
         let period_s = 1.0 / motion.frequency_hz;
-        // A whole number of steps, each within what a damper can be built for.
-        let steps = STEPS
+        // A whole number of steps within the range for which a damper can be built.
+        let steps = STEPS_PER_CYCLE
             .min((period_s / STEP_RANGE_S.start()).floor())
             .max((period_s / STEP_RANGE_S.end()).ceil());
         let step_s = period_s / steps;
         let cycle = run_until_periodic(parameters, motion, step_s)?;
-        Ok(Response::of(&cycle))
+        Ok(Response::from_cycle(&cycle))
     };
     motions.map(of_motion).collect()
 }

@@ -1,4 +1,4 @@
-//! The shim-pack valves of a damper, each with its published table.
+//! Shim-pack valves of a damper, each with its published table.
 
 use dashpot_core::characteristic::ShimPackValve;
 use dashpot_core::parameters::{Hydraulics, Valve};
@@ -7,27 +7,27 @@ use dashpot_core::shim::Pack;
 use super::TestbenchError;
 use super::published::{self, Deflection, deflections};
 
-/// Where a damper has a shim-pack valve.
+/// One of the shim-pack valves of a damper.
 pub struct ValveLocation {
-    /// Name for people.
+    /// Display name.
     pub name: &'static str,
-    /// Key of the damper file.
+    /// Section of the damper file.
     pub section: &'static str,
-    /// The valve in the core's characteristic.
+    /// Identifier of the valve in the core's characteristic.
     pub valve: ShimPackValve,
-    /// Number of the source paper's table of its deflections.
+    /// Number of the paper's table of deflections.
     pub table: u8,
-    of: fn(&Hydraulics) -> &Valve,
+    select: fn(&Hydraulics) -> &Valve,
     published: &'static str,
 }
 
-/// The three locations.
+/// The three valves.
 pub const VALVE_LOCATIONS: [ValveLocation; 3] = [
     ValveLocation {
         name: "piston extension",
         section: "valves.piston_extension",
         valve: ShimPackValve::PistonExtension,
-        of: |hydraulics| &hydraulics.valves.piston_extension,
+        select: |hydraulics| &hydraulics.valves.piston_extension,
         table: 2,
         published: published::TABLE_2,
     },
@@ -35,7 +35,7 @@ pub const VALVE_LOCATIONS: [ValveLocation; 3] = [
         name: "piston compression",
         section: "valves.piston_compression",
         valve: ShimPackValve::PistonCompression,
-        of: |hydraulics| &hydraulics.valves.piston_compression,
+        select: |hydraulics| &hydraulics.valves.piston_compression,
         table: 3,
         published: published::TABLE_3,
     },
@@ -43,22 +43,22 @@ pub const VALVE_LOCATIONS: [ValveLocation; 3] = [
         name: "foot compression",
         section: "valves.foot_compression",
         valve: ShimPackValve::FootCompression,
-        of: |hydraulics| &hydraulics.valves.foot_compression,
+        select: |hydraulics| &hydraulics.valves.foot_compression,
         table: 4,
         published: published::TABLE_4,
     },
 ];
 
 impl ValveLocation {
-    /// The valve here.
+    /// Returns the parameters of this valve.
     pub fn valve_of<'a>(&self, hydraulics: &'a Hydraulics) -> &'a Valve {
-        (self.of)(hydraulics)
+        (self.select)(hydraulics)
     }
 
-    /// The pack here, if its file describes one.
+    /// Returns the shim pack of this valve; `None` if the damper file describes none.
     ///
     /// # Errors
-    /// A pack that disc theory does not hold for.
+    /// Disc theory does not apply to the pack.
     pub fn pack(&self, hydraulics: &Hydraulics) -> Result<Option<Pack>, TestbenchError> {
         let valve = self.valve_of(hydraulics);
         if valve.shims_m.is_empty() {
@@ -67,35 +67,36 @@ impl ValveLocation {
         Ok(Some(Pack::new(self.section, valve)?))
     }
 
-    /// Edge compliance (m/Pa) of the pack here by disc theory, uniform pressure.
+    /// Returns the edge compliance of the pack by disc theory under uniform pressure (m/Pa).
     ///
     /// # Errors
-    /// As [`ValveLocation::pack`].
+    /// Same errors as [`ValveLocation::pack`].
     pub fn theory_m_per_pa(&self, hydraulics: &Hydraulics) -> Result<Option<f64>, TestbenchError> {
         let edge = self.valve_of(hydraulics).free_radius_m;
         let pack = self.pack(hydraulics)?;
         Ok(pack.map(|pack| pack.compliance_m_per_pa(edge)))
     }
 
-    /// Rows of the published table.
+    /// Returns the rows of the published table.
     ///
     /// # Errors
-    /// The table in the program is not as it was shipped.
+    /// The built-in table is corrupt.
     pub fn published(&self) -> Result<Vec<Deflection>, TestbenchError> {
         deflections(self.published)
     }
 }
 
-/// Disc theory over the published deflection, uniform pressure, at the table's highest pressure.
+/// Returns the ratio of disc theory to the published deflection, under uniform pressure at the table's highest
+/// pressure.
 pub fn theory_over_published(theory_m_per_pa: f64, published: &[Deflection]) -> Option<f64> {
     let row = published.last()?;
     Some(theory_m_per_pa * row.pressure_pa() / row.theory_uniform_m())
 }
 
-/// The first erratum of the source paper, with the figures of the damper published there.
+/// Describes the first erratum of the source paper, computed from the paper's damper.
 ///
 /// # Errors
-/// As [`ValveLocation::pack`] and [`ValveLocation::published`].
+/// Same errors as [`ValveLocation::pack`] and [`ValveLocation::published`].
 pub fn erratum(paper: &Hydraulics) -> Result<String, TestbenchError> {
     let ratio = |location: &ValveLocation| -> Result<String, TestbenchError> {
         let theory = location.theory_m_per_pa(paper)?;

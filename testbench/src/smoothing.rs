@@ -1,62 +1,65 @@
-//! Recorded samples as a smooth motion on ticks, and how noisy they are.
+//! Smooths recorded samples onto a grid of ticks and estimates their noise.
 
 use fastrand::Rng;
 
-/// Samples at their times as values at ticks.
+/// Smoothed samples.
 pub struct Smooth {
-    /// Values at ticks 0, 1, 2, ...
+    /// Values at ticks 0, 1, 2 and so on.
     pub values: Vec<f64>,
-    /// Standard deviation of the samples about them.
+    /// Standard deviation of the samples about these values.
     pub noise: f64,
 }
 
-/// Decades of lambda that are tried, and how many values a decade: from samples followed exactly to a straight line.
+/// Range of lambda in decades: from interpolation of the samples to a straight line.
 const DECADES: std::ops::RangeInclusive<i32> = -4..=16;
-const A_DECADE: i32 = 2;
+/// Values of lambda per decade.
+const VALUES_PER_DECADE: i32 = 2;
 
-/// Share of the samples that must be free for the score to be more than rounding.
-const LEAST_FREEDOM: f64 = 1e-6;
+/// Minimum degrees of freedom per sample; below this the score is only rounding.
+const MIN_FREEDOM: f64 = 1e-6;
 
-/// The values `z` at ticks with the least `sum (x_i - z(t_i))^2 + lambda sum (second difference of z)^2`, `z` linear between
-/// ticks: a smoothing spline. Lambda is the one of least generalised cross validation (Craven and Wahba, Numer. Math. 31, 1979),
-/// the trace of the smoother by one random vector (Girard, Numer. Math. 56, 1989), so that white noise goes and the motion stays
-/// whatever its frequency.
+/// Fits a smoothing spline: the values `z` at ticks that minimise
+/// `sum (x_i - z(t_i))^2 + lambda sum (second difference of z)^2`, with `z` linear between ticks.
 ///
-/// `positions` are the samples' times in ticks, rising from 0; `ticks` is above the last.
+/// Lambda minimises the generalised cross validation score (Craven and Wahba, Numer. Math. 31, 1979), with the trace of
+/// the smoother estimated from one random vector (Girard, Numer. Math. 56, 1989). This removes white noise and keeps
+/// the motion at any frequency.
+///
+/// `positions` are the times of the samples in ticks, rising from 0; `ticks` must exceed the last position.
 pub fn smooth(positions: &[f64], samples: &[f64], ticks: usize) -> Smooth {
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
     let centred: Vec<f64> = samples.iter().map(|sample| sample - mean).collect();
-    // Signs of equal chance have the least scatter of the trace.
+    // A vector of random signs has the smallest variance of the trace estimate.
     let mut rng = Rng::with_seed(0x5eed);
     let signs: Vec<f64> = samples
         .iter()
         .map(|_| if rng.bool() { 1.0 } else { -1.0 })
         .collect();
-    let places = Places::new(positions, ticks);
-    let [sums, sign_sums] = [&centred, &signs].map(|values| places.gather(values));
+    let interpolation = Interpolation::new(positions, ticks);
+    let [sums, sign_sums] = [&centred, &signs].map(|values| interpolation.transposed(values));
     let mut best: Option<(f64, Smooth)> = None;
     let count = samples.len() as f64;
-    for exponent in DECADES.start() * A_DECADE..=DECADES.end() * A_DECADE {
-        let lambda = 10_f64.powf(f64::from(exponent) / f64::from(A_DECADE));
-        let factors = places.factors(lambda);
+    for exponent in DECADES.start() * VALUES_PER_DECADE..=DECADES.end() * VALUES_PER_DECADE {
+        let lambda = 10_f64.powf(f64::from(exponent) / f64::from(VALUES_PER_DECADE));
+        let factors = interpolation.factors(lambda);
         let values = factors.solve(&sums);
-        let square: f64 = places
+        let square: f64 = interpolation
             .at_samples(&values)
             .zip(&centred)
             .map(|(value, sample)| (sample - value).powi(2))
             .sum();
         let of_signs = factors.solve(&sign_sums);
-        let trace: f64 = places
+        let trace: f64 = interpolation
             .at_samples(&of_signs)
             .zip(&signs)
             .map(|(value, sign)| value * sign)
             .sum();
         let freedom = count - trace;
-        if freedom < LEAST_FREEDOM * count {
+        if freedom < MIN_FREEDOM * count {
             continue;
         }
         let score = square / (freedom * freedom);
-        if best.as_ref().is_none_or(|(least, _)| score < *least) {
+        if best.as_ref().is_none_or(|(min, _)| score < *min) {
             let noise = (square / freedom).sqrt();
             best = Some((score, Smooth { values, noise }));
         }
@@ -74,45 +77,46 @@ pub fn smooth(positions: &[f64], samples: &[f64], ticks: usize) -> Smooth {
     smooth
 }
 
-/// Where the samples lie among the ticks: the tick before, and the fraction on to the next.
-struct Places {
-    of_samples: Vec<(usize, f64)>,
+/// Linear interpolation from ticks to samples, the matrix B.
+struct Interpolation {
+    /// Tick before each sample, and the fraction of a tick from there to the sample.
+    positions: Vec<(usize, f64)>,
     ticks: usize,
 }
 
-impl Places {
+impl Interpolation {
     fn new(positions: &[f64], ticks: usize) -> Self {
-        let place = |position: &f64| {
+        let split = |position: &f64| {
             let tick = (position.floor() as usize).min(ticks - 2);
             (tick, position - tick as f64)
         };
         Self {
-            of_samples: positions.iter().map(place).collect(),
+            positions: positions.iter().map(split).collect(),
             ticks,
         }
     }
 
-    /// `B^T x`, B the interpolation.
-    fn gather(&self, samples: &[f64]) -> Vec<f64> {
+    /// Returns `B^T x`.
+    fn transposed(&self, samples: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.ticks];
-        for ((tick, fraction), sample) in self.of_samples.iter().zip(samples) {
+        for ((tick, fraction), sample) in self.positions.iter().zip(samples) {
             sums[*tick] += (1.0 - fraction) * sample;
             sums[tick + 1] += fraction * sample;
         }
         sums
     }
 
-    /// `B z`.
+    /// Returns `B z`.
     fn at_samples<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        self.of_samples
+        self.positions
             .iter()
             .map(|(tick, fraction)| (1.0 - fraction) * values[*tick] + fraction * values[tick + 1])
     }
 
-    /// The factors of `B^T B + lambda D^T D`, D the second difference.
+    /// Factorises `B^T B + lambda D^T D`, where D is the second difference.
     fn factors(&self, lambda: f64) -> Factors {
         let mut rows = vec![[0.0; 3]; self.ticks];
-        for (tick, fraction) in &self.of_samples {
+        for (tick, fraction) in &self.positions {
             let rest = 1.0 - fraction;
             rows[*tick][0] += rest * rest;
             rows[*tick][1] += rest * fraction;
@@ -129,14 +133,14 @@ impl Places {
     }
 }
 
-/// `L D L^T` of a symmetric matrix of five diagonals.
+/// Factors `L D L^T` of a symmetric pentadiagonal matrix.
 struct Factors {
-    /// Of each row the pivot, and the two entries of L below it.
+    /// For each row: the pivot and the two entries of L below it.
     rows: Vec<[f64; 3]>,
 }
 
 impl Factors {
-    /// Of rows that each hold the diagonal and the two entries right of it.
+    /// Factorises a matrix; each row holds the diagonal and the two entries right of it.
     fn new(mut rows: Vec<[f64; 3]>) -> Self {
         for row in 0..rows.len() {
             let [pivot, next, second] = rows[row];
@@ -182,7 +186,7 @@ mod tests {
     use crate::health::normal;
 
     #[test]
-    fn noise_goes_and_the_motion_stays_at_any_frequency_and_rate() {
+    fn smoothing_removes_noise_and_keeps_the_motion_at_any_frequency_and_rate() {
         let mut rng = Rng::with_seed(3);
         for (frequency_hz, rate_hz) in [(0.64, 1000.0), (1.9, 200.0), (12.0, 500.0), (0.3, 5000.0)]
         {
@@ -199,7 +203,7 @@ mod tests {
                 .collect();
             let ticks = positions.last().unwrap().ceil() as usize + 2;
             let smooth = smooth(&positions, &samples, ticks);
-            // One value for each sample and one for the estimate: chi-square of n.
+            // The estimate of the noise scatters like chi-square with as many degrees of freedom as samples.
             assert!(
                 (smooth.noise / 0.02 - 1.0).abs() < 0.1,
                 "{frequency_hz} Hz: {}",
@@ -211,17 +215,18 @@ mod tests {
                 .map(|tick| (smooth.values[tick] - motion(start + tick as f64 * step_s)).powi(2))
                 .sum();
             let rms = (square / inside.len() as f64).sqrt();
-            // The spline passes 1/(1 + (w/c)^4): of the noise the integral of its square, 0.833 c/pi (w, c a sample); of a line of mean
-            // square 1/2 it lacks (w/c)^4. Least in all:
+            // The gain of the spline is 1/(1 + (w/c)^4), with w and c in radians per sample. It passes 0.833 c/pi of
+            // the noise, the integral of its square, and attenuates a line of mean square 1/2 by the fraction (w/c)^4.
+            // Minimum of the sum:
             let (line, noise) = (TAU * frequency_hz / rate_hz, 0.02 * 0.02 * 0.833 / PI);
             let cut = (4.0 * line.powi(8) / noise).powf(1.0 / 9.0);
-            let least = (noise * cut + 0.5 * (line / cut).powi(8)).sqrt();
-            assert!(rms < 1.4 * least, "{frequency_hz} Hz: {rms}, least {least}");
+            let min = (noise * cut + 0.5 * (line / cut).powi(8)).sqrt();
+            assert!(rms < 1.4 * min, "{frequency_hz} Hz: {rms}, min {min}");
         }
     }
 
     #[test]
-    fn a_straight_line_is_kept_and_has_no_noise() {
+    fn a_straight_line_is_kept_and_is_free_of_noise() {
         let positions: Vec<f64> = (0..50).map(|sample| 1.5 * f64::from(sample)).collect();
         let samples: Vec<f64> = positions.iter().map(|at| 7.0 - 0.25 * at).collect();
         let smooth = smooth(&positions, &samples, 80);

@@ -1,4 +1,4 @@
-//! The largest errors of the fixed step for one damper, over the fixed set of motions of `dashpot_reference::probing`.
+//! Maximum errors of the fixed step for one damper over the fixed set of motions of `dashpot_reference::probing`.
 
 use dashpot_core::{CheckedParameters, Damper, Real};
 use dashpot_reference::probing::{LargestErrors, MIN_ERROR_RATIO, Motion, MotionErrors, Probing};
@@ -6,10 +6,10 @@ use dashpot_reference::probing::{LargestErrors, MIN_ERROR_RATIO, Motion, MotionE
 use super::TestbenchError;
 use dashpot_files::Scalar;
 
-/// The scalars, in the order in which their errors are found.
+/// Scalar types, in the order in which their errors are returned.
 pub const SCALARS: [Scalar; 2] = [Scalar::F64, Scalar::F32];
 
-/// A damper built in both scalars for one step size, beside the reference.
+/// A damper built in both scalar types for one step size, and its reference.
 pub struct StepErrors<'a> {
     single: Damper<f32>,
     double: Damper<f64>,
@@ -17,10 +17,10 @@ pub struct StepErrors<'a> {
 }
 
 impl<'a> StepErrors<'a> {
-    /// A damper with steps of `step_s` (s), whose motions have a top speed (m/s), or the set's own.
+    /// Builds a damper with steps of `step_s` (s); the motions reach `top_speed_m_per_s`, by default the set's own.
     ///
     /// # Errors
-    /// A step that the damper cannot be built for.
+    /// The damper cannot be built for this step.
     pub fn new(
         parameters: &'a CheckedParameters,
         step_s: f64,
@@ -37,38 +37,38 @@ impl<'a> StepErrors<'a> {
         })
     }
 
-    /// Top speed of the motions (m/s).
+    /// Returns the top speed of the motions (m/s).
     pub fn top_speed_m_per_s(&self) -> f64 {
         self.probing.top_speed_m_per_s()
     }
 
-    /// Force at which the damper yields (N).
+    /// Returns the force limit of the damper (N).
     pub fn force_limit_n(&self) -> f64 {
         self.double.force_limit_n()
     }
 
-    /// The largest errors over the fixed set in each of [`SCALARS`], found by several threads.
+    /// Returns the maximum errors over the fixed set for each of [`SCALARS`], computed by `threads` threads.
     ///
     /// # Errors
-    /// What the reference reports.
+    /// Errors from the reference solver.
     pub fn largest(&self, threads: usize) -> Result<[LargestErrors; 2], TestbenchError> {
         let [double, single] = self.steppers();
         let found = self.probing.largest_errors(&[&double, &single], threads)?;
         Ok([found[0], found[1]])
     }
 
-    /// Errors on one motion in each of [`SCALARS`].
+    /// Returns the errors on one motion for each of [`SCALARS`].
     ///
     /// # Errors
-    /// What the reference reports.
-    pub fn on(&self, motion: &Motion) -> Result<[MotionErrors; 2], TestbenchError> {
+    /// Errors from the reference solver.
+    pub fn on_motion(&self, motion: &Motion) -> Result<[MotionErrors; 2], TestbenchError> {
         let [double, single] = self.steppers();
         let found = self.probing.errors(motion, &[&double, &single])?;
         Ok([found[0], found[1]])
     }
 
-    /// What `largest` promises for any motion of the class in each of [`SCALARS`]: the largest error at a tick (N) and
-    /// the largest NRMSE (1).
+    /// Returns the limits promised for any motion of the class, given the `largest` errors found: for each of
+    /// [`SCALARS`] the maximum error at a tick (N) and the maximum NRMSE (1).
     pub fn promised(&self, largest: &[LargestErrors; 2]) -> [(f64, f64); 2] {
         let limit_n = self.force_limit_n();
         [0, 1].map(|scalar| largest[scalar].promised(limit_n, MIN_ERROR_RATIO[scalar]))
@@ -76,17 +76,17 @@ impl<'a> StepErrors<'a> {
 
     fn steppers(&self) -> [Stepper<'_>; 2] {
         [
-            Box::new(|x| stepped(&self.double, x)),
-            Box::new(|x| stepped(&self.single, x)),
+            Box::new(|x| fixed_step_forces(&self.double, x)),
+            Box::new(|x| fixed_step_forces(&self.single, x)),
         ]
     }
 }
 
-/// From displacements (m) at the ticks to forces (N).
+/// Function from displacements (m) at the ticks to forces (N).
 type Stepper<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + Sync + 'a>;
 
-/// Forces (N) at each displacement (m), from rest at the first.
-fn stepped<T: Real>(damper: &Damper<T>, displacements_m: &[f64]) -> Vec<f64> {
+/// Returns the force (N) at each displacement (m), starting at rest at the first one.
+fn fixed_step_forces<T: Real>(damper: &Damper<T>, displacements_m: &[f64]) -> Vec<f64> {
     let start = displacements_m.first().copied().unwrap_or(0.0);
     let mut state = damper.at_rest(T::from_f64(start));
     let displacements = displacements_m.iter();

@@ -1,10 +1,11 @@
-//! Frequency response by a swept sine: one motion of constant amplitude whose frequency rises by as many octaves in every minute, and the
-//! first harmonic of the force by synchronous demodulation over a few cycles.
+//! Frequency response from a swept sine: the amplitude is constant and the frequency rises exponentially. Synchronous
+//! demodulation over a few cycles yields the first harmonic of the force.
 //!
-//! `x = A sin phi`, `dphi/dt = 2 pi f`, `f = f_0 exp(r t)`; then `f` rises by `r` from cycle to cycle. The first harmonic at a frequency is that under a
-//! triangle (Bartlett window) of [`WINDOW_CYCLES`] cycles about it, over the phase: it has double zeros at all other harmonics, so none of them leaks in
-//! while its amplitude changes evenly. Where the stiffness goes with the power `p` of the frequency, the value errs by about
-//! `p (p - 1)/2 (r/f)^2/6`: 1/6 is the window's variance in cycles.
+//! `x = A sin phi`, `dphi/dt = 2 pi f`, `f = f_0 exp(r t)`, so `f` rises by `r` per cycle. The first harmonic at a
+//! frequency is taken over the phase with a triangular (Bartlett) window of [`WINDOW_CYCLES`] cycles centred there. The
+//! window has double zeros at all other harmonics, so none of them leaks in while its amplitude changes linearly. If
+//! the stiffness is proportional to the power `p` of the frequency, the relative error is about
+//! `p (p - 1)/2 (r/f)^2/6`; 1/6 is the variance of the window in cycles squared.
 
 use std::f64::consts::{LN_2, TAU};
 
@@ -16,29 +17,32 @@ use super::bench_test::NOT_FOLLOWED;
 use super::response::Response;
 use dashpot_files::harmonic::Harmonic;
 
-/// Cycles that a value is demodulated over.
+/// Number of cycles over which a value is demodulated.
 pub const WINDOW_CYCLES: u32 = 2;
 
-/// The window, by its name.
+/// Name of the window.
 pub const WINDOW: &str = "Bartlett";
 
-/// Most steps of a sweep: a few minutes of computing.
-pub const MOST_STEPS: f64 = 2e9;
+/// Maximum number of steps of a sweep: a few minutes of computing.
+pub const MAX_STEPS: f64 = 2e9;
 
-/// Cycles from rest before the first window.
+/// Number of cycles from rest to the first window.
 const LEAD_CYCLES: f64 = 2.0;
 
-/// Steps of the fastest cycle, where the shortest step allows as many.
-const STEPS: f64 = 1000.0;
+/// Steps in the fastest cycle, if the minimum step allows that many.
+const STEPS_PER_CYCLE: f64 = 1000.0;
 
-/// Half a window, cycles.
-const HALF: f64 = WINDOW_CYCLES as f64 / 2.0;
+/// Half the window width (cycles).
+const HALF_WINDOW: f64 = WINDOW_CYCLES as f64 / 2.0;
 
-/// The response at each of the rising `frequencies_hz` to one sweep through all of them at `amplitude_m`, by the core's step in double precision.
-/// The sweep starts three cycles before the first, at half of it or above.
+/// Computes the response at each of the rising `frequencies_hz` from one sweep through all of them.
+///
+/// Runs the core's step in double precision. The sweep starts three cycles before the first frequency, at no less than
+/// half of it.
 ///
 /// # Errors
-/// A motion outside its range or faster than the damper's limit, a sweep too fast for the first frequency or too long; a damper that does not build.
+/// A motion out of range or beyond the damper's limits, a sweep that is too fast for the first frequency or too long,
+/// or a damper that cannot be built.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -74,9 +78,9 @@ pub fn responses(
         ..Window::default()
     });
     let mut windows: Vec<Window> = windows.collect();
-    let most_velocity = amplitude_m * TAU * sweep.end_hz;
+    let max_velocity = amplitude_m * TAU * sweep.end_hz;
     let limits = &parameters.limits;
-    if amplitude_m > limits.displacement_m && most_velocity <= limits.rate_m_per_s {
+    if amplitude_m > limits.displacement_m && max_velocity <= limits.rate_m_per_s {
         return Err(TestbenchError::Displacement {
             amplitude_m,
             limit_m: limits.displacement_m,
@@ -85,14 +89,14 @@ pub fn responses(
     run(parameters, amplitude_m, &sweep, &mut windows)?
         .then_some(())
         .ok_or(TestbenchError::Velocity {
-            velocity_m_per_s: most_velocity,
+            velocity_m_per_s: max_velocity,
             limit_m_per_s: parameters.limits.rate_m_per_s,
         })?;
     let responses = windows.iter().map(|window| window.response(amplitude_m));
     Ok(responses.collect())
 }
 
-/// A rise of the frequency.
+/// An exponential frequency sweep.
 struct Sweep {
     start_hz: f64,
     end_hz: f64,
@@ -103,43 +107,43 @@ struct Sweep {
 impl Sweep {
     fn new(from_hz: f64, to_hz: f64, octaves_per_minute: f64) -> Result<Self, TestbenchError> {
         let rate_per_s = octaves_per_minute * LN_2 / 60.0;
-        let before = HALF + LEAD_CYCLES;
-        let most = 0.5 * from_hz / before * 60.0 / LN_2;
-        if !(octaves_per_minute > 0.0 && octaves_per_minute <= most) {
+        let cycles_before = HALF_WINDOW + LEAD_CYCLES;
+        let max = 0.5 * from_hz / cycles_before * 60.0 / LN_2;
+        if !(octaves_per_minute > 0.0 && octaves_per_minute <= max) {
             return Err(TestbenchError::SweepRate {
                 octaves_per_minute,
                 from_hz,
-                most,
+                max,
             });
         }
         let sweep = Self {
-            start_hz: from_hz - rate_per_s * before,
-            end_hz: to_hz + rate_per_s * HALF,
+            start_hz: from_hz - rate_per_s * cycles_before,
+            end_hz: to_hz + rate_per_s * HALF_WINDOW,
             rate_per_s,
         };
         let steps = (sweep.end_hz / sweep.start_hz).ln() / rate_per_s / sweep.step_s();
-        if steps > MOST_STEPS {
+        if steps > MAX_STEPS {
             return Err(TestbenchError::SweepSteps { steps });
         }
         Ok(sweep)
     }
 
-    /// The step (s).
+    /// Returns the step (s).
     fn step_s(&self) -> f64 {
-        (1.0 / (self.end_hz * STEPS)).clamp(*STEP_RANGE_S.start(), *STEP_RANGE_S.end())
+        (1.0 / (self.end_hz * STEPS_PER_CYCLE)).clamp(*STEP_RANGE_S.start(), *STEP_RANGE_S.end())
     }
 
-    /// Cycles before a frequency is reached.
+    /// Returns the number of cycles until a frequency is reached.
     fn cycles_at(&self, frequency_hz: f64) -> f64 {
         (frequency_hz - self.start_hz) / self.rate_per_s
     }
 }
 
-/// What is summed about a frequency.
+/// Weighted sums over the window about one frequency.
 #[derive(Default)]
 struct Window {
     frequency_hz: f64,
-    /// Cycles before it.
+    /// Number of cycles until the frequency is reached.
     centre: f64,
     sine: f64,
     cosine: f64,
@@ -158,7 +162,7 @@ impl Window {
     }
 }
 
-/// Moves the damper through the sweep; whether it followed all of it.
+/// Moves the damper through the sweep; returns true if the damper followed all of it.
 fn run(
     parameters: &CheckedParameters,
     amplitude_m: f64,
@@ -168,14 +172,14 @@ fn run(
     let step_s = sweep.step_s();
     let damper = parameters.build::<f64>(step_s)?;
     let mut state = damper.at_rest(0.0);
-    // Windows before this one are complete.
+    // Windows before `first` are complete.
     let mut first = 0;
     for tick in 1_u64.. {
         let frequency_hz = sweep.start_hz * (sweep.rate_per_s * step_s * tick as f64).exp();
         let cycles = sweep.cycles_at(frequency_hz);
         let (sine, cosine) = (TAU * cycles.fract()).sin_cos();
         let force = damper.step(&mut state, amplitude_m * sine);
-        let is_past = |window: &Window| cycles > window.centre + HALF;
+        let is_past = |window: &Window| cycles > window.centre + HALF_WINDOW;
         while windows.get(first).is_some_and(is_past) {
             first += 1;
         }
@@ -184,11 +188,11 @@ fn run(
         }
         for window in &mut windows[first..] {
             let from_centre = cycles - window.centre;
-            if from_centre < -HALF {
+            if from_centre < -HALF_WINDOW {
                 break;
             }
-            // Over the phase, which advances with the frequency.
-            let weight = (1.0 - from_centre.abs() / HALF) * frequency_hz;
+            // The integral is over the phase, which advances in proportion to the frequency.
+            let weight = (1.0 - from_centre.abs() / HALF_WINDOW) * frequency_hz;
             window.sine += weight * force * sine;
             window.cosine += weight * force * cosine;
             window.weight += weight;

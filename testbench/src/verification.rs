@@ -1,4 +1,4 @@
-//! The fixed step against the reference solver.
+//! Compares the fixed step with the reference solver.
 
 use dashpot_core::{CheckedParameters, DamperParameters};
 use dashpot_reference::damper::Reference;
@@ -10,37 +10,37 @@ use super::compiled::Compiled;
 use dashpot_recording::Sample;
 use dashpot_recording::tick_grid::{Tick, rounding_s};
 
-/// Deviation of one fixed step from the reference on one motion.
+/// Deviation of the fixed step from the reference on one motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Deviation {
     /// Step (s).
     pub step_s: f64,
     /// Root mean square error over root mean square reference force (1).
     pub nrmse: f64,
-    /// Largest error over the largest reference force (1).
+    /// Maximum error over the maximum reference force (1).
     pub largest_error_over_peak: f64,
-    /// Largest error (N).
+    /// Maximum error (N).
     pub largest_error_n: f64,
-    /// Root mean square of the reference force (N).
+    /// Root mean square reference force (N).
     pub reference_rms_n: f64,
-    /// Largest magnitude of the reference force (N).
+    /// Maximum magnitude of the reference force (N).
     pub reference_peak_n: f64,
 }
 
-/// What the fixed step did with a motion.
+/// Result of the fixed step on a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FixedStep {
     /// Force at each tick (N).
     pub forces_n: Vec<f64>,
-    /// Ticks whose displacement was held or limited, up to 65535: there the damper followed another
-    /// motion than the reference.
+    /// Number of ticks whose displacement was held or limited, at most 65535; there the damper followed a different
+    /// motion from the reference.
     pub rejected_inputs: u16,
 }
 
-/// The fixed step at each displacement (m), the first one being where it starts at rest.
+/// Runs the fixed step through the displacements (m), starting at rest at the first one.
 ///
 /// # Errors
-/// Parameters that cannot be built.
+/// The damper cannot be built.
 pub fn fixed_step_forces<T: Compiled>(
     parameters: &CheckedParameters,
     step_s: f64,
@@ -59,42 +59,42 @@ pub fn fixed_step_forces<T: Compiled>(
     })
 }
 
-/// Reference force (N) at each displacement (m), linear between ticks of `step_s` (s).
+/// Returns the reference force (N) at each displacement (m); the motion is linear between ticks of `step_s` (s).
 ///
 /// # Errors
-/// What the reference solver reports.
+/// Errors from the reference solver.
 pub fn reference_forces(
     parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
 ) -> Result<Vec<f64>, TestbenchError> {
-    reference_forces_unless(parameters, step_s, displacements_m, &|| false)
+    reference_forces_cancellable(parameters, step_s, displacements_m, &|| false)
 }
 
-/// As [`reference_forces`], until they are unwanted.
+/// Same as [`reference_forces`], but stops when `is_cancelled` returns true.
 ///
 /// # Errors
-/// As [`reference_forces`]; forces that have become unwanted.
-pub fn reference_forces_unless(
+/// Same errors as [`reference_forces`], and an error if cancelled.
+pub fn reference_forces_cancellable(
     parameters: &DamperParameters,
     step_s: f64,
     displacements_m: &[f64],
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Vec<f64>, TestbenchError> {
     let times: Vec<f64> = (0..displacements_m.len())
         .map(|tick| tick as f64 * step_s)
         .collect();
     let mut reference = Reference::new(parameters)?;
-    Ok(reference.forces_unless(&times, displacements_m, is_unwanted)?)
+    Ok(reference.forces_unless(&times, displacements_m, is_cancelled)?)
 }
 
-/// Reference force (N) at each of `ticks` for the motion of the recording itself: linear between its
-/// samples, whichever of them lie between ticks.
+/// Returns the reference force (N) at each of `ticks` for the motion of the recording itself, linear between all its
+/// samples, including those between ticks.
 ///
-/// `ticks` of `step_s` (s) are of the same recording: a tick at a sample has the sample's displacement.
+/// `ticks` of `step_s` (s) belong to the same recording: a tick at a sample has the sample's displacement.
 ///
 /// # Errors
-/// What the reference solver reports.
+/// Errors from the reference solver.
 pub fn reference_forces_on_recording(
     parameters: &DamperParameters,
     step_s: f64,
@@ -108,7 +108,7 @@ pub fn reference_forces_on_recording(
     let mut indices = Vec::with_capacity(ticks.len());
     let mut samples = samples.iter().peekable();
     for tick in ticks {
-        // A sample that only rounding parts from the tick is the tick.
+        // A sample that differs from the tick only by rounding is the tick.
         let slack_s = rounding_s(tick.time_s, step_s);
         while let Some(sample) = samples.next_if(|sample| sample.time_s <= tick.time_s + slack_s) {
             if sample.time_s < tick.time_s - slack_s {
@@ -124,10 +124,10 @@ pub fn reference_forces_on_recording(
     Ok(indices.into_iter().map(|index| forces[index]).collect())
 }
 
-/// Deviation of `forces` from `reference` (N).
+/// Returns the deviation of `forces` from `reference` (N).
 ///
 /// # Errors
-/// Different lengths, or a reference force that is zero throughout.
+/// The lengths differ, or the reference force is zero throughout.
 pub fn deviation(
     step_s: f64,
     forces: &[f64],

@@ -148,7 +148,7 @@ fn promise_part() -> String {
         (long.nrmse_10_khz_f64, long.nrmse_10_khz_f32),
         (short.nrmse_10_khz_f64, short.nrmse_10_khz_f32)
     );
-    let ms = |promise: AccuracyLimits| promise.least_relaxation_time_s * 1e3;
+    let ms = |promise: AccuracyLimits| promise.min_relaxation_time_s * 1e3;
     format!(
         "| relaxation time | 1 kHz | 10 kHz |\n|---|---|---|\n\
          | {} ms or more | {:e} | {:e} in `f64`, {:e} in `f32` |\n| {} to {} ms | {:e} | the same |\n",

@@ -31,7 +31,7 @@ fn the_promise_of_each_damper_covers_its_motion() {
         let errors = StepErrors::new(&damper, STEP_S, None).expect("a damper that is built");
         let largest = errors.largest(2).expect("a reference");
         let promised = errors.promised(&largest);
-        let found = errors.on(&motion).expect("a reference");
+        let found = errors.on_motion(&motion).expect("a reference");
         for ((found, (error_n, nrmse)), scalar) in found.iter().zip(promised).zip(SCALARS) {
             println!(
                 "{name}, {scalar}: {:.2} N of {error_n:.2} N, NRMSE {:.2e} of {nrmse:.2e}",
@@ -43,8 +43,8 @@ fn the_promise_of_each_damper_covers_its_motion() {
         // The limits by relaxation time are those of the shipped motions, and do not apply here.
         let forces = reference_forces(&damper, STEP_S, &motion.displacements_m).expect("forces");
         let relaxation = relaxation_time_s(&damper, STEP_S, &motion.displacements_m, &forces);
-        let limit =
-            AccuracyLimits::of(relaxation).and_then(|limits| limits.nrmse(STEP_S, SCALARS[0]));
+        let limit = AccuracyLimits::for_relaxation_time(relaxation)
+            .and_then(|limits| limits.nrmse(STEP_S, SCALARS[0]));
         assert!(
             limit.is_some_and(|limit| found[0].nrmse > limit),
             "{name}: {limit:?}"

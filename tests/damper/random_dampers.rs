@@ -45,7 +45,9 @@ fn measure(number: u64) -> Result<Case, String> {
         for _ in 0..MOTIONS {
             let searched = SearchedMotion::any(&mut random, errors.top_speed_m_per_s());
             let motion = searched.motion(step_s);
-            let found = errors.on(&motion).map_err(|error| error.to_string())?;
+            let found = errors
+                .on_motion(&motion)
+                .map_err(|error| error.to_string())?;
             case.forms.push(searched.form);
             for ((found, promised), scalar) in found.iter().zip(promised).zip(SCALARS) {
                 for (what, found, promised) in [

@@ -29,9 +29,9 @@ fn run(
     let faulty = fault.on(&healthy);
     let x = ride(seed, before + TEN_SECONDS);
     let force = forces(&healthy, &faulty, before, &x);
-    let noise = Noise::of_rms(NOISE, &x, &force);
+    let noise = Noise::from_rms(NOISE, &x, &force);
     let model = model(&healthy, &noise);
-    let (x, force) = noise.on(&x, &force, seed + 7000);
+    let (x, force) = noise.add_to(&x, &force, seed + 7000);
     let reading = estimate(&model, &x, &force);
     (errors(&reading, &faulty, fault), reading.status)
 }

@@ -18,8 +18,8 @@ fn an_hour_of_a_healthy_damper_with_noise_of_five_percent_has_no_alarm() {
         let parameters = varied(preset, None);
         let x = ride(seed, HOUR);
         let force = forces(&parameters, &parameters, HOUR, &x);
-        let noise = Noise::of_rms(0.05, &x, &force);
-        let (x, force) = noise.on(&x, &force, seed);
+        let noise = Noise::from_rms(0.05, &x, &force);
+        let (x, force) = noise.add_to(&x, &force, seed);
         let reading = estimate(&model(&parameters, &noise), &x, &force);
         assert_eq!(reading.status & ALARMS, HealthStatus::empty(), "{preset}");
         assert!(
@@ -45,9 +45,9 @@ fn a_damper_at_rest_for_an_hour_keeps_its_estimate() {
     let faulty = Fault::Clearance.on(&parameters);
     let x = ride(21, 20_000);
     let force = forces(&faulty, &faulty, 0, &x);
-    let noise = Noise::of_rms(0.02, &x, &force);
+    let noise = Noise::from_rms(0.02, &x, &force);
     let model = model(&parameters, &noise);
-    let (noisy_x, noisy_force) = noise.on(&x, &force, 3);
+    let (noisy_x, noisy_force) = noise.add_to(&x, &force, 3);
     let mut health = Health::new(&model);
     let tick = |health: &mut Health, (x, force): (&f64, &f64)| {
         health.tick(&model, *x as f32, *force as f32);
@@ -58,7 +58,7 @@ fn a_damper_at_rest_for_an_hour_keeps_its_estimate() {
     // At rest in its clearance, then with an offset of the force sensor.
     for standing in [0.0, 200.0] {
         let (still_x, still_force) =
-            noise.on(&vec![x[0]; 1_800_000], &vec![standing; 1_800_000], 4);
+            noise.add_to(&vec![x[0]; 1_800_000], &vec![standing; 1_800_000], 4);
         let still = still_x.iter().zip(&still_force);
         still.for_each(|sample| tick(&mut health, sample));
     }
@@ -91,7 +91,7 @@ fn little_motion_is_reported() {
     let model = model(&parameters, &noise);
     let x: Vec<f64> = ride(31, 10_000).iter().map(|x| 1e-3 * x).collect();
     let force = forces(&parameters, &parameters, 0, &x);
-    let (x, force) = noise.on(&x, &force, 5);
+    let (x, force) = noise.add_to(&x, &force, 5);
     let reading = estimate(&model, &x, &force);
     assert!(reading.status.contains(HealthStatus::LITTLE_EXCITATION));
     assert_eq!(reading.status & ALARMS, HealthStatus::empty());

@@ -22,9 +22,9 @@ fn knowledge_fades_in_uninformative_motion() {
             *x = rest + small * (*x - rest);
         }
         let force = forces(&healthy, &worn, BEFORE, &x);
-        let noise = Noise::of_rms(0.02, &x[..BEFORE], &force[..BEFORE]);
+        let noise = Noise::from_rms(0.02, &x[..BEFORE], &force[..BEFORE]);
         let model = model(&healthy, &noise);
-        let (x, force) = noise.on(&x, &force, seed);
+        let (x, force) = noise.add_to(&x, &force, seed);
         let mut health = Health::new(&model);
         let mut known = None;
         for (tick, (x, force)) in x.iter().zip(&force).enumerate() {

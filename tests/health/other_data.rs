@@ -18,8 +18,8 @@ fn faults_in_forces_of_the_reference_are_known() {
             let x = ride(seed, TICKS);
             let times: Vec<f64> = (0..TICKS).map(|tick| tick as f64 * STEP_S).collect();
             let force = Reference::new(&faulty).unwrap().forces(&times, &x).unwrap();
-            let noise = Noise::of_rms(0.02, &x, &force);
-            let (x, force) = noise.on(&x, &force, seed);
+            let noise = Noise::from_rms(0.02, &x, &force);
+            let (x, force) = noise.add_to(&x, &force, seed);
             let reading = estimate(&model(&healthy, &noise), &x, &force);
             let [flow, stiffness, clearance, ..] = errors(&reading, &faulty, fault);
             println!(
@@ -103,8 +103,8 @@ fn faults_of_another_law_are_known_against_its_baseline() {
     let run = |bent: &Bent, seed: u64| {
         let x = ride(seed, TICKS);
         let force = bent.forces(&x);
-        let noise = Noise::of_rms(0.02, &x, &force);
-        (noise, noise.on(&x, &force, seed))
+        let noise = Noise::from_rms(0.02, &x, &force);
+        (noise, noise.add_to(&x, &force, seed))
     };
     let (noise, (x, force)) = run(&healthy, 301);
     let settings = HealthSettings::new(noise.displacement_m, noise.force_n).law_deviation(0.2);

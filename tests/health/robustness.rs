@@ -31,7 +31,7 @@ fn any_bits_give_numbers_and_are_forgotten() {
     let model = model(&parameters, &NOISE);
     let x = ride(41, 20_000);
     let force = forces(&parameters, &parameters, 0, &x);
-    let (x, force) = NOISE.on(&x, &force, 6);
+    let (x, force) = NOISE.add_to(&x, &force, 6);
     let rng = &mut Rng::with_seed(42);
     let mut health = Health::new(&model);
     for _ in 0..500_000 {
@@ -68,7 +68,7 @@ fn one_bad_sample_in_a_hundred_changes_little() {
     let model = model(&parameters, &NOISE);
     let x = ride(43, 20_000);
     let force = forces(&parameters, &parameters, 0, &x);
-    let (mut x, mut force) = NOISE.on(&x, &force, 7);
+    let (mut x, mut force) = NOISE.add_to(&x, &force, 7);
     let rng = &mut Rng::with_seed(44);
     for sample in 1..x.len() {
         match rng.u32(..400) {
@@ -98,7 +98,7 @@ fn a_sensor_reset_raises_no_alarm() {
     let model = model(&parameters, &NOISE);
     let x = ride(45, 20_000);
     let force = forces(&parameters, &parameters, 0, &x);
-    let (mut x, force) = NOISE.on(&x, &force, 8);
+    let (mut x, force) = NOISE.add_to(&x, &force, 8);
     x[10_000..].iter_mut().for_each(|x| *x += 0.04);
     let reading = estimate(&model, &x, &force);
     let alarms = HealthStatus::FLOW | HealthStatus::STIFFNESS | HealthStatus::CLEARANCE;
@@ -144,8 +144,8 @@ fn a_late_force_hides_no_fault() {
                 let late: Vec<f64> = (0..force.len())
                     .map(|tick: usize| force[tick.saturating_sub(samples)])
                     .collect();
-                let noise = Noise::of_rms(0.02, &x, &late);
-                let (x, late) = noise.on(&x, &late, seed);
+                let noise = Noise::from_rms(0.02, &x, &late);
+                let (x, late) = noise.add_to(&x, &late, seed);
                 let reading = estimate(&model(&healthy, &noise), &x, &late);
                 let [flow, stiffness, clearance, ..] = errors(&reading, &faulty, fault);
                 let lag_ms = 1e3 * reading.lag_s.value;

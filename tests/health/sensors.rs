@@ -113,8 +113,8 @@ impl Wrong {
         } else {
             forces(healthy, &faulty, BEFORE, &x)
         };
-        let noise = Noise::of_rms(0.02, &x, &right);
-        let (noisy_x, noisy_force) = noise.on(&x, &force, seed + 7000);
+        let noise = Noise::from_rms(0.02, &x, &right);
+        let (noisy_x, noisy_force) = noise.add_to(&x, &force, seed + 7000);
         let model = model(healthy, &noise);
         let mut health = Health::new(&model);
         let truth = [

@@ -57,8 +57,8 @@ fn a_faulty_damper_of_a_locomotive_is_distinguished_from_its_neighbour() {
     ] {
         let (samples, nominal) = signals(fault);
         for (index, (x, force)) in samples.iter().enumerate() {
-            let noise = Noise::of_rms(0.02, x, force);
-            let (x, force) = noise.on(x, force, index as u64);
+            let noise = Noise::from_rms(0.02, x, force);
+            let (x, force) = noise.add_to(x, force, index as u64);
             let reading = estimate(&model(&nominal, &noise), &x, &force);
             println!(
                 "{fault:?}, {}: noise {noise:?}, {reading:?}",

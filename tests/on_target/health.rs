@@ -34,7 +34,8 @@ fn samples(preset: &str) -> Vec<[u8; 8]> {
     let motion: Vec<f64> = to_and_fro.cycle().take(SAMPLES).collect();
     let mut state = damper.at_rest(0.0);
     let forces: Vec<f64> = motion.iter().map(|x| damper.step(&mut state, *x)).collect();
-    let (mut motion, mut forces) = Noise::of_rms(0.02, &motion, &forces).on(&motion, &forces, 7);
+    let (mut motion, mut forces) =
+        Noise::from_rms(0.02, &motion, &forces).add_to(&motion, &forces, 7);
     motion[15_000] = f64::NAN;
     forces[16_000] = f64::INFINITY;
     forces[17_000] = 1e9;

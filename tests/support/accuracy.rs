@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dashpot_core::{DamperParameters, Real};
+use dashpot_core::DamperParameters;
 use dashpot_reference::deviation::nrmse;
+use dashpot_testbench::compiled::Compiled;
 use dashpot_testbench::excitation::Excitation;
 use dashpot_testbench::verification::{fixed_step_forces, reference_forces};
 
@@ -65,7 +66,7 @@ pub fn displacements_m(excitation: Excitation, step_s: f64) -> Vec<f64> {
 }
 
 /// Forces of the fixed step (N) over the displacements, starting at rest at the first one.
-pub fn stepped<T: Real>(
+pub fn stepped<T: Compiled>(
     parameters: &DamperParameters,
     step_s: f64,
     displacements: &[f64],

@@ -109,7 +109,7 @@ impl<'a> Promised<'a> {
 
     /// Measured and promised values of a motion: for each scalar the largest error and the NRMSE.
     fn judge(&self, motion: &Motion) -> Result<[(f64, f64); 4], TestbenchError> {
-        let [double, single] = self.errors.on(motion)?;
+        let [double, single] = self.errors.on_motion(motion)?;
         let [of_double, of_single] = self.errors.promised(&self.largest);
         Ok([
             (double.largest_n, of_double.0),

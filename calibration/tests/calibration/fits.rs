@@ -1,5 +1,5 @@
-//! Calibration against tests whose numbers are known: made by the reference solver, which shares no law with the model that is fitted, with
-//! noise on both signals and the force recorded late.
+//! Calibration against synthetic tests with known parameters. The reference solver generates them; it shares no law
+//! with the fitted model. Both signals have noise, and the force is recorded late.
 
 use std::f64::consts::TAU;
 
@@ -14,13 +14,13 @@ use dashpot_testbench::health::Noise;
 use dashpot_testbench::verification::reference_forces;
 use fastrand::Rng;
 
-/// Interval of the made recordings (s).
+/// Sample interval of the synthetic recordings (s).
 const INTERVAL_S: f64 = 1e-3;
 
-/// Samples by which the force is late: 3 ms.
-const LATE: usize = 3;
+/// Delay of the force in samples: 3 ms.
+const DELAY: usize = 3;
 
-/// The bench tests: peak velocities 0.013 to 0.29 m/s.
+/// Amplitude (m) and frequency (Hz) of the bench tests; peak velocities 0.013 to 0.29 m/s.
 const MOTIONS: [(f64, f64); 5] = [
     (24.875e-3, 0.64),
     (24.665e-3, 1.9),
@@ -29,7 +29,7 @@ const MOTIONS: [(f64, f64); 5] = [
     (2e-3, 4.0),
 ];
 
-/// A recording of `damper` on the bench; `noise` is the standard deviation over the rms of each signal.
+/// Returns a synthetic bench recording of `damper`; `noise` is the standard deviation over the rms of each signal.
 pub(crate) fn recorded(
     damper: &CheckedParameters,
     (amplitude_m, frequency_hz): (f64, f64),
@@ -48,19 +48,19 @@ pub(crate) fn recorded(
         })
         .collect();
     let forces = reference_forces(damper, INTERVAL_S, &x).unwrap();
-    let noise = Noise::of_rms(noise, &x, &forces);
-    let (x, forces) = noise.on(&x, &forces, rng.u64(..));
+    let noise = Noise::from_rms(noise, &x, &forces);
+    let (x, forces) = noise.add_to(&x, &forces, rng.u64(..));
     Recorded {
         name: format!("{frequency_hz} Hz"),
-        times_s: (LATE..samples)
+        times_s: (DELAY..samples)
             .map(|sample| sample as f64 * INTERVAL_S)
             .collect(),
-        displacements_m: x[LATE..].to_vec(),
-        forces_n: forces[..samples - LATE].to_vec(),
+        displacements_m: x[DELAY..].to_vec(),
+        forces_n: forces[..samples - DELAY].to_vec(),
     }
 }
 
-/// A calibration of `start` from tests made of `truth`.
+/// Returns a calibration that starts from `start`, with synthetic tests of `truth`.
 fn calibration(
     truth: &CheckedParameters,
     start: &CheckedParameters,
@@ -72,7 +72,7 @@ fn calibration(
     let damper = Keyed::new("start", start).unwrap();
     let loops = MOTIONS.iter().flat_map(|motion| {
         let recorded = recorded(truth, *motion, noise, &mut rng);
-        LoopTest::of(&recorded, step_s).unwrap()
+        LoopTest::from_recording(&recorded, step_s).unwrap()
     });
     let loops: Vec<LoopTest> = loops.collect();
     let varied = keys
@@ -94,15 +94,15 @@ fn calibration(
 }
 
 fn value(calibration: &Calibration, found: &Calibrated, key: &str) -> f64 {
-    let number = calibration
+    let index = calibration
         .varied
         .iter()
         .position(|v| v.key == key)
         .unwrap();
-    found.values[number]
+    found.values[index]
 }
 
-/// Truths about the start, nobody's choice: each number times a ratio from 0.6 to 1.6.
+/// Returns random true values: each start value times a ratio from 0.6 to 1.6.
 fn truths<const N: usize>(starts: [f64; N], rng: &mut Rng) -> [f64; N] {
     starts.map(|start| start * (0.6 + rng.f64()))
 }
@@ -118,7 +118,7 @@ pub(crate) fn with<const N: usize>(
 }
 
 #[test]
-fn the_numbers_of_a_physical_damper_are_found() {
+fn parameters_of_a_physical_damper_are_recovered() {
     let start = load("in-service", &[]).unwrap();
     let keys = [
         "orifice.discharge_coefficient",
@@ -150,7 +150,7 @@ fn the_numbers_of_a_physical_damper_are_found() {
 }
 
 #[test]
-fn the_numbers_of_a_reduced_damper_are_found() {
+fn parameters_of_a_reduced_damper_are_recovered() {
     let start = load("reduced-vertical", &[]).unwrap();
     let keys = [
         "reduced.damping_n_s_per_m",
@@ -180,11 +180,11 @@ fn the_numbers_of_a_reduced_damper_are_found() {
 }
 
 #[test]
-fn what_only_goes_together_is_refused_with_the_reason() {
+fn confounded_parameters_are_rejected_with_the_reason() {
     let damper = load("in-service", &[]).unwrap();
     let keys = ["orifice.diameter_m", "orifice.discharge_coefficient"];
     let mut calibration = calibration(&damper, &damper, &keys, (0.02, 1));
-    // Without a transition the flow has only the product of the coefficient and the area.
+    // Without a transition the flow depends only on the product of the coefficient and the area.
     calibration.damper = {
         let turbulent = load("in-service", &["orifice.transition_reynolds=0.0".into()]).unwrap();
         Keyed::new("turbulent", &turbulent).unwrap()
@@ -199,25 +199,26 @@ fn what_only_goes_together_is_refused_with_the_reason() {
         text.contains("orifice.diameter_m: only together with `orifice.discharge_coefficient`"),
         "{text}"
     );
-    // What is known before of the coefficient separates them.
+    // The prior of the coefficient separates them.
     calibration.varied[1].prior = Some(Prior {
         mean: 0.72,
         standard_deviation: 0.02,
     });
     let found = calibration.run(&|_| {}).unwrap();
-    let by_tests = |number: usize| found.profiles[number].is_by_tests(&calibration.varied[number]);
+    let by_tests =
+        |number: usize| found.profiles[number].is_determined_by_tests(&calibration.varied[number]);
     assert!(!by_tests(1) && by_tests(2));
     assert!(
         (found.values[1] / 0.72 - 1.0).abs() < 0.03,
         "{:?}",
         found.values
     );
-    // Nothing tells the two apart but the prior.
+    // Only the prior distinguishes the two.
     assert!(found.determination.correlation[0][1] < -0.98);
 }
 
 #[test]
-fn what_no_force_tells_is_refused() {
+fn a_parameter_without_effect_is_rejected() {
     let damper = load("in-service", &["relief.opening_pressure_pa=2e7".into()]).unwrap();
     let keys = ["relief.opening_pressure_pa", "mount.stiffness_n_per_m"];
     let calibration = calibration(&damper, &damper, &keys, (0.02, 1));
@@ -230,7 +231,7 @@ fn what_no_force_tells_is_refused() {
 }
 
 #[test]
-fn the_preset_is_what_calibration_finds_and_keeps_table_5() {
+fn calibration_recovers_the_preset_and_table_5() {
     let keys = [
         (
             "valves.piston_extension.preload_pa",
@@ -284,7 +285,7 @@ fn the_preset_is_what_calibration_finds_and_keeps_table_5() {
             "{key}: {found}, shipped {number}"
         );
     }
-    // By the reference solution, over a settled cycle.
+    // Indices of the reference solution over a periodic cycle.
     let indices = |amplitude_m: f64, frequency_hz: f64| {
         let (ticks, step_s) = (4000, 0.00025 / frequency_hz);
         let x: Vec<f64> = (0..=3 * ticks)
@@ -316,7 +317,7 @@ fn the_preset_is_what_calibration_finds_and_keeps_table_5() {
 }
 
 #[test]
-fn intervals_of_95_percent_have_the_truth() {
+fn intervals_of_95_percent_contain_the_truth() {
     let keys = [
         "reduced.damping_n_s_per_m",
         "mount.stiffness_n_per_m",
@@ -332,7 +333,7 @@ fn intervals_of_95_percent_have_the_truth() {
         let mut rng = Rng::with_seed(100 + seed);
         let loops = [(10e-3, 0.8), (3e-3, 3.1)].iter().flat_map(|motion| {
             let recorded = recorded(&truth, *motion, 0.02, &mut rng);
-            LoopTest::of(&recorded, step_s).unwrap()
+            LoopTest::from_recording(&recorded, step_s).unwrap()
         });
         let loops: Vec<LoopTest> = loops.collect();
         let varied = keys
@@ -353,11 +354,11 @@ fn intervals_of_95_percent_have_the_truth() {
         let found = calibration.run(&|_| {}).unwrap();
         let profiles = found.profiles.iter().zip(truths.iter().chain(&[3e-3]));
         for ((profile, truth), within) in profiles.zip(&mut within) {
-            let [least, greatest] = [profile.least.unwrap(), profile.greatest.unwrap()];
+            let [least, greatest] = [profile.lower.unwrap(), profile.upper.unwrap()];
             *within += usize::from((least..=greatest).contains(truth));
         }
     }
     println!("of {seeds}: {within:?}");
-    // Fewer than 10 of 12 come by chance once in 50 times, at 95 %; fewer than 42 of 48 hardly ever.
+    // For 95 % intervals, fewer than 10 of 12 occur by chance once in 50 times, fewer than 42 of 48 almost never.
     assert!(within.iter().sum::<usize>() >= 42, "{within:?}");
 }

@@ -1,5 +1,5 @@
-//! With a force offset in the recordings the numbers had no interval at all; intervals of 95 % must have the truth as often with offsets of both
-//! sensors as without.
+//! Regression test: with a force offset in the recordings the parameters had no intervals at all. With offsets of both
+//! sensors, 95 % intervals must contain the truth as often as without.
 
 use dashpot_calibration::{
     Assumed, Calibration, FORCE_OFFSET, HeldRig, LoopTest, Recorded, SKEW, Varied,
@@ -17,11 +17,11 @@ const KEYS: [&str; 3] = [
 
 const TRUTHS: [f64; 3] = [110e3, 7e6, 0.8e-3];
 
-/// Offsets of the sensors (N, m).
+/// Offsets of the force sensor (N) and the displacement sensor (m).
 const OFFSETS: (f64, f64) = (200.0, 0.35);
 
 #[test]
-fn intervals_of_95_percent_have_the_truth_with_offsets() {
+fn intervals_of_95_percent_contain_the_truth_with_offsets() {
     let truth = with("reduced-vertical", KEYS, TRUTHS);
     let damper = Keyed::new("start", &load("reduced-vertical", &[]).unwrap()).unwrap();
     let (seeds, step_s) = (12, 2.5e-4);
@@ -36,7 +36,7 @@ fn intervals_of_95_percent_have_the_truth_with_offsets() {
                 forces_n: off(&recorded.forces_n, OFFSETS.0),
                 ..recorded
             };
-            LoopTest::of(&recorded, step_s).unwrap()
+            LoopTest::from_recording(&recorded, step_s).unwrap()
         });
         let loops: Vec<LoopTest> = loops.collect();
         for test in &loops {
@@ -68,7 +68,7 @@ fn intervals_of_95_percent_have_the_truth_with_offsets() {
         }
     }
     println!("of {seeds}: {within:?}");
-    // Of 60 intervals of 95 % fewer than 53 have the truth once in a hundred times; fewer than 9 of 12 once in 450.
+    // By chance, fewer than 53 of 60 intervals contain the truth once in 100 times, fewer than 9 of 12 once in 450.
     assert!(within.iter().sum::<usize>() >= 53, "{within:?}");
     assert!(within.iter().all(|within| *within >= 9), "{within:?}");
 }

@@ -338,7 +338,7 @@ fn wrong_use_says_what_is_allowed() {
                 "mount.clearance_m=2e-3:1e-3",
             ],
             2,
-            "the smaller first",
+            "the lower bound first",
         ),
         (
             &[

@@ -135,7 +135,7 @@ fn the_rigs_numbers_take_bounds_priors_and_values() {
     for (wrong, words) in [
         (
             &["--hold", "mount.clearance_m"][..],
-            "--hold mount.clearance_m: only numbers of the rig are held so (sensor_skew_s, force_offset_n)",
+            "--hold mount.clearance_m: only rig parameters can be held (sensor_skew_s, force_offset_n)",
         ),
         (
             &["--hold", "force_offset_n", "--vary", "force_offset_n"],

@@ -221,7 +221,7 @@ fn wrong_options_are_told_and_leave_no_file() {
         (&["--octaves-per-minute", "1"], "--swept"),
         (
             &["--swept", "--octaves-per-minute", "3"],
-            "--octaves-per-minute: 3 octaves a minute from 0.1 Hz on, allowed",
+            "--octaves-per-minute: 3 octaves per minute from 0.1 Hz, allowed",
         ),
         (
             &["--swept", "--octaves-per-minute", "1e-6"],

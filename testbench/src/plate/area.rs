@@ -1,42 +1,42 @@
-//! Where pressure acts on a plate, and how much of it.
+//! Distribution of pressure over a plate.
 
 use std::f64::consts::{PI, TAU};
 
 use serde::Serialize;
 
-use super::refusal::{check_count, refused};
+use super::limits::{check_count, invalid};
 use super::{PlateError, Profile, RoundBosses};
 
-/// Equal bosses over the circumference, each an annular sector.
+/// Equal, evenly spaced bosses, each an annular sector.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Bosses {
     /// Number of bosses N.
     pub count: u32,
-    /// Share of the circumference that they take (1).
+    /// Share of the circumference that the bosses cover (1).
     pub share: f64,
-    /// Pressure over the radius within a boss.
+    /// Radial pressure profile within a boss.
     pub profile: Profile,
 }
 
-/// Where pressure acts. The angle counts from the middle of a boss.
+/// Pressure distribution. The angle is measured from the centre of a boss.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum PressureArea {
-    /// The same all round.
+    /// Axisymmetric pressure.
     Ring(Profile),
-    /// Bosses that are annular sectors.
+    /// Pressure on bosses that are annular sectors.
     Sectors(Bosses),
-    /// Round bosses.
+    /// Pressure on round bosses.
     Round(RoundBosses),
 }
 
 impl PressureArea {
-    /// Full pressure on the whole free part of a disc between two radii (m).
+    /// Returns full pressure on the whole free part of a disc between two radii (m).
     pub fn whole(clamp_m: f64, free_m: f64) -> Self {
         Self::Ring(Profile::full(clamp_m, free_m))
     }
 
-    /// Equal parts of the circumference.
+    /// Returns the number of identical sectors around the circumference.
     pub fn count(&self) -> u32 {
         match self {
             Self::Ring(_) => 1,
@@ -45,8 +45,8 @@ impl PressureArea {
         }
     }
 
-    /// Whether the pressure is the same all round.
-    pub fn is_round(&self) -> bool {
+    /// True if the pressure is axisymmetric.
+    pub fn is_axisymmetric(&self) -> bool {
         match self {
             Self::Ring(_) => true,
             Self::Sectors(bosses) => bosses.share == 1.0,
@@ -54,7 +54,7 @@ impl PressureArea {
         }
     }
 
-    /// Share of the full pressure at a radius (m) and an angle (rad).
+    /// Returns the pressure over the full pressure at a radius (m) and an angle (rad).
     pub fn at(&self, radius_m: f64, angle_rad: f64) -> f64 {
         let pitch = TAU / f64::from(self.count());
         let angle = angle_rad - pitch * (angle_rad / pitch).round();
@@ -68,7 +68,7 @@ impl PressureArea {
         }
     }
 
-    /// Coefficient of `cos(k N t)` in the share of the full pressure at a radius.
+    /// Returns the coefficient of `cos(k N t)` of the pressure over the full pressure at a radius.
     pub(super) fn harmonic(&self, k: u32, radius_m: f64) -> f64 {
         match self {
             Self::Ring(profile) if k == 0 => profile.at(radius_m),
@@ -86,7 +86,7 @@ impl PressureArea {
         }
     }
 
-    /// Radii where the pressure's course over the radius has an end or a corner.
+    /// Returns the radii where the pressure profile begins, ends or has a corner.
     pub(super) fn corners_m(&self) -> [f64; 4] {
         match self {
             Self::Ring(profile) | Self::Sectors(Bosses { profile, .. }) => {
@@ -104,17 +104,17 @@ impl PressureArea {
         }
     }
 
-    /// Holds the numbers to what they may be on a disc between two radii (m).
+    /// Checks the values for a disc that is free between two radii (m).
     ///
     /// # Errors
-    /// A number out of its range.
+    /// A value out of range.
     pub fn check(&self, clamp_m: f64, free_m: f64) -> Result<(), PlateError> {
         match self {
             Self::Ring(profile) => profile.check(clamp_m, free_m),
             Self::Sectors(bosses) => {
                 check_count(bosses.count)?;
                 if !(0.0 < bosses.share && bosses.share <= 1.0) {
-                    return Err(refused(
+                    return Err(invalid(
                         "boss_share",
                         bosses.share.to_string(),
                         "above 0 and at most 1".into(),
@@ -131,9 +131,9 @@ impl PressureArea {
 mod tests {
     use super::*;
 
-    /// The coefficients against sums over the angle of what the pressure is there.
+    /// Compares the coefficients with numerical sums of the pressure over the angle.
     #[test]
-    fn harmonics_are_those_of_the_pressure() {
+    fn harmonics_agree_with_numerical_integration() {
         const STEPS: u32 = 40_000;
         let profile = Profile {
             full_m: [20e-3, 24e-3],

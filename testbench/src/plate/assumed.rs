@@ -1,8 +1,8 @@
-//! Pressure areas for the valves of the source paper, which tells their kind and no dimension: one is assumed, and what it
-//! leaves open is fitted to the valve's correction factor Ce.
+//! Pressure areas for the valves of the source paper. The paper gives the kind of each area but no dimensions, so some
+//! are assumed and the remaining one is fitted to the valve's correction factor Ce.
 //!
-//! Foot (the paper's Fig. 3): a ring under full pressure with decays to nothing. Piston (its Fig. 2): six bosses, each full over
-//! a circle and decaying to nothing around it.
+//! Foot valve (Fig. 3 of the paper): a ring of full pressure that decays to zero. Piston valves (Fig. 2): six bosses,
+//! each with full pressure over a circle that decays to zero around it.
 
 use dashpot_core::characteristic::ShimPackValve;
 use serde::Serialize;
@@ -12,56 +12,56 @@ use super::{
     fitted_decay_width_m, fitted_full_radius_m, fitted_share,
 };
 
-/// Bosses of a 6/6-hole piston.
+/// Number of bosses of a 6/6-hole piston.
 const BOSSES: u32 = 6;
 /// Assumed radius of a hole over that of its boss.
 const HOLE_SHARE: f64 = 0.75;
 /// Assumed exponent of a decay.
 const QUADRATIC: f64 = 2.0;
 
-/// Parts of the width that sectors of the fits take.
+/// Widths of the fitted sectors, as shares of the free width.
 pub const WIDTHS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// A geometry that has a valve's Ce.
+/// A geometry with the correction factor Ce of a valve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Fit {
-    /// Full from the clamp to a radius, decaying to nothing at the edge.
+    /// Full pressure from the clamp to a radius, decaying to zero at the edge.
     Decay {
         /// Exponent of the decay (1).
         exponent: f64,
-        /// The radius fitted (m).
+        /// Fitted outer radius of full pressure (m).
         full_radius_m: f64,
     },
-    /// Full in the middle, decaying to nothing at clamp and edge over the same width.
+    /// Full pressure in the middle, decaying to zero at clamp and edge over the same width.
     DecayOnBothSides {
         /// Exponent of the decay (1).
         exponent: f64,
-        /// The width fitted (m).
+        /// Fitted width of the decay (m).
         width_m: f64,
     },
-    /// Sectors, however many.
+    /// Sectors; the number of them does not matter.
     Sectors {
-        /// Radii between which the pressure is full (m).
+        /// Inner and outer radius of full pressure (m).
         full_m: [f64; 2],
-        /// The share of the circumference fitted (1).
+        /// Fitted share of the circumference (1).
         share: f64,
     },
     /// Six round bosses.
     RoundBosses {
-        /// Radius of the circle of their middles (m).
+        /// Radius of the pitch circle (m).
         pitch_radius_m: f64,
         /// Radius of a hole over that of its boss (1).
         hole_share: f64,
-        /// The radius of a boss fitted (m).
+        /// Fitted radius of a boss (m).
         boss_radius_m: f64,
     },
 }
 
-/// The area assumed at a valve whose correction factor is `factor`; that of 1 is the whole disc.
+/// Returns the area assumed for a valve with correction factor `factor`; a factor of 1 means the whole disc.
 ///
 /// # Errors
-/// The kind of area does not reach the factor.
+/// This kind of area cannot have the factor.
 pub fn assumed_area(
     valve: ShimPackValve,
     stack: &Stack,
@@ -89,12 +89,12 @@ pub fn assumed_area(
     }))
 }
 
-/// Whether a valve's pressure is the same all round, as at the foot.
+/// True if the pressure on a valve is axisymmetric, as on the foot valve.
 pub fn is_ring(valve: ShimPackValve) -> bool {
     matches!(valve, ShimPackValve::FootCompression)
 }
 
-/// Geometries of the valve's kind of area that have the correction factor `factor`: none where none reaches it.
+/// Returns geometries of the valve's kind of area with correction factor `factor`; empty if none can have it.
 ///
 /// # Errors
 /// The plate has no solution.
@@ -109,19 +109,21 @@ pub fn fits(
     if is_ring(valve) {
         for exponent in [1.0, 2.0, 3.0] {
             let fit = fitted_full_radius_m(stack, exponent, factor, resolution);
-            fits.extend(reached(fit)?.map(|full_radius_m| Fit::Decay {
+            fits.extend(if_reachable(fit)?.map(|full_radius_m| Fit::Decay {
                 exponent,
                 full_radius_m,
             }));
             let fit = fitted_decay_width_m(stack, exponent, factor, resolution);
-            fits.extend(reached(fit)?.map(|width_m| Fit::DecayOnBothSides { exponent, width_m }));
+            fits.extend(
+                if_reachable(fit)?.map(|width_m| Fit::DecayOnBothSides { exponent, width_m }),
+            );
         }
         return Ok(fits);
     }
-    for part in WIDTHS {
-        let profile = middle_ring(stack, part);
+    for share in WIDTHS {
+        let profile = middle_ring(stack, share);
         let fit = fitted_share(stack, profile, factor, resolution);
-        fits.extend(reached(fit)?.map(|share| Fit::Sectors {
+        fits.extend(if_reachable(fit)?.map(|share| Fit::Sectors {
             full_m: profile.full_m,
             share,
         }));
@@ -131,7 +133,7 @@ pub fn fits(
             let pitch_radius_m = clamp + (free - clamp) * f64::from(i) / 40.0;
             let bosses = bosses(pitch_radius_m);
             let fit = fitted_boss_radius_m(stack, bosses, hole_share, factor, resolution);
-            fits.extend(reached(fit)?.map(|boss_radius_m| Fit::RoundBosses {
+            fits.extend(if_reachable(fit)?.map(|boss_radius_m| Fit::RoundBosses {
                 pitch_radius_m,
                 hole_share,
                 boss_radius_m,
@@ -141,10 +143,10 @@ pub fn fits(
     Ok(fits)
 }
 
-/// Full pressure in the middle of a stack, on a part of its width.
-pub fn middle_ring(stack: &Stack, part: f64) -> Profile {
+/// Returns full pressure on a ring in the middle of the free width, over `share` of that width.
+pub fn middle_ring(stack: &Stack, share: f64) -> Profile {
     let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
-    let (middle, half) = (0.5 * (clamp + free), 0.5 * part * (free - clamp));
+    let (middle, half) = (0.5 * (clamp + free), 0.5 * share * (free - clamp));
     Profile::full((middle - half).max(clamp), (middle + half).min(free))
 }
 
@@ -158,8 +160,8 @@ fn bosses(pitch_radius_m: f64) -> RoundBosses {
     }
 }
 
-/// What was fitted, none where no geometry reaches the factor.
-fn reached(fit: Result<f64, PlateError>) -> Result<Option<f64>, PlateError> {
+/// Returns the fitted value; `None` if no geometry has the factor.
+fn if_reachable(fit: Result<f64, PlateError>) -> Result<Option<f64>, PlateError> {
     match fit {
         Ok(fitted) => Ok(Some(fitted)),
         Err(PlateError::OutOfReach { .. }) => Ok(None),

@@ -5,17 +5,17 @@ use std::f64::consts::PI;
 use super::harmonic::{Derivatives, Harmonic};
 use super::{PlateError, PressureArea, Stack};
 
-/// How finely a plate is divided.
+/// Discretisation of a plate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Resolution {
-    /// Elements from clamp to edge, at least; each corner of the pressure has a node.
+    /// Minimum number of elements from clamp to edge; each corner of the pressure profile has a node.
     pub elements: usize,
-    /// Harmonics of the number of bosses.
+    /// Number of harmonics of the boss spacing.
     pub harmonics: u32,
 }
 
 impl Default for Resolution {
-    /// Lifts within 1e-6 and stresses within 1e-3 of those of a division twice as fine.
+    /// Lifts within 1e-6 and stresses within 1e-3 of the results of twice the resolution.
     fn default() -> Self {
         Self {
             elements: 96,
@@ -27,15 +27,15 @@ impl Default for Resolution {
 /// Curvatures per pressure at a point (1/(m Pa)).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Curvature {
-    /// Radial, `w''`.
+    /// Radial curvature, `w''`.
     pub radial: f64,
-    /// Tangential, `w'/r + w_tt/r^2`.
+    /// Tangential curvature, `w'/r + w_tt/r^2`.
     pub tangential: f64,
     /// Twist, `(w_t/r)'`.
     pub twist: f64,
 }
 
-/// A stack bent by pressure; everything in it is per pressure, since thin plates are linear.
+/// A stack bent by pressure. All results are per pressure, because thin plates are linear.
 #[derive(Clone, Debug)]
 pub struct Bending {
     /// Node radii over the free radius.
@@ -49,12 +49,12 @@ pub struct Bending {
 }
 
 impl Stack {
-    /// The stack under pressure on `area`.
+    /// Bends the stack by pressure on `area`.
     ///
     /// # Errors
-    /// An area that does not lie on the stack's free part.
+    /// The area is not within the free part of the stack.
     pub fn bend(&self, area: &PressureArea, resolution: Resolution) -> Result<Bending, PlateError> {
-        let harmonics = if area.is_round() {
+        let harmonics = if area.is_axisymmetric() {
             0
         } else {
             resolution.harmonics
@@ -62,10 +62,10 @@ impl Stack {
         self.bend_by(area, resolution.elements, harmonics)
     }
 
-    /// Mean edge lift per pressure on `area` (m/Pa): the harmonic of order zero alone.
+    /// Returns the mean edge lift per pressure on `area` (m/Pa), which is the harmonic of order zero.
     ///
     /// # Errors
-    /// As [`Stack::bend`].
+    /// Same errors as [`Stack::bend`].
     pub fn mean_edge_lift_m_per_pa(
         &self,
         area: &PressureArea,
@@ -75,10 +75,10 @@ impl Stack {
         Ok(bending.mean_edge_lift_m_per_pa())
     }
 
-    /// Correction factor Ce of `area`: mean edge lift over that under uniform pressure.
+    /// Returns the correction factor Ce of `area`: the mean edge lift over the lift under uniform pressure.
     ///
     /// # Errors
-    /// As [`Stack::bend`].
+    /// Same errors as [`Stack::bend`].
     pub fn correction_factor(
         &self,
         area: &PressureArea,
@@ -121,22 +121,23 @@ impl Stack {
     }
 }
 
-/// Nodes from `clamp` to 1 with one at each of `corners`, some `elements` in all. Each is in the same ratio to the one before
-/// between corners: curvature changes with the logarithm of the radius.
+/// Returns nodes from `clamp` to 1, including all `corners`, for about `elements` elements.
+///
+/// Between corners the nodes have equal ratios, because the curvature changes with the logarithm of the radius.
 fn nodes(clamp: f64, corners: [f64; 4], elements: usize) -> Vec<f64> {
-    let longest = -clamp.ln() / elements.max(1) as f64;
+    let max_log_ratio = -clamp.ln() / elements.max(1) as f64;
     let mut ends = [clamp, corners[0], corners[1], corners[2], corners[3], 1.0];
     ends.sort_by(f64::total_cmp);
     let mut nodes = vec![clamp];
     let mut start = clamp;
     for end in ends {
-        // Shorter than this is rounding: no element is between.
+        // A shorter element would only be rounding.
         if end - start > 1e-9 {
             let end = end.min(1.0);
-            let ratio = (end / start).ln();
-            let parts = (ratio / longest - 1e-6).ceil().max(1.0) as u32;
+            let log_ratio = (end / start).ln();
+            let parts = (log_ratio / max_log_ratio - 1e-6).ceil().max(1.0) as u32;
             let between =
-                (1..parts).map(|i| start * (ratio * f64::from(i) / f64::from(parts)).exp());
+                (1..parts).map(|i| start * (log_ratio * f64::from(i) / f64::from(parts)).exp());
             nodes.extend(between);
             nodes.push(end);
             start = end;
@@ -146,24 +147,25 @@ fn nodes(clamp: f64, corners: [f64; 4], elements: usize) -> Vec<f64> {
 }
 
 impl Bending {
-    /// Radii of the nodes (m).
+    /// Returns the radii of the nodes (m).
     pub fn radii_m(&self) -> impl Iterator<Item = f64> {
         self.nodes.iter().map(|q| q * self.free_radius_m)
     }
 
-    /// Half the angle from boss to boss (rad): the plate repeats itself mirrored beyond.
+    /// Returns half the angle between bosses (rad); beyond it the solution is mirrored.
     pub fn half_pitch_rad(&self) -> f64 {
         PI / f64::from(self.bosses)
     }
 
-    /// Whether the deflection is the same all round.
-    pub fn is_round(&self) -> bool {
+    /// True if the deflection is axisymmetric.
+    pub fn is_axisymmetric(&self) -> bool {
         self.harmonics.len() == 1
     }
 
-    /// Deflection per pressure at a radius (m), held within the plate, and an angle from a boss's middle (m/Pa).
+    /// Returns the deflection per pressure (m/Pa) at a radius (m), clamped to the plate, and an angle from the centre
+    /// of a boss (rad).
     pub fn deflection_m_per_pa(&self, radius_m: f64, angle_rad: f64) -> f64 {
-        let (element, q) = self.place(radius_m);
+        let (element, q) = self.locate(radius_m);
         let sum: f64 = self
             .at(element, q)
             .map(|(order, at)| at.value * (order * angle_rad).cos())
@@ -171,9 +173,9 @@ impl Bending {
         self.scale * sum
     }
 
-    /// Curvatures per pressure, as [`Bending::deflection_m_per_pa`].
+    /// Returns the curvatures per pressure; same arguments as [`Bending::deflection_m_per_pa`].
     pub fn curvature(&self, radius_m: f64, angle_rad: f64) -> Curvature {
-        let (element, q) = self.place(radius_m);
+        let (element, q) = self.locate(radius_m);
         let mut sum = Curvature::default();
         for (m, at) in self.at(element, q) {
             let (sine, cosine) = (m * angle_rad).sin_cos();
@@ -189,12 +191,12 @@ impl Bending {
         }
     }
 
-    /// Edge lift per pressure, mean over the circumference (m/Pa): what the flow through the edge follows.
+    /// Returns the edge lift per pressure, averaged over the circumference (m/Pa); the flow past the edge follows it.
     pub fn mean_edge_lift_m_per_pa(&self) -> f64 {
         self.scale * self.harmonics.first().map_or(0.0, Harmonic::at_edge)
     }
 
-    /// Least and greatest edge lift per pressure over the circumference (m/Pa).
+    /// Returns the minimum and maximum edge lift per pressure over the circumference (m/Pa).
     pub fn edge_lift_range_m_per_pa(&self) -> [f64; 2] {
         let lifts = self.angles_rad(self.angle_steps()).map(|angle| {
             let orders = self.harmonics.iter();
@@ -203,19 +205,20 @@ impl Bending {
                 .sum();
             self.scale * sum
         });
-        lifts.fold([f64::MAX, f64::MIN], |[least, greatest], lift| {
-            [least.min(lift), greatest.max(lift)]
+        lifts.fold([f64::MAX, f64::MIN], |[min, max], lift| {
+            [min.min(lift), max.max(lift)]
         })
     }
 
-    /// Angles (rad) from a boss's middle to halfway to the next in so many steps; the middle alone where all are equal.
+    /// Returns angles (rad) from the centre of a boss to halfway to the next one in `steps` steps; only the centre if
+    /// the deflection is axisymmetric.
     pub fn angles_rad(&self, steps: u32) -> impl Iterator<Item = f64> + use<> {
         let half = self.half_pitch_rad();
-        let steps = if self.is_round() { 0 } else { steps };
+        let steps = if self.is_axisymmetric() { 0 } else { steps };
         (0..=steps).map(move |i| half * f64::from(i) / f64::from(steps.max(1)))
     }
 
-    /// Steps that the highest harmonic takes four of in half a wave.
+    /// Returns the number of angle steps: four per half wave of the highest harmonic.
     pub(super) fn angle_steps(&self) -> u32 {
         4 * self.harmonics.len() as u32
     }
@@ -225,8 +228,8 @@ impl Bending {
         harmonics.map(move |harmonic| (harmonic.order, harmonic.at(&self.nodes, element, q)))
     }
 
-    /// The element that has a radius, and the radius over the free one.
-    fn place(&self, radius_m: f64) -> (usize, f64) {
+    /// Returns the element that contains a radius, and the radius over the free radius.
+    fn locate(&self, radius_m: f64) -> (usize, f64) {
         let clamp = self.clamp_radius_m / self.free_radius_m;
         let q = (radius_m / self.free_radius_m).clamp(clamp, 1.0);
         let after = self.nodes.partition_point(|node| *node <= q);

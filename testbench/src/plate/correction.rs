@@ -1,16 +1,16 @@
-//! Geometries that have a given correction factor Ce.
+//! Fits geometries to a given correction factor Ce.
 
 use super::{PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack};
 
-/// Most trials; ten do.
-const TRIALS: u32 = 60;
-/// Interval that is narrow enough (1).
-const WIDTH: f64 = 1e-13;
-/// Rounding of a factor: no trial comes nearer to one.
-const ROUNDING: f64 = 1e-9;
+/// Maximum number of iterations; ten usually suffice.
+const MAX_ITERATIONS: u32 = 60;
+/// Width of the interval at which the search ends (1).
+const INTERVAL_TOLERANCE: f64 = 1e-13;
+/// Error of the factor at which the search ends: rounding allows no less.
+const FACTOR_TOLERANCE: f64 = 1e-9;
 
-/// Where a pressure that is full from the clamp on begins its decay, `((r_w - r)/(r_w - r_f))^n`, so that the correction
-/// factor is `factor`: the radius r_f (m).
+/// Returns the radius r_f (m) at which a pressure that is full from the clamp begins its decay,
+/// `((r_w - r)/(r_w - r_f))^n`, for the correction factor `factor`.
 ///
 /// # Errors
 /// No radius has the factor.
@@ -22,8 +22,8 @@ pub fn fitted_full_radius_m(
 ) -> Result<f64, PlateError> {
     let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
     let width = free - clamp;
-    fitted("radius of full pressure", factor, [1e-3, 1.0], |part| {
-        let full = clamp + part * width;
+    fitted("radius of full pressure", factor, [1e-3, 1.0], |share| {
+        let full = clamp + share * width;
         let area = PressureArea::Ring(Profile {
             full_m: [clamp, full],
             ends_m: [clamp, free],
@@ -31,11 +31,11 @@ pub fn fitted_full_radius_m(
         });
         stack.correction_factor(&area, resolution)
     })
-    .map(|part| clamp + part * width)
+    .map(|share| clamp + share * width)
 }
 
-/// Width (m) over which a pressure that is full in the middle decays to nothing at clamp and edge, so that the correction factor
-/// is `factor`.
+/// Returns the width (m) over which a pressure that is full in the middle decays to zero at clamp and edge, for the
+/// correction factor `factor`.
 ///
 /// # Errors
 /// No width has the factor.
@@ -46,9 +46,9 @@ pub fn fitted_decay_width_m(
     resolution: Resolution,
 ) -> Result<f64, PlateError> {
     let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
-    let widest = 0.5 * (free - clamp);
-    fitted("width of decay", factor, [1e-3, 1.0], |part| {
-        let width = (1.0 - part) * widest;
+    let max_width = 0.5 * (free - clamp);
+    fitted("width of decay", factor, [1e-3, 1.0], |share| {
+        let width = (1.0 - share) * max_width;
         let area = PressureArea::Ring(Profile {
             full_m: [clamp + width, free - width],
             ends_m: [clamp, free],
@@ -56,14 +56,15 @@ pub fn fitted_decay_width_m(
         });
         stack.correction_factor(&area, resolution)
     })
-    .map(|part| (1.0 - part) * widest)
+    .map(|share| (1.0 - share) * max_width)
 }
 
-/// Share of the circumference that sectors of a profile take, so that the correction factor is `factor`. The factor is
-/// the share times that of the ring: only the harmonic of order zero has a mean.
+/// Returns the share of the circumference that sectors with a radial profile cover, for the correction factor `factor`.
+///
+/// The factor is the share times the factor of the full ring, because only the harmonic of order zero has a mean.
 ///
 /// # Errors
-/// The whole ring has less than the factor.
+/// The factor of the full ring is too small.
 pub fn fitted_share(
     stack: &Stack,
     profile: Profile,
@@ -75,17 +76,17 @@ pub fn fitted_share(
         return Err(PlateError::OutOfReach {
             geometry: "share of the circumference",
             factor,
-            least: 0.0,
-            greatest: ring,
+            min: 0.0,
+            max: ring,
         });
     }
     Ok(factor / ring)
 }
 
-/// Radius (m) of round bosses whose holes have `hole_share` of it, so that the correction factor is `factor`.
+/// Returns the radius (m) of round bosses for the correction factor `factor`; the hole has `hole_share` of this radius.
 ///
 /// # Errors
-/// Bosses from almost none to where they meet the clamp, the edge or each other do not have the factor.
+/// No radius has the factor, from nearly zero to where the bosses meet the clamp, the edge or each other.
 pub fn fitted_boss_radius_m(
     stack: &Stack,
     bosses: RoundBosses,
@@ -93,9 +94,9 @@ pub fn fitted_boss_radius_m(
     factor: f64,
     resolution: Resolution,
 ) -> Result<f64, PlateError> {
-    let greatest = bosses.greatest_radius_m(stack.clamp_radius_m(), stack.free_radius_m());
-    fitted("boss radius", factor, [1e-3, 1.0], |part| {
-        let boss_radius_m = part * greatest;
+    let max_radius = bosses.max_radius_m(stack.clamp_radius_m(), stack.free_radius_m());
+    fitted("boss radius", factor, [1e-3, 1.0], |share| {
+        let boss_radius_m = share * max_radius;
         let area = PressureArea::Round(RoundBosses {
             boss_radius_m,
             hole_radius_m: hole_share * boss_radius_m,
@@ -103,45 +104,49 @@ pub fn fitted_boss_radius_m(
         });
         stack.correction_factor(&area, resolution)
     })
-    .map(|part| part * greatest)
+    .map(|share| share * max_radius)
 }
 
-/// Where in an interval `of`, which rises, is `factor`.
+/// Solves `evaluate(x) = factor` in an interval in which `evaluate` rises.
 fn fitted(
     geometry: &'static str,
     factor: f64,
     [mut low, mut high]: [f64; 2],
-    of: impl Fn(f64) -> Result<f64, PlateError>,
+    evaluate: impl Fn(f64) -> Result<f64, PlateError>,
 ) -> Result<f64, PlateError> {
-    let (least, greatest) = (of(low)?, of(high)?);
-    if !(least..=greatest).contains(&factor) {
+    let (min, max) = (evaluate(low)?, evaluate(high)?);
+    if !(min..=max).contains(&factor) {
         return Err(PlateError::OutOfReach {
             geometry,
             factor,
-            least,
-            greatest,
+            min,
+            max,
         });
     }
-    // Regula falsi, Illinois variant: an end that is kept again counts half.
-    let (mut at_low, mut at_high) = (least - factor, greatest - factor);
-    let mut rose = None;
-    for _ in 0..TRIALS {
-        if high - low < WIDTH || at_high == at_low {
+    // Regula falsi, Illinois variant: the value at an end that is kept twice in a row is halved.
+    let (mut at_low, mut at_high) = (min - factor, max - factor);
+    let mut low_moved = None;
+    for _ in 0..MAX_ITERATIONS {
+        if high - low < INTERVAL_TOLERANCE || at_high == at_low {
             break;
         }
         let trial = low - at_low * (high - low) / (at_high - at_low);
-        let at_trial = of(trial)? - factor;
-        if at_trial.abs() < ROUNDING {
+        let at_trial = evaluate(trial)? - factor;
+        if at_trial.abs() < FACTOR_TOLERANCE {
             return Ok(trial);
         }
-        let rises = at_trial < 0.0;
-        let again = if rose == Some(rises) { 0.5 } else { 1.0 };
-        if rises {
-            (low, at_low, at_high) = (trial, at_trial, again * at_high);
+        let moves_low = at_trial < 0.0;
+        let weight = if low_moved == Some(moves_low) {
+            0.5
         } else {
-            (high, at_high, at_low) = (trial, at_trial, again * at_low);
+            1.0
+        };
+        if moves_low {
+            (low, at_low, at_high) = (trial, at_trial, weight * at_high);
+        } else {
+            (high, at_high, at_low) = (trial, at_trial, weight * at_low);
         }
-        rose = Some(rises);
+        low_moved = Some(moves_low);
     }
     Ok(0.5 * (low + high))
 }

@@ -1,39 +1,37 @@
-//! Why a plate has no solution.
+//! Errors of plate calculations.
 
 use dashpot_core::BuildError;
 
-/// Why a plate has no solution.
+/// Errors of plate calculations.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlateError {
-    /// The stack is not one that plate theory holds for.
+    /// Plate theory does not apply to the stack.
     #[error(transparent)]
     Stack(#[from] BuildError),
-    /// A number of the pressure area is not allowed.
+    /// Invalid value of the pressure area.
     #[error("{key}: {given}, allowed: {allowed}")]
     Area {
-        /// Its name.
+        /// Name of the value.
         key: &'static str,
-        /// What was given.
+        /// Given value.
         given: String,
-        /// What is allowed.
+        /// Allowed values.
         allowed: String,
     },
-    /// No geometry of a kind has the correction factor asked for.
-    #[error(
-        "no {geometry} has a correction factor of {factor}, allowed: {least:.4} to {greatest:.4}"
-    )]
+    /// No geometry of this kind has the requested correction factor.
+    #[error("no {geometry} has a correction factor of {factor}, allowed: {min:.4} to {max:.4}")]
     OutOfReach {
-        /// What was to be fitted.
+        /// Fitted quantity.
         geometry: &'static str,
-        /// The correction factor (1).
+        /// Requested correction factor (1).
         factor: f64,
-        /// Least factor of the kind.
-        least: f64,
-        /// Greatest factor of the kind.
-        greatest: f64,
+        /// Minimum factor of this kind of geometry.
+        min: f64,
+        /// Maximum factor of this kind of geometry.
+        max: f64,
     },
-    /// The plate's equations have no solution: rounding makes the stiffness singular.
+    /// The equations have no solution, because rounding makes the stiffness matrix singular.
     #[error("the plate's equations have no solution between {clamp_m} and {free_m} m")]
     Singular {
         /// Clamping radius (m).

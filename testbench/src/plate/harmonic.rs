@@ -1,10 +1,10 @@
-//! One harmonic of a plate's deflection: cubic Hermite elements in the radius.
+//! One harmonic of a plate's deflection, in cubic Hermite elements over the radius.
 
 use nalgebra::{Matrix2, Matrix4, Vector2, Vector4};
 
 use super::quadrature::points;
 
-/// A function of the radius by its value and slope at the nodes, cubic between them.
+/// A function of the radius, given by value and slope at the nodes and cubic between them.
 #[derive(Clone, Debug)]
 pub(super) struct Harmonic {
     /// Order m of `cos(m t)`.
@@ -21,10 +21,10 @@ pub(super) struct Derivatives {
     pub(super) second: f64,
 }
 
-/// Shape functions of an element (value and slope at its start, at its end) at `part` of its length, each with two
-/// derivatives.
-fn shapes(part: f64, length: f64) -> [Vector4<f64>; 3] {
-    let (x, l) = (part, length);
+/// Returns the shape functions of an element (value and slope at its start, then at its end) and their first two
+/// derivatives at `fraction` of its length.
+fn shapes(fraction: f64, length: f64) -> [Vector4<f64>; 3] {
+    let (x, l) = (fraction, length);
     let value = Vector4::new(
         1.0 - x * x * (3.0 - 2.0 * x),
         l * x * (1.0 - x) * (1.0 - x),
@@ -47,11 +47,11 @@ fn shapes(part: f64, length: f64) -> [Vector4<f64>; 3] {
 }
 
 impl Harmonic {
-    /// Solves a plate of unit bending stiffness, clamped at the first of `nodes` and free at the last, under the
-    /// pressure `load(r) cos(m t)`; `None` where rounding makes the stiffness singular.
+    /// Solves a plate of unit bending stiffness under the pressure `load(r) cos(m t)`, clamped at the first node and
+    /// free at the last; `None` if rounding makes the stiffness matrix singular.
     ///
-    /// The virtual work of the curvatures in polar coordinates over `r dr`, with
-    /// `k_r = w''`, `k_t = w'/r - m^2 w/r^2`, `k_rt = m (w'/r - w/r^2)`:
+    /// Principle of virtual work in polar coordinates, integrated over `r dr`, with the curvatures
+    /// `k_r = w''`, `k_t = w'/r - m^2 w/r^2` and `k_rt = m (w'/r - w/r^2)`:
     /// `k_r k_r + k_t k_t + nu (k_r k_t + k_t k_r) + 2 (1 - nu) k_rt k_rt = load w`.
     pub(super) fn solve(
         nodes: &[f64],
@@ -59,7 +59,7 @@ impl Harmonic {
         poisson_ratio: f64,
         load: impl Fn(f64) -> f64,
     ) -> Option<Self> {
-        // Clamped: value and slope at the first node are zero, so the chain of blocks begins at the second.
+        // Value and slope are zero at the clamped first node, so the chain of blocks starts at the second.
         let mut chain = Chain::default();
         for (i, pair) in nodes.windows(2).enumerate() {
             let (stiffness, force) = element(pair[0], pair[1], order, poisson_ratio, &load);
@@ -79,7 +79,7 @@ impl Harmonic {
         Some(Self { order, values })
     }
 
-    /// Value and derivatives at `radius`, which lies in the element that begins at node `element` of `nodes`.
+    /// Returns value and derivatives at `radius`, which is in the element that starts at node `element`.
     pub(super) fn at(&self, nodes: &[f64], element: usize, radius: f64) -> Derivatives {
         let (start, end) = (nodes[element], nodes[element + 1]);
         let length = end - start;
@@ -94,13 +94,13 @@ impl Harmonic {
         }
     }
 
-    /// Value at the last node.
+    /// Returns the value at the last node.
     pub(super) fn at_edge(&self) -> f64 {
         self.values.last().map_or(0.0, |value| value.x)
     }
 }
 
-/// Stiffness and load of the element between two radii.
+/// Returns the stiffness matrix and load vector of the element between two radii.
 fn element(
     start: f64,
     end: f64,
@@ -125,44 +125,56 @@ fn element(
     (stiffness, force)
 }
 
-/// Elimination of a symmetric chain of blocks, each bound to the next.
+/// An eliminated node.
+struct EliminatedBlock {
+    /// Inverse of the diagonal block.
+    inverse: Matrix2<f64>,
+    force: Vector2<f64>,
+    /// Coupling to the next node.
+    coupling: Matrix2<f64>,
+}
+
+/// Elimination of a symmetric block tridiagonal system.
 #[derive(Default)]
 struct Chain {
-    /// Inverse of the eliminated block, its force, and what binds it to the next.
-    eliminated: Vec<(Matrix2<f64>, Vector2<f64>, Matrix2<f64>)>,
+    eliminated: Vec<EliminatedBlock>,
     diagonal: Matrix2<f64>,
     force: Vector2<f64>,
 }
 
 impl Chain {
-    /// Adds what the element before a node gives to it.
+    /// Adds the contribution of the element before a node.
     fn open(&mut self, diagonal: Matrix2<f64>, force: Vector2<f64>) {
         self.diagonal += diagonal;
         self.force += force;
     }
 
-    /// Adds what the element after the node gives to it, and eliminates the node.
+    /// Adds the contribution of the element after the node, and eliminates the node.
     fn close(
         &mut self,
         diagonal: Matrix2<f64>,
         force: Vector2<f64>,
-        between: Matrix2<f64>,
+        coupling: Matrix2<f64>,
     ) -> Option<()> {
         let inverse = (self.diagonal + diagonal).try_inverse()?;
         let force = self.force + force;
-        self.eliminated.push((inverse, force, between));
-        self.diagonal = -between.transpose() * inverse * between;
-        self.force = -between.transpose() * inverse * force;
+        self.eliminated.push(EliminatedBlock {
+            inverse,
+            force,
+            coupling,
+        });
+        self.diagonal = -coupling.transpose() * inverse * coupling;
+        self.force = -coupling.transpose() * inverse * force;
         Some(())
     }
 
-    /// The solution from the last node back to the first.
+    /// Returns the solution from the last node back to the first.
     fn solve(self) -> Option<Vec<Vector2<f64>>> {
-        let mut later = self.diagonal.try_inverse()? * self.force;
-        let mut values = vec![later];
-        for (inverse, force, between) in self.eliminated.into_iter().rev() {
-            later = inverse * (force - between * later);
-            values.push(later);
+        let mut next = self.diagonal.try_inverse()? * self.force;
+        let mut values = vec![next];
+        for node in self.eliminated.into_iter().rev() {
+            next = node.inverse * (node.force - node.coupling * next);
+            values.push(next);
         }
         Some(values)
     }

@@ -1,9 +1,9 @@
-//! A shim stack as a thin plate (Kirchhoff) under pressure that need not be uniform: deflection, surface stress, and the
-//! correction factor Ce of the edge's lift.
+//! A shim stack as a thin (Kirchhoff) plate under non-uniform pressure: deflection, surface stress and the correction
+//! factor Ce of the edge lift.
 //!
-//! The deflection is `w(r, t) = sum w_k(r) cos(k N t)` for N equal bosses over the circumference, each `w_k` by cubic Hermite
-//! elements in the radius, since the harmonics of a round plate do not act on each other (Timoshenko and Woinowsky-Krieger,
-//! Theory of Plates and Shells, Arts. 62 and 63).
+//! The deflection for N equal bosses around the circumference is `w(r, t) = sum w_k(r) cos(k N t)`. The harmonics of a
+//! circular plate are uncoupled (Timoshenko and Woinowsky-Krieger, Theory of Plates and Shells, Arts. 62 and 63), so
+//! each `w_k` is solved for separately, in cubic Hermite elements over the radius.
 
 mod area;
 mod assumed;
@@ -11,9 +11,9 @@ mod bending;
 mod correction;
 mod error;
 mod harmonic;
+mod limits;
 mod profile;
 mod quadrature;
-mod refusal;
 mod round_bosses;
 mod stack;
 mod stress;

@@ -1,24 +1,24 @@
-//! Pressure over the radius.
+//! Radial pressure profile.
 
 use serde::Serialize;
 
 use super::PlateError;
-use super::refusal::{check_exponent, refused};
+use super::limits::{check_exponent, invalid};
 
-/// Share of the full pressure over the radius: 1 from `full_m[0]` to `full_m[1]`, falling to nothing at `ends_m`,
-/// `((r - end)/(full - end))^n`.
+/// Pressure over the full pressure as a function of the radius: 1 from `full_m[0]` to `full_m[1]`, decaying to zero at
+/// `ends_m` as `((r - end)/(full - end))^n`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Profile {
-    /// Radii between which the pressure is full (m).
+    /// Inner and outer radius of full pressure (m).
     pub full_m: [f64; 2],
-    /// Radii at which the pressure has decayed to nothing (m); those of `full_m` for none.
+    /// Radii at which the pressure has decayed to zero (m); equal to `full_m` for no decay.
     pub ends_m: [f64; 2],
     /// Exponent n of the decay (1): 1 linear, 2 quadratic.
     pub exponent: f64,
 }
 
 impl Profile {
-    /// Full pressure between two radii (m), none outside.
+    /// Returns full pressure between two radii (m) and none outside.
     pub fn full(inner_m: f64, outer_m: f64) -> Self {
         let radii = [inner_m, outer_m];
         Self {
@@ -28,7 +28,7 @@ impl Profile {
         }
     }
 
-    /// Share of the full pressure at a radius.
+    /// Returns the pressure over the full pressure at a radius (m).
     pub fn at(&self, radius_m: f64) -> f64 {
         let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
         if (inner..=outer).contains(&radius_m) {
@@ -45,17 +45,17 @@ impl Profile {
     pub(super) fn check(&self, clamp_m: f64, free_m: f64) -> Result<(), PlateError> {
         let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
         let listed = |radii: [f64; 2]| format!("{} to {} m", radii[0], radii[1]);
-        // Radii as written: a file's 0.029 is the free radius, whatever its last bit became in arithmetic.
+        // The slack absorbs rounding: a radius given as 0.029 equals the free radius.
         let (clamp, free) = (clamp_m * (1.0 - 1e-12), free_m * (1.0 + 1e-12));
         if !(clamp <= inner && inner < outer && outer <= free) {
-            return Err(refused(
+            return Err(invalid(
                 "loaded_radii_m",
                 listed(self.full_m),
                 format!("rising, within the free part of the disc, {clamp_m} to {free_m} m"),
             ));
         }
         if !(clamp <= start && start <= inner && outer <= end && end <= free) {
-            return Err(refused(
+            return Err(invalid(
                 "decay_radii_m",
                 listed(self.ends_m),
                 format!("around the loaded radii, within {clamp_m} to {free_m} m"),

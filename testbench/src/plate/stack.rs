@@ -1,4 +1,4 @@
-//! The discs of a valve as one plate.
+//! The discs of a valve as a single plate.
 
 use dashpot_core::parameters::Valve;
 use dashpot_core::shim::{Disc, Pack};
@@ -6,14 +6,14 @@ use serde::Serialize;
 
 use super::PlateError;
 
-/// How the discs of a stack hold together.
+/// Connection between the discs of a stack.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stacking {
-    /// They slide on each other without friction: stiffnesses add up, `h_e^3 = sum h_i^3`.
+    /// The discs slide on each other without friction, so their stiffnesses add up: `h_e^3 = sum h_i^3`.
     #[default]
     Sliding,
-    /// They are one: thicknesses add up.
+    /// The discs are bonded, so their thicknesses add up.
     Bonded,
 }
 
@@ -28,10 +28,10 @@ pub struct Stack {
 }
 
 impl Stack {
-    /// The shims of a valve; `section` names the valve in errors.
+    /// Builds the stack of a valve's shims; `section` names the valve in error messages.
     ///
     /// # Errors
-    /// As [`Pack::new`]: a disc that cannot be, or no shim.
+    /// Same errors as [`Pack::new`]: an invalid disc, or no shim.
     pub fn new(
         section: &'static str,
         valve: &Valve,
@@ -47,22 +47,22 @@ impl Stack {
         })
     }
 
-    /// Clamping radius (m).
+    /// Returns the clamping radius (m).
     pub fn clamp_radius_m(&self) -> f64 {
         self.disc.clamp_radius_m()
     }
 
-    /// Free radius (m).
+    /// Returns the free radius (m).
     pub fn free_radius_m(&self) -> f64 {
         self.disc.free_radius_m()
     }
 
-    /// Whether the discs slide or are one.
+    /// Returns the connection between the discs.
     pub fn stacking(&self) -> Stacking {
         self.stacking
     }
 
-    /// Thickness (m) of the disc of the same bending stiffness.
+    /// Returns the thickness of a single disc with the same bending stiffness (m).
     pub fn equivalent_thickness_m(&self) -> f64 {
         match self.stacking {
             Stacking::Sliding => self.discs_m.iter().map(|h| h * h * h).sum::<f64>().cbrt(),
@@ -70,14 +70,14 @@ impl Stack {
         }
     }
 
-    /// Bending stiffness `D = E h_e^3/(12 (1 - nu^2))` (N m).
+    /// Returns the bending stiffness `D = E h_e^3/(12 (1 - nu^2))` (N m).
     pub fn bending_stiffness_n_m(&self) -> f64 {
         let nu = self.poisson_ratio;
         self.elastic_modulus_pa * self.equivalent_thickness_m().powi(3) / (12.0 * (1.0 - nu * nu))
     }
 
-    /// Thickness (m) over which bending stress is spread: of the thickest disc, whose surface is the farthest from its
-    /// middle, or of the whole.
+    /// Returns the thickness that determines the bending stress (m): the thickest disc if they slide, otherwise the
+    /// whole stack.
     pub fn bent_thickness_m(&self) -> f64 {
         match self.stacking {
             Stacking::Sliding => self.discs_m.iter().copied().fold(0.0, f64::max),
@@ -85,8 +85,9 @@ impl Stack {
         }
     }
 
-    /// Thickness (m) that a deflection is to be small against: where the middle planes of discs stretch, their tension is
-    /// to the bending as `w^2 sum h` to `sum h^3`.
+    /// Returns the thickness (m) that the deflection w must be small against for plate theory to apply.
+    ///
+    /// The tension in the stretched middle planes relates to the bending as `w^2 sum h` to `sum h^3`.
     pub fn stretched_thickness_m(&self) -> f64 {
         let whole: f64 = self.discs_m.iter().sum();
         match self.stacking {
@@ -95,7 +96,7 @@ impl Stack {
         }
     }
 
-    /// Numbers, from 1 at the first of the file, of the discs that have the largest stress.
+    /// Returns the numbers of the discs with the maximum stress, counted from 1 in the order of the file.
     pub fn most_stressed_discs(&self) -> Vec<usize> {
         let thickest = self.bent_thickness_m();
         let numbered = self.discs_m.iter().zip(1..);
@@ -108,7 +109,7 @@ impl Stack {
         }
     }
 
-    /// Edge lift per uniform pressure by the closed form, `Cw(r_w)/h_e^3` (m/Pa).
+    /// Returns the edge lift per uniform pressure from the closed form, `Cw(r_w)/h_e^3` (m/Pa).
     pub fn uniform_edge_lift_m_per_pa(&self) -> f64 {
         self.disc.deflection_coefficient(self.free_radius_m())
             / self.equivalent_thickness_m().powi(3)

@@ -1,4 +1,4 @@
-//! Stress at the surface of a bent stack's discs.
+//! Stress at the disc surfaces of a bent stack.
 
 use serde::Serialize;
 
@@ -7,38 +7,40 @@ use super::{Bending, Curvature, Stack};
 /// Stress per pressure (1) at the surface of a disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceStress {
-    /// Radial.
+    /// Radial stress.
     pub radial: f64,
-    /// Tangential.
+    /// Tangential stress.
     pub tangential: f64,
-    /// Shear.
+    /// Shear stress.
     pub shear: f64,
 }
 
 impl SurfaceStress {
-    /// Equivalent stress of von Mises.
+    /// Returns the von Mises equivalent stress.
     pub fn von_mises(&self) -> f64 {
         let (r, t, s) = (self.radial, self.tangential, self.shear);
         (r * r - r * t + t * t + 3.0 * s * s).sqrt()
     }
 }
 
-/// The largest stress of a stack.
+/// Maximum stress of a stack.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LargestStress {
-    /// Equivalent stress (von Mises) per pressure (1).
+    /// Von Mises equivalent stress per pressure (1).
     pub von_mises_per_pressure: f64,
-    /// Where: radius (m).
+    /// Radius of the point (m).
     pub radius_m: f64,
-    /// Where: angle from the middle of a boss (rad).
+    /// Angle of the point from the centre of a boss (rad).
     pub angle_rad: f64,
-    /// The discs that have it, from 1 at the first of the file.
+    /// Numbers of the discs with this stress, counted from 1 in the order of the file.
     pub discs: Vec<usize>,
 }
 
 impl Stack {
-    /// Stress per pressure at the surface of the most stressed disc, `E z/(1 - nu^2) (k_r + nu k_t)` and so on, z half its
-    /// thickness: discs that slide share the curvature, so each has the stress of its own thickness.
+    /// Returns the stress per pressure at the surface of the most stressed disc.
+    ///
+    /// The radial stress is `E z/(1 - nu^2) (k_r + nu k_t)`, where z is half the thickness. Sliding discs share the
+    /// curvature, so the stress of each is proportional to its own thickness.
     pub fn surface_stress(&self, curvature: Curvature) -> SurfaceStress {
         let nu = self.poisson_ratio;
         let half = 0.5 * self.bent_thickness_m();
@@ -50,7 +52,7 @@ impl Stack {
         }
     }
 
-    /// The largest stress over the stack, at nodes and in the middles between them.
+    /// Returns the maximum stress over the stack, evaluated at the nodes and midway between them.
     pub fn largest_stress(&self, bending: &Bending) -> LargestStress {
         let nodes: Vec<f64> = bending.radii_m().collect();
         let middles = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));

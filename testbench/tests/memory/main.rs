@@ -1,4 +1,4 @@
-//! Memory that a replay takes: as much for a long recording as for a short one, whatever form it is read from and written to.
+//! A replay of a long recording takes no more memory than one of a short recording, in any format.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::io;
@@ -15,29 +15,29 @@ use dashpot_testbench::replay::replay;
 
 const STEP_S: f64 = 1e-3;
 
-/// More than three windows of MDF4 (4 MiB) and twelve row groups of Parquet have.
+/// More rows than three MDF4 windows (4 MiB) or twelve Parquet row groups hold.
 const FEW: usize = 800_000;
 const MANY: usize = 2 * FEW;
 
-/// Bytes of a row of time and displacement.
+/// Bytes per row of time and displacement.
 const ROW: usize = 16;
 
 const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
 
 const MIB: usize = 1 << 20;
 
-/// Heap in use, and the most that there was (bytes).
+/// Heap in use and its peak (bytes).
 static IN_USE: AtomicUsize = AtomicUsize::new(0);
-static MOST: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
 
-/// The system's allocator, its bytes counted.
+/// The system allocator with a count of its bytes.
 struct Counting;
 
-// SAFETY: every call is handed to the system's allocator as it came.
+// SAFETY: every call is passed unchanged to the system allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         let in_use = IN_USE.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
-        MOST.fetch_max(in_use, Ordering::Relaxed);
+        PEAK.fetch_max(in_use, Ordering::Relaxed);
         unsafe { System.alloc(layout) }
     }
 
@@ -50,12 +50,12 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// The most heap that `run` has in use beyond what was before (bytes).
-fn most_of(run: impl FnOnce()) -> usize {
+/// Returns the peak heap use of `run` beyond what was in use before (bytes).
+fn peak_of(run: impl FnOnce()) -> usize {
     let before = IN_USE.load(Ordering::Relaxed);
-    MOST.store(before, Ordering::Relaxed);
+    PEAK.store(before, Ordering::Relaxed);
     run();
-    MOST.load(Ordering::Relaxed) - before
+    PEAK.load(Ordering::Relaxed) - before
 }
 
 fn recording(folder: &Path, form: Form, rows: usize) -> PathBuf {
@@ -71,8 +71,8 @@ fn recording(folder: &Path, form: Form, rows: usize) -> PathBuf {
     path
 }
 
-/// As the command does, all but the file that is written.
-fn replayed(path: &Path, form: Form, rows: usize) {
+/// Replays as the command does, but writes no file.
+fn replay_file(path: &Path, form: Form, rows: usize) {
     let damper: Damper<f32> = damper::load("in-service", &[])
         .unwrap()
         .build(STEP_S)
@@ -89,10 +89,10 @@ fn replayed(path: &Path, form: Form, rows: usize) {
     written.finish().unwrap();
 }
 
-/// One test, for what others use at the same time would be counted too.
+/// This is the only test in the binary, because memory used by concurrent tests would be counted too.
 #[test]
-fn a_replay_takes_as_much_memory_for_a_long_recording_as_for_a_short_one() {
-    for (form, most) in [
+fn a_long_recording_takes_no_more_memory_than_a_short_one() {
+    for (form, max) in [
         (Form::Text, MIB),
         (Form::Parquet, 8 * MIB),
         (Form::Mdf4, 16 * MIB),
@@ -100,15 +100,15 @@ fn a_replay_takes_as_much_memory_for_a_long_recording_as_for_a_short_one() {
         let folder = tempfile::tempdir().unwrap();
         let [few, many] = [FEW, MANY].map(|rows| {
             let path = recording(folder.path(), form, rows);
-            most_of(|| replayed(&path, form, rows))
+            peak_of(|| replay_file(&path, form, rows))
         });
-        assert!(many < most, "{form:?}: {many}");
-        // A list of row groups or blocks is kept, which is far from a byte a row.
+        assert!(many < max, "{form:?}: {many}");
+        // The list of row groups or blocks may grow, but by much less than a byte per row.
         let growth = many.saturating_sub(few);
         assert!(8 * growth < MANY - FEW, "{form:?}: {few} {many}");
-        // The count sees rows that are held.
+        // Check of the count itself: rows held in memory are counted.
         let path = folder.path().join("recording");
-        let held = most_of(|| {
+        let held = peak_of(|| {
             let rows = Recording::open(&path).unwrap().read_all().unwrap();
             assert_eq!(rows.len(), MANY);
         });

@@ -14,7 +14,7 @@ use dashpot_testbench::response::{at_amplitude, linearised};
 
 const DAMPING: f64 = 120e3;
 
-/// A reduced damper without bounds that a test meets.
+/// A reduced damper whose limits are out of reach.
 fn reduced(
     damping: f64,
     saturation_m_per_s: f64,
@@ -30,7 +30,7 @@ fn reduced(
 
 /// `C i w/(1 + i w C/K)`.
 #[test]
-fn without_saturation_and_clearance_it_is_the_maxwell_element() {
+fn without_saturation_and_clearance_a_reduced_damper_is_a_maxwell_element() {
     for stiffness in [2e6, 8e6, 40e6] {
         let damper = reduced(DAMPING, 10.0, stiffness, 0.0);
         for found in at_amplitude(&damper, 2e-3, &[0.2, 1.0, 5.0, 25.0]).unwrap() {
@@ -47,7 +47,7 @@ fn without_saturation_and_clearance_it_is_the_maxwell_element() {
     }
 }
 
-/// A dashpot that does not give way: a spring `K` behind a dead zone of half-width `a` has
+/// With a nearly rigid dashpot, a spring `K` in series with a dead zone of half-width `a` has the stiffness
 /// `K (1 - 2/pi (asin(a/A) + a/A sqrt(1 - (a/A)^2)))`, in phase with the displacement.
 #[test]
 fn a_clearance_is_a_dead_zone() {
@@ -66,12 +66,12 @@ fn a_clearance_is_a_dead_zone() {
     // Within the clearance there is no force.
     let within = at_amplitude(&damper, 0.9 * half_m, &[100.0]).unwrap()[0];
     assert_eq!(within.stiffness_n_per_m(), 0.0);
-    // Taken up, it is the spring.
+    // With the clearance taken up, only the spring remains.
     let linear = linearised(&damper, &[100.0]).unwrap()[0];
     assert!((linear.stiffness_n_per_m() / stiffness - 1.0).abs() < 1e-3);
 }
 
-/// A mount that does not give way: a dashpot `C` that saturates at `V_r` has, at the peak velocity `V`, the damping
+/// With a nearly rigid mount, a dashpot `C` that saturates at `V_r` has at the peak velocity `V` the damping
 /// `C 2/pi (asin(V_r/V) + V_r/V sqrt(1 - (V_r/V)^2))`.
 #[test]
 fn a_saturation_is_a_relay_with_a_slope() {
@@ -92,9 +92,9 @@ fn a_saturation_is_a_relay_with_a_slope() {
     assert!((linear.damping_n_s_per_m() / DAMPING - 1.0).abs() < 1e-3);
 }
 
-/// The force of other frequencies does no work: of a damper with all of its laws too, the energy of the cycle is `pi A^2 K''`.
+/// Other harmonics do no work, so the energy per cycle is `pi A^2 K''` also for a damper with all laws.
 #[test]
-fn the_loss_is_the_energy_of_the_cycle() {
+fn loss_stiffness_gives_the_energy_per_cycle() {
     let damper = damper::load("in-service", &[]).unwrap();
     assert!(matches!(damper.element, Element::Physical(_)));
     let motion = Harmonic {
@@ -109,13 +109,13 @@ fn the_loss_is_the_energy_of_the_cycle() {
         (energy / expected - 1.0).abs() < 1e-3,
         "{energy} for {expected}"
     );
-    // It is not linear: its clearance makes it softer where it moves less.
+    // The damper is nonlinear: its clearance makes it softer at small amplitudes.
     let less = at_amplitude(&damper, 1e-3, &[motion.frequency_hz]).unwrap()[0];
     assert!(less.stiffness_n_per_m() < 0.9 * found.stiffness_n_per_m());
 }
 
 #[test]
-fn a_motion_out_of_bounds_is_refused() {
+fn an_invalid_motion_is_rejected() {
     let damper = reduced(DAMPING, 0.03, 8e6, 0.0);
     assert!(matches!(
         at_amplitude(&damper, 0.0, &[1.0]),

@@ -1,4 +1,4 @@
-//! Sheet files: what each table gives, what its tests find, and errors with file, line and name.
+//! Sheet files: parsing, results of their tests, and errors with file, line and name.
 
 use std::f64::consts::TAU;
 
@@ -14,13 +14,13 @@ fn parse(text: &str) -> Result<SheetParameters, SheetFileError> {
     SheetParameters::parse("sheet.toml", text)
 }
 
-/// With a second number of the motion and these keys.
+/// A complete test with additional keys.
 fn with(keys: &str) -> String {
     format!("{TEST}frequency_hz = 1\n{keys}\n")
 }
 
 #[test]
-fn two_numbers_give_a_motion() {
+fn two_of_amplitude_frequency_and_velocity_define_a_motion() {
     for keys in [
         "amplitude_m = 10e-3\nfrequency_hz = 2",
         "amplitude_m = 10e-3\nvelocity_m_per_s = 0.12566370614359174",
@@ -44,7 +44,8 @@ fn the_shipped_sheets_cite_no_standard() {
     }
 }
 
-/// A spring behind a dashpot: `K' = K r^2/(1 + r^2)`, `K'' = K r/(1 + r^2)`, `r = w C/K`; midway of the stroke the force is `A K''`.
+/// Spring in series with a dashpot: `K' = K r^2/(1 + r^2)`, `K'' = K r/(1 + r^2)`, `r = w C/K`; at mid-stroke the force
+/// is `A K''`.
 #[test]
 fn indices_are_those_of_a_maxwell_element() {
     let (c, k) = (120e3, 8e6);
@@ -53,7 +54,7 @@ fn indices_are_those_of_a_maxwell_element() {
         "reduced.saturation_velocity_m_per_s=1.0",
     ];
     let damper = damper::load("reduced-vertical", &overrides.map(str::to_owned)).unwrap();
-    // An odd number of steps in a cycle among them.
+    // The last case has an odd number of steps per cycle.
     for (frequency_hz, step_s) in [(1.0, 1e-4), (8.0, 1e-4), (8.0, 0.125 / 1001.0)] {
         let text = format!("{TEST}frequency_hz = {frequency_hz}\n");
         let sheet = parse(&text).unwrap();
@@ -84,7 +85,7 @@ fn indices_are_those_of_a_maxwell_element() {
 }
 
 #[test]
-fn a_test_has_its_temperature_or_the_dampers() {
+fn a_test_runs_at_its_own_temperature_or_that_of_the_damper() {
     let sheet = parse(&with(
         "[[test]]\nname = \"cold\"\namplitude_m = 10e-3\nfrequency_hz = 1\ntemperature_c = -20",
     ))
@@ -103,7 +104,7 @@ fn a_test_has_its_temperature_or_the_dampers() {
 }
 
 #[test]
-fn a_value_is_within_its_limits_or_not() {
+fn limits_are_inclusive() {
     let limits = |keys: &str| {
         let text = with(&format!("[test.limits.energy_per_cycle_j]\n{keys}"));
         parse(&text).unwrap().tests[0].limits[0].clone()
@@ -116,7 +117,7 @@ fn a_value_is_within_its_limits_or_not() {
     }
     assert!(limits("least = 1").is_kept(Some(1e9)));
     assert!(limits("most = 1").is_kept(Some(-1e9)));
-    // What there is not, such as the asymmetry of no force, keeps nothing.
+    // An undefined value, such as the asymmetry of zero force, violates every limit.
     assert!(!both.is_kept(None));
 }
 
@@ -196,9 +197,9 @@ fn errors_have_file_line_and_name() {
     assert_eq!(message, expected);
 }
 
-/// Of the last test, so that the first would have been run.
+/// The invalid test is the last one: the first would have run if all were not checked beforehand.
 #[test]
-fn what_the_damper_refuses_is_told_with_its_line_before_a_run() {
+fn invalid_tests_are_reported_with_their_line_before_any_test_runs() {
     let second = |keys: &str| {
         with(&format!(
             "[[test]]\nname = \"two\"\namplitude_m = 10e-3\n{keys}"

@@ -18,7 +18,7 @@ use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_calibration::{
-    Assumed, Calibration, CalibrationError, IndexTest, LoopTest, MOST_MISSED, Progress,
+    Assumed, Calibration, CalibrationError, IndexTest, LoopTest, MAX_MISFIT, Progress,
     TEMPERATURE_UNCERTAINTY_K,
 };
 use dashpot_files::FileError;
@@ -98,7 +98,7 @@ pub struct CalibrateArguments {
     #[arg(
         long,
         value_name = "PERCENT",
-        default_value_t = 100.0 * MOST_MISSED,
+        default_value_t = 100.0 * MAX_MISFIT,
         value_parser = percent,
         allow_negative_numbers = true
     )]
@@ -148,7 +148,7 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     let (mut recordings, mut loops) = (Vec::new(), Vec::new());
     for path in &arguments.input {
         let (recorded, gaps) = recorded::read(path, &arguments.channels.channels())?;
-        let tests = LoopTest::of(&recorded, step_s).map_err(in_words)?;
+        let tests = LoopTest::from_recording(&recorded, step_s).map_err(in_words)?;
         recordings.push(Recording::new(&recorded, &gaps, tests.len()));
         loops.extend(tests);
     }
@@ -168,12 +168,12 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
         assumed: Assumed {
             temperature_uncertainty_k: arguments.temperature_uncertainty_k,
             density_uncertainty_kg_per_m3: arguments.density_uncertainty_kg_per_m3,
-            most_missed: 0.01 * arguments.max_misfit_percent,
+            max_misfit: 0.01 * arguments.max_misfit_percent,
         },
     };
     let found = calibration.run(&|progress| {
-        let Progress { stage, done, of } = progress;
-        bar.set_message(format!("{stage}: {done} of {of}"));
+        let Progress { stage, done, total } = progress;
+        bar.set_message(format!("{stage}: {done} of {total}"));
     });
     bar.finish_and_clear();
     let found = found.map_err(in_words)?;

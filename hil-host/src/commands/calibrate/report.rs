@@ -241,12 +241,12 @@ impl Report {
                 found: found.values[number],
                 least: found.intervals[number][0],
                 greatest: found.intervals[number][1],
-                least_by_noise: found.profiles[number].least,
-                greatest_by_noise: found.profiles[number].greatest,
+                least_by_noise: found.profiles[number].lower,
+                greatest_by_noise: found.profiles[number].upper,
                 bounds: varied.bounds,
                 prior: varied.prior,
-                by_tests: found.profiles[number].is_by_tests(varied),
-                standard_deviation: determination.numbers[number].standard_deviation,
+                by_tests: found.profiles[number].is_determined_by_tests(varied),
+                standard_deviation: determination.parameters[number].standard_deviation,
                 correlation: others
                     .map(|(other, value)| (other.key.clone(), *value))
                     .collect(),
@@ -305,8 +305,8 @@ impl Report {
                     words: words::line(warning),
                 })
                 .collect(),
-            starts: found.same_minimum[1],
-            starts_at_this_minimum: found.same_minimum[0],
+            starts: found.searches.converged,
+            starts_at_this_minimum: found.searches.at_best_minimum,
             output: output::name(&arguments.output).display().to_string(),
             page: arguments
                 .page

@@ -211,7 +211,7 @@ fn bench_table(benches: &[Bench]) -> Result<Markup, TestbenchError> {
                     tr {
                         td { (row.index) }
                         td { (row.unit) }
-                        @for bench in benches { td { (row.of(&bench.table_5)?) } }
+                        @for bench in benches { td { (row.format_value(&bench.table_5)?) } }
                         td { (row.simulation) }
                         td { (row.test) }
                     }

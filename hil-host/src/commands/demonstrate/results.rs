@@ -118,7 +118,7 @@ impl Demonstration {
         let displacements_m = super::recording::at_ticks(step_s)?;
         let reference_n = reference_forces(damper, step_s, &displacements_m)?;
         let relaxation_s = relaxation_time_s(damper, step_s, &displacements_m, &reference_n);
-        let promise = AccuracyLimits::of(relaxation_s);
+        let promise = AccuracyLimits::for_relaxation_time(relaxation_s);
         let single = fixed_step_forces::<f32>(damper, step_s, &displacements_m)?;
         let double = fixed_step_forces::<f64>(damper, step_s, &displacements_m)?;
         let costs = [

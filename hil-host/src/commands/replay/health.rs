@@ -168,7 +168,7 @@ fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
         forces_n.push(sample.force_n);
     }
     let step_s = arguments.step_us.step_s();
-    let found = Noise::found_in(&times_s, &displacements_m, &forces_n, step_s);
+    let found = Noise::estimate(&times_s, &displacements_m, &forces_n, step_s);
     let found = found.filter(|noise| noise.displacement_m > 0.0 && noise.force_n > 0.0);
     let found = found.ok_or_else(|| {
         Failure::new(format!(

@@ -111,7 +111,7 @@ pub fn run(arguments: &RigArguments) -> Outcome<()> {
     };
     let rows: Vec<Row> = nominal_indices()?
         .into_iter()
-        .map(|row| Ok((row.of(&indices)?, row)))
+        .map(|row| Ok((row.format_value(&indices)?, row)))
         .collect::<Outcome<_>>()?;
     let report = Report {
         damper: name,

@@ -1,4 +1,4 @@
-//! Rings of pressure: the closed form of uniform pressure, and statics for the others.
+//! Axisymmetric pressure: uniform pressure against the closed form, other profiles against statics.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use super::{RADII_M, stack, stack_of};
 
 const NU: f64 = 0.3;
 
-/// `w` over `Cw P/h^3` at the edge, less 1, with so many elements.
+/// Relative error of the edge deflection with respect to `Cw P/h^3`.
 fn edge_error(clamp_m: f64, free_m: f64, elements: usize) -> f64 {
     let stack = stack(clamp_m, free_m, &[0.3e-3]);
     let resolution = Resolution {
@@ -20,7 +20,8 @@ fn edge_error(clamp_m: f64, free_m: f64, elements: usize) -> f64 {
     stack.correction_factor(&whole, resolution).unwrap() - 1.0
 }
 
-/// `Cw(r)` of the core at every radius, within 1e-4 of its edge with eight elements, 1e-7 with the usual number.
+/// Agrees with `Cw(r)` of the core at every radius, within 1e-4 of the edge value with eight elements and 1e-7 with the
+/// default number.
 #[test]
 fn uniform_pressure_gives_the_closed_form_at_every_radius() {
     for (clamp, free) in RADII_M {
@@ -46,7 +47,7 @@ fn uniform_pressure_gives_the_closed_form_at_every_radius() {
     }
 }
 
-/// Cubic elements: the deflection converges with the fourth power of their length.
+/// The deflection of cubic elements converges with the fourth power of their length.
 #[test]
 fn deflection_converges_with_the_fourth_power() {
     for (clamp, free) in RADII_M {
@@ -72,7 +73,7 @@ fn deflection_and_clamp_stress_are_roarks() {
         let (free, thickness) = (0.02_f64, 0.2e-3);
         let stack = stack(ratio * free, free, &[thickness]);
         let whole = PressureArea::whole(ratio * free, free);
-        // Curvature is linear within an element: four digits take many.
+        // The curvature is linear within an element, so four digits need many elements.
         let resolution = Resolution {
             elements: 300,
             harmonics: 0,
@@ -93,9 +94,11 @@ fn deflection_and_clamp_stress_are_roarks() {
     }
 }
 
-/// Edge deflection by statics alone: the shear force at r carries the pressure outside of it,
-/// `q(r) = -1/r int_r^rw p s ds`, and the slope f follows from `D ((r f)'/r)' = -q`, both by the trapezoidal rule;
-/// `f(r_n) = 0` and no moment at the edge, `f' + nu f/r = 0`.
+/// Returns the edge deflection by statics alone.
+///
+/// The shear force at r carries the pressure outside r, `q(r) = -1/r int_r^rw p s ds`, and the slope f follows from
+/// `D ((r f)'/r)' = -q`, both by the trapezoidal rule. Boundary conditions: `f(r_n) = 0`, and no moment at the edge,
+/// `f' + nu f/r = 0`.
 pub fn edge_by_statics(clamp: f64, free: f64, pressure: impl Fn(f64) -> f64) -> f64 {
     const STEPS: usize = 40_000;
     let step = (free - clamp) / STEPS as f64;
@@ -114,7 +117,7 @@ pub fn edge_by_statics(clamp: f64, free: f64, pressure: impl Fn(f64) -> f64) -> 
     let shear: Vec<f64> = (0..=STEPS)
         .map(|i| (inside[STEPS] - inside[i]) / radius(i))
         .collect();
-    // (r f)'/r = c - int shear; the solution for c = 0 and, without shear, for c = 1.
+    // (r f)'/r = c - int shear: combines the solution for c = 0 with the one without shear for c = 1.
     let bent = cumulative(&shear);
     let solution = |curvature: &dyn Fn(usize) -> f64| {
         let grown: Vec<f64> = (0..=STEPS).map(|i| curvature(i) * radius(i)).collect();
@@ -156,12 +159,12 @@ fn rings_and_decays_agree_with_statics() {
         let found = stack.mean_edge_lift_m_per_pa(&area, Resolution::default());
         let expected = edge_by_statics(clamp, free, |r| profile.at(r)) / stiffness;
         let error = found.unwrap() / expected - 1.0;
-        // The rule's step cuts a jump of pressure short by up to half of it.
+        // A jump of pressure is resolved to within half a step of the rule.
         assert!(error.abs() < 2e-4, "{profile:?}: {error:e}");
     }
 }
 
-/// The mean lift under round bosses is that under their pressure averaged round the circumference.
+/// The mean lift under round bosses follows from their pressure averaged around the circumference.
 #[test]
 fn round_bosses_agree_with_statics_of_their_mean() {
     let (clamp, free) = RADII_M[0];
@@ -173,12 +176,12 @@ fn round_bosses_agree_with_statics_of_their_mean() {
         exponent: 2.0,
     });
     const ANGLES: u32 = 2000;
-    // One boss of six.
+    // One of six bosses.
     let mean = |r: f64| {
         let angles = (0..ANGLES).map(|i| TAU / 6.0 * (f64::from(i) + 0.5) / f64::from(ANGLES));
         angles.map(|angle| area.at(r, angle)).sum::<f64>() / f64::from(ANGLES)
     };
-    // Between radii so close that the mean is a straight line.
+    // The radii are close enough for linear interpolation of the mean.
     let step = (free - clamp) / 1000.0;
     let table: Vec<f64> = (0..=1000)
         .map(|i| mean(clamp + step * f64::from(i)))
@@ -196,9 +199,10 @@ fn round_bosses_agree_with_statics_of_their_mean() {
     assert!(error.abs() < 1e-4, "{error:e}");
 }
 
-/// Discs that slide add their stiffness, bonded ones their thickness; stress is that of the thickness that bends.
+/// Sliding discs add their stiffnesses, bonded discs their thicknesses; the stress follows from the thickness that
+/// bends.
 #[test]
-fn discs_share_the_bending_as_they_are_stacked() {
+fn stacking_determines_stiffness_and_stress() {
     let (clamp, free) = RADII_M[1];
     let (thin, thick) = (0.2e-3_f64, 0.4e-3_f64);
     let whole = PressureArea::whole(clamp, free);

@@ -6,15 +6,15 @@ use dashpot_testbench::plate::{
 };
 
 use super::axisymmetric::edge_by_statics;
-use super::of_the_paper;
+use super::paper_stacks;
 
 /// Ce of Tables 2 to 4.
 const PUBLISHED: [f64; 3] = [0.2169, 0.2000, 0.8265];
 
-/// The radii that docs/shims.md tells; each pressure has the factor by statics too.
+/// Checks the radii stated in docs/shims.md; statics confirms the factor of each pressure.
 #[test]
-fn decays_give_the_foot_valves_factor_at_fitted_radii() {
-    let [_, _, foot] = of_the_paper();
+fn fitted_decays_have_the_factor_of_the_foot_valve() {
+    let [_, _, foot] = paper_stacks();
     let (clamp, free) = (5e-3, 11e-3);
     let uniform = edge_by_statics(clamp, free, |_| 1.0);
     let check = |full_m: [f64; 2], exponent: f64| {
@@ -29,11 +29,11 @@ fn decays_give_the_foot_valves_factor_at_fitted_radii() {
         let by_statics = edge_by_statics(clamp, free, |r| profile.at(r)) / uniform;
         assert!((by_statics - PUBLISHED[2]).abs() < 1e-4, "{by_statics}");
     };
-    for (exponent, told) in [(1.0, 10.238e-3), (2.0, 10.436e-3), (3.0, 10.501e-3)] {
+    for (exponent, documented) in [(1.0, 10.238e-3), (2.0, 10.436e-3), (3.0, 10.501e-3)] {
         let full = fitted_full_radius_m(&foot, exponent, PUBLISHED[2], Resolution::default());
         let full = full.unwrap();
         println!("exponent {exponent}: full up to {full} m");
-        assert!((full - told).abs() < 1e-6);
+        assert!((full - documented).abs() < 1e-6);
         check([clamp, full], exponent);
     }
     let width = fitted_decay_width_m(&foot, 2.0, PUBLISHED[2], Resolution::default()).unwrap();
@@ -42,11 +42,11 @@ fn decays_give_the_foot_valves_factor_at_fitted_radii() {
     check([clamp + width, free - width], 2.0);
 }
 
-/// Both piston valves have discs of the same radii: thin plates under the same pressure area then have the same factor, so
-/// the two published ones ask for two areas.
+/// Both piston valves have discs of the same radii. Thin plates under the same pressure area then have the same factor,
+/// so the two published factors require two different areas.
 #[test]
 fn the_factor_does_not_depend_on_thickness() {
-    let [extension, compression, _] = of_the_paper();
+    let [extension, compression, _] = paper_stacks();
     let area = PressureArea::Round(RoundBosses {
         count: 6,
         pitch_radius_m: 22.5e-3,
@@ -65,7 +65,7 @@ fn the_factor_does_not_depend_on_thickness() {
 #[test]
 fn fitted_bosses_have_the_published_factors() {
     let resolution = Resolution::default();
-    let [extension, compression, _] = of_the_paper();
+    let [extension, compression, _] = paper_stacks();
     for (stack, factor) in [(extension, PUBLISHED[0]), (compression, PUBLISHED[1])] {
         let bosses = RoundBosses {
             count: 6,
@@ -84,7 +84,7 @@ fn fitted_bosses_have_the_published_factors() {
         assert!((found - factor).abs() < 1e-7, "{found}");
         let profile = Profile::full(18e-3, 27e-3);
         let share = fitted_share(&stack, profile, factor, resolution).unwrap();
-        // Any number of bosses has the mean lift of their share.
+        // The mean lift depends on the share of the bosses, not on their number.
         for count in [2, 6, 12] {
             let sectors = PressureArea::Sectors(Bosses {
                 count,
@@ -100,11 +100,11 @@ fn fitted_bosses_have_the_published_factors() {
 }
 
 #[test]
-fn a_factor_out_of_reach_is_told_with_what_can_be() {
-    let [extension, ..] = of_the_paper();
+fn an_unreachable_factor_is_reported_with_the_allowed_range() {
+    let [extension, ..] = paper_stacks();
     let narrow = Profile::full(16e-3, 18e-3);
     let error = fitted_share(&extension, narrow, 0.2, Resolution::default()).unwrap_err();
-    assert!(matches!(error, PlateError::OutOfReach { greatest, .. } if greatest < 0.2));
+    assert!(matches!(error, PlateError::OutOfReach { max, .. } if max < 0.2));
     let error = fitted_full_radius_m(&extension, 2.0, 1.5, Resolution::default()).unwrap_err();
     assert!(error.to_string().contains("1.5, allowed: "), "{error}");
 }

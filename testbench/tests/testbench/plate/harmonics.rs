@@ -1,4 +1,4 @@
-//! Pressure that changes round the circumference.
+//! Pressure that varies around the circumference.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,10 +9,10 @@ use super::{RADII_M, stack};
 
 const NU: f64 = 0.3;
 
-/// Radial part of `w = f(r) cos(m t)` for the pressure `cos(m t)` on a disc of unit stiffness and unit free radius, clamped
-/// at `clamp`: `r^m`, `r^-m`, `r^(m+2)`, `r^(2-m)` and the particular `r^4/((16 - m^2)(4 - m^2))` (Timoshenko and
-/// Woinowsky-Krieger, Art. 63), m above 4. At the edge no moment and no Kirchhoff shear,
-/// `(f'' + f'/r - m^2 f/r^2)' - (1 - nu) m^2/r (f'/r - f/r^2) = 0`.
+/// Radial part of `w = f(r) cos(m t)` for the pressure `cos(m t)` on a disc of unit stiffness and unit free radius,
+/// clamped at `clamp`, for m above 4: a sum of `r^m`, `r^-m`, `r^(m+2)`, `r^(2-m)` and the particular solution
+/// `r^4/((16 - m^2)(4 - m^2))` (Timoshenko and Woinowsky-Krieger, Art. 63). Moment and Kirchhoff shear vanish at the
+/// edge: `(f'' + f'/r - m^2 f/r^2)' - (1 - nu) m^2/r (f'/r - f/r^2) = 0`.
 fn closed_form(m: f64, clamp: f64) -> impl Fn(f64) -> f64 {
     let powers = [m, -m, m + 2.0, 2.0 - m];
     // Derivatives of r^p at r.
@@ -43,8 +43,8 @@ fn closed_form(m: f64, clamp: f64) -> impl Fn(f64) -> f64 {
     }
 }
 
-/// The Fourier series of a share s of the circumference: `s + sum 2 sin(k pi s)/(k pi) cos(k N t)`, each term in closed
-/// form.
+/// Sectors that cover a share s of the circumference have the Fourier series
+/// `s + sum 2 sin(k pi s)/(k pi) cos(k N t)`; each term has a closed form.
 #[test]
 fn sectors_over_the_whole_width_are_a_sum_of_closed_forms() {
     for (clamp, free) in RADII_M {
@@ -107,10 +107,10 @@ fn sectors() -> PressureArea {
     })
 }
 
-/// The mean round the circumference of a deflection is that under the mean pressure, here taken by summing over
-/// angles.
+/// The deflection averaged around the circumference is the deflection under the averaged pressure, computed here as a
+/// sum over angles.
 #[test]
-fn the_mean_lift_is_that_of_the_mean_pressure() {
+fn the_mean_lift_follows_from_the_mean_pressure() {
     let (clamp, free) = RADII_M[0];
     let stack = stack(clamp, free, &[0.3e-3]);
     for area in [round(), sectors()] {
@@ -120,15 +120,15 @@ fn the_mean_lift_is_that_of_the_mean_pressure() {
         let mean = lifts.sum::<f64>() / 720.0;
         let ratio = mean / bending.mean_edge_lift_m_per_pa();
         assert!((ratio - 1.0).abs() < 1e-9, "{ratio}");
-        let [least, greatest] = bending.edge_lift_range_m_per_pa();
-        assert!(least < mean && mean < greatest);
+        let [min, max] = bending.edge_lift_range_m_per_pa();
+        assert!(min < mean && mean < max);
         let over_boss = bending.deflection_m_per_pa(free, 0.0);
-        assert!((over_boss / greatest - 1.0).abs() < 1e-9);
+        assert!((over_boss / max - 1.0).abs() < 1e-9);
     }
 }
 
 #[test]
-fn a_division_twice_as_fine_changes_little() {
+fn twice_the_resolution_changes_little() {
     let (clamp, free) = RADII_M[0];
     let stack = stack(clamp, free, &[0.3e-3]);
     let usual = Resolution::default();
@@ -140,8 +140,8 @@ fn a_division_twice_as_fine_changes_little() {
         let [coarse, fine] = [usual, twice].map(|resolution| {
             let bending = stack.bend(&area, resolution).unwrap();
             let stress = stack.largest_stress(&bending).von_mises_per_pressure;
-            let [least, greatest] = bending.edge_lift_range_m_per_pa();
-            [bending.mean_edge_lift_m_per_pa(), least, greatest, stress]
+            let [min, max] = bending.edge_lift_range_m_per_pa();
+            [bending.mean_edge_lift_m_per_pa(), min, max, stress]
         });
         for (i, (coarse, fine)) in coarse.iter().zip(&fine).enumerate() {
             let change = coarse / fine - 1.0;
@@ -153,9 +153,9 @@ fn a_division_twice_as_fine_changes_little() {
 }
 
 #[test]
-fn pressure_of_round_bosses_has_the_area_of_their_circles() {
+fn pressure_on_round_bosses_integrates_to_their_area() {
     let (clamp, free) = RADII_M[0];
-    // Circles of full pressure, and cones: a third of the circle.
+    // Circles of full pressure, and cones, which integrate to a third of the circle.
     for (hole, exponent, share) in [
         (5e-3, 1.0, 1.0),
         (0.0, 1.0, 1.0 / 3.0),
@@ -169,7 +169,7 @@ fn pressure_of_round_bosses_has_the_area_of_their_circles() {
             exponent,
         });
         area.check(clamp, free).unwrap();
-        // By summing over a grid, of what `at` says.
+        // Numerical integral of `at` over a grid.
         let (rings, angles) = (800, 1500);
         let width = (free - clamp) / f64::from(rings);
         let mut force = 0.0;

@@ -9,10 +9,10 @@ use dashpot_core::parameters::{Element, Shims, Valve};
 use dashpot_files::damper;
 use dashpot_testbench::plate::{Stack, Stacking};
 
-/// Radii of the paper's discs: those of the piston and those of the foot (m).
+/// Radii of the paper's piston and foot discs (m).
 const RADII_M: [(f64, f64); 2] = [(16e-3, 29e-3), (5e-3, 11e-3)];
 
-/// A stack of steel, E 2e11 Pa and nu 0.3, that slides.
+/// A sliding stack of steel discs, E = 2e11 Pa and nu = 0.3.
 fn stack(clamp_m: f64, free_m: f64, discs_m: &[f64]) -> Stack {
     stack_of(clamp_m, free_m, discs_m, Stacking::Sliding)
 }
@@ -24,7 +24,7 @@ fn stack_of(clamp_m: f64, free_m: f64, discs_m: &[f64], stacking: Stacking) -> S
 }
 
 /// The three valves of the paper: piston extension, piston compression, foot.
-fn of_the_paper() -> [Stack; 3] {
+fn paper_stacks() -> [Stack; 3] {
     let parameters = damper::load("paper", &[]).unwrap();
     let Element::Physical(hydraulics) = &parameters.element else {
         panic!("no valves")

@@ -71,7 +71,7 @@ fn over_radius(solved: &Solved, value: impl Fn(&Bending, f64, f64) -> f64) -> Ve
     };
     let mut curves = vec![curve("uniform pressure", BLUE_LINE, &solved.whole, 0.0).dashed()];
     if let Some((_, bending)) = &solved.real {
-        if bending.is_round() {
+        if bending.is_axisymmetric() {
             curves.push(curve("on the pressure area", RED_LINE, bending, 0.0));
         } else {
             let between = bending.half_pitch_rad();

@@ -1,4 +1,4 @@
-//! Input of CalculiX in mm, N and MPa, and what it prints.
+//! CalculiX input files in mm, N and MPa, and their printed results.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -7,23 +7,23 @@ use std::process::Command;
 /// Elastic modulus (MPa) and Poisson's ratio of every model.
 const STEEL: &str = "200000., 0.3";
 
-/// An input file in the making.
+/// Builder of an input file.
 pub struct Deck {
     text: String,
     nodes: u32,
     elements: u32,
 }
 
-/// How the load is applied.
+/// Kind of analysis.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Geometry {
-    /// Equilibrium of the undeformed body.
+    /// Geometrically linear.
     Linear,
-    /// Of the deformed one.
+    /// Geometrically nonlinear.
     Nonlinear,
 }
 
-/// Rows of numbers under each heading, the last words of a heading (set and time) left out.
+/// Rows of values by heading; set and time at the end of the headings are left out.
 pub type Printed = BTreeMap<String, Vec<Vec<f64>>>;
 
 impl Deck {
@@ -36,7 +36,7 @@ impl Deck {
         }
     }
 
-    /// Adds a node (mm) and gives its number.
+    /// Adds a node (mm) and returns its number.
     pub fn node(&mut self, [x, y, z]: [f64; 3]) -> u32 {
         self.nodes += 1;
         writeln!(self.text, "{}, {x:.12}, {y:.12}, {z:.12}", self.nodes).unwrap();
@@ -48,12 +48,12 @@ impl Deck {
         self.text += "\n";
     }
 
-    /// Begins elements of a kind; all are of steel.
+    /// Starts a list of steel elements of one type.
     pub fn elements(&mut self, kind: &str) {
         self.line(&format!("*ELEMENT, TYPE={kind}, ELSET=PLATE"));
     }
 
-    /// Adds an element and gives its number.
+    /// Adds an element and returns its number.
     pub fn element(&mut self, nodes: &[u32]) -> u32 {
         self.elements += 1;
         let mut entries = vec![self.elements.to_string()];
@@ -71,7 +71,7 @@ impl Deck {
         }
     }
 
-    /// A surface of the same face of elements.
+    /// Defines a surface from the same face of several elements.
     pub fn surface(&mut self, name: &str, elements: &[u32], face: u32) {
         self.line(&format!("*SURFACE, NAME={name}, TYPE=ELEMENT"));
         for element in elements {
@@ -85,8 +85,10 @@ impl Deck {
         self.line("*SOLID SECTION, ELSET=PLATE, MATERIAL=STEEL");
     }
 
-    /// A static step with the first face of `loaded` under pressure (MPa): what `prints` asks for. A number has at most 20
-    /// letters.
+    /// Solves a static step with pressure (MPa) on the first face of each of `loaded`, and returns the requested
+    /// `prints`.
+    ///
+    /// CalculiX reads at most 20 characters per number.
     pub fn solve(
         mut self,
         loaded: &[u32],
@@ -118,7 +120,7 @@ impl Deck {
     }
 }
 
-/// The last increment's rows under each heading.
+/// Returns the rows of the last increment by heading.
 fn printed(text: &str) -> Printed {
     let mut all = Printed::new();
     let mut heading = String::new();

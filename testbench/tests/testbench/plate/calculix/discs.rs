@@ -2,19 +2,20 @@
 
 use super::deck::{Deck, Geometry};
 
-/// How discs touch.
+/// Contact between discs.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Contact {
-    /// Without friction.
+    /// Frictionless.
     Sliding,
-    /// With the nodes between them in common.
+    /// Bonded: adjacent discs share nodes.
     Bonded,
 }
 
 const RADIAL: usize = 40;
 const THROUGH: usize = 2;
 
-/// Edge deflection (mm) of each disc of a stack between two radii (mm), the first under pressure (MPa).
+/// Returns the edge deflection (mm) of each disc of a stack between two radii (mm), with pressure (MPa) on the first
+/// disc.
 pub fn edge_deflections(
     [clamp, free]: [f64; 2],
     discs: &[f64],
@@ -66,10 +67,10 @@ pub fn edge_deflections(
     printed["displacements"].iter().map(|row| row[2]).collect()
 }
 
-/// Node numbers by half elements outwards and up; 0 in the middle of elements, where there is none.
+/// Node numbers by half elements outwards and upwards; 0 at element centres, which have no node.
 type Grid = Vec<Vec<u32>>;
 
-/// Nodes of a disc; one bonded to the disc below shares its uppermost.
+/// Creates the nodes of a disc; a bonded disc shares the top nodes of the disc below.
 fn grid(
     deck: &mut Deck,
     [clamp, free]: [f64; 2],
@@ -96,7 +97,7 @@ fn grid(
         .collect()
 }
 
-/// Elements of a disc in rows from below.
+/// Creates the elements of a disc, in rows from the bottom.
 fn elements(deck: &mut Deck, n: &Grid) -> [Vec<u32>; THROUGH] {
     std::array::from_fn(|row| {
         let (b, m, t) = (2 * row, 2 * row + 1, 2 * row + 2);

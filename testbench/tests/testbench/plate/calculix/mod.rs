@@ -1,4 +1,4 @@
-//! Beside CalculiX (Debian `calculix-ccx`), solid elements without the assumption of a thin plate.
+//! Comparison with CalculiX (Debian `calculix-ccx`), whose solid elements do not assume a thin plate.
 
 mod deck;
 mod discs;
@@ -14,11 +14,11 @@ use xtask::tools::{CALCULIX, have};
 
 use super::stack_of;
 
-/// Radii of the piston's and of the foot's discs (mm).
+/// Radii of the piston and foot discs (mm).
 const PISTON: [f64; 2] = [16.0, 29.0];
 const FOOT: [f64; 2] = [5.0, 11.0];
 
-/// Edge deflection of each disc by CalculiX over ours, pressure (MPa) uniform.
+/// Returns the edge deflection of each disc by CalculiX over ours, under uniform pressure (MPa).
 fn over_ours(
     radii: [f64; 2],
     discs_mm: &[f64],
@@ -65,7 +65,7 @@ fn a_single_disc_is_within_half_a_percent() {
     }
 }
 
-/// Every disc of a stack without friction has the deflection of `sum h^3`: that of the piston extension valve too.
+/// All discs of a frictionless stack deflect according to `sum h^3`, including those of the piston extension valve.
 #[test]
 fn sliding_stacks_are_within_half_a_percent() {
     if !have(&[CALCULIX], "shims beside CalculiX: sliding stacks") {
@@ -96,10 +96,10 @@ fn a_thin_bonded_stack_is_within_half_a_percent() {
     within(&ratios, 5e-3);
 }
 
-/// What plate theory leaves out: the shear of thick plates, here of the piston extension valve's discs were they one, and
-/// the tension in the middle plane of those bent far.
+/// Plate theory neglects the shear of thick plates, such as the bonded discs of the piston extension valve, and the
+/// tension in the middle plane at large deflections.
 #[test]
-fn where_plate_theory_ends() {
+fn plate_theory_fails_for_thick_discs_and_large_deflections() {
     if !have(&[CALCULIX], "shims beside CalculiX: limits of plate theory") {
         return;
     }
@@ -109,7 +109,7 @@ fn where_plate_theory_ends() {
     let thickness = 0.305;
     let stack = stack_of(16e-3, 29e-3, &[thickness * 1e-3], Stacking::Sliding);
     let mm_per_mpa = stack.uniform_edge_lift_m_per_pa() * 1e9;
-    // Lift by plate theory over the thickness, and what is left of it.
+    // Lift by plate theory over the thickness, and the fraction of it that CalculiX finds.
     for (lift, left) in [(0.25, 0.993), (0.5, 0.970), (1.0, 0.908)] {
         let pressure_mpa = lift * thickness / mm_per_mpa;
         let bent = over_ours(
@@ -151,7 +151,7 @@ fn bosses_are_within_half_a_percent_and_their_stress_within_one() {
         }
         let peak = stack.largest_stress(&bending).von_mises_per_pressure * pressure_mpa;
         let mut worst_stress = 0.0_f64;
-        // Near clamp and edge a solid has stresses that thin plates have not: at the edge its twist dies away as
+        // Near clamp and edge a solid has stresses that thin plates lack: at the edge the twist decays as
         // exp(-sqrt(10) d/h) with the distance d (Reissner).
         let layer = 1.5 * thickness;
         let inner = PISTON[0] + layer..PISTON[1] - layer;

@@ -1,32 +1,32 @@
-//! A quarter of a disc in solid elements (C3D20R), one through its thickness, under pressure on parts of it.
+//! A quarter of a disc in solid elements (C3D20R), one element thick, under pressure on parts of its surface.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::deck::{Deck, Geometry};
 
-/// Division of the quarter, outwards and round.
+/// Number of elements outwards and around the quarter.
 const OUT: usize = 30;
 const ROUND: usize = 60;
-/// Elements next to the clamp, where solids have a boundary layer as wide as the disc is thick, each longer than the one before:
-/// parts of the first of the others.
+/// Nodes that refine the first element next to the clamp, as fractions of its length: a solid has a boundary layer
+/// there about as wide as the disc is thick.
 const LAYER: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.7];
 
-/// Stress (MPa) at a point within the disc: von Mises' of the bending stress there.
+/// Von Mises equivalent (MPa) of the bending stress at a point within the disc.
 pub struct Point {
     pub radius: f64,
     pub angle: f64,
-    /// Height over the middle plane (mm).
+    /// Height above the middle plane (mm).
     pub height: f64,
     pub von_mises: f64,
 }
 
-/// Deflection (mm) at the edge by angle (rad), and stress at the integration points.
+/// Edge deflection (mm) by angle (rad), and stress at the integration points.
 pub struct Quarter {
     pub edge: Vec<(f64, f64)>,
     pub points: Vec<Point>,
 }
 
-/// A disc (mm) under pressure (MPa) on the elements whose middle (radius, angle) is `loaded`.
+/// Solves a disc (mm) under pressure (MPa) on the elements whose centre (radius, angle) satisfies `loaded`.
 pub fn quarter(
     [clamp, free]: [f64; 2],
     thickness: f64,
@@ -75,7 +75,7 @@ pub fn quarter(
     deck.node_set("END", &all(&|i, j| i > 0 && j == 2 * ROUND));
     let mut edge_nodes = Vec::new();
     for j in (0..=2 * ROUND).step_by(2) {
-        // Halfway up, where a corner's vertical side has its node.
+        // Mid-height, at the mid-side node of a vertical edge.
         edge_nodes.push(nodes[2 * OUT][j][1]);
         edge_angles.push(angle(j));
     }
@@ -111,7 +111,7 @@ fn point(stress: &[f64], at: &[f64]) -> Point {
     }
 }
 
-/// The 20 nodes of the element that begins at half elements `i` out and `j` round.
+/// Returns the 20 nodes of the element that starts at half elements `i` outwards and `j` around.
 fn brick(n: &[[[u32; 3]; 2 * ROUND + 1]], i: usize, j: usize) -> Vec<u32> {
     let corners = [(0, 0), (2, 0), (2, 2), (0, 2)];
     let sides = [(1, 0), (2, 1), (1, 2), (0, 1)];

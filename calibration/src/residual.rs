@@ -1,4 +1,4 @@
-//! What a model leaves of a test, and how many samples of it count once.
+//! Residual of a test: its rms and correlation length.
 
 use dashpot_rail::indices::Welch;
 
@@ -6,56 +6,58 @@ use super::CalibrationError;
 use super::loops::LoopTest;
 use super::model::Model;
 
-/// What a model leaves of a test.
-pub(super) struct Left {
+/// Residual of a test.
+pub(super) struct Residual {
     /// Root mean square (N).
     pub(super) rms_n: f64,
-    /// Samples that count once, 1 of white noise.
+    /// Correlation length in samples; 1 for white noise.
     pub(super) correlation_samples: f64,
 }
 
 impl Model<'_> {
-    /// Of each loop.
+    /// Returns the residual of each loop.
     ///
     /// # Errors
-    /// As [`Model::deviations`].
-    pub(super) fn left(&self, places: &[f64]) -> Result<Vec<Left>, CalibrationError> {
-        let forces = self.forces_n(places)?;
-        let left = self.loops.iter().zip(&forces).map(|(test, forces)| {
+    /// Same errors as [`Model::deviations`].
+    pub(super) fn residuals(&self, coordinates: &[f64]) -> Result<Vec<Residual>, CalibrationError> {
+        let forces = self.forces_n(coordinates)?;
+        let residuals = self.loops.iter().zip(&forces).map(|(test, forces)| {
             let measured = test.counted_forces_n().iter();
-            let left: Vec<f64> = measured.zip(forces).map(|(f, model)| model - f).collect();
-            Left {
-                rms_n: missed_n(test, forces),
-                correlation_samples: correlation_samples(&left),
+            let residual: Vec<f64> = measured.zip(forces).map(|(f, model)| model - f).collect();
+            Residual {
+                rms_n: residual_rms_n(test, forces),
+                correlation_samples: correlation_samples(&residual),
             }
         });
-        Ok(left.collect())
+        Ok(residuals.collect())
     }
 }
 
-/// Root mean square of what `forces_n` of a model miss of a test (N).
-pub(super) fn missed_n(test: &LoopTest, forces_n: &[f64]) -> f64 {
+/// Returns the root mean square of the test's forces minus the model's `forces_n` (N).
+pub(super) fn residual_rms_n(test: &LoopTest, forces_n: &[f64]) -> f64 {
     let pairs = test.counted_forces_n().iter().zip(forces_n);
     let square: f64 = pairs.map(|(f, model)| (model - f).powi(2)).sum();
     (square / forces_n.len().max(1) as f64).sqrt()
 }
 
-/// How many samples of a series count once: the density of its spectrum in the octave where that is highest, over what it would be were the
-/// series white. What a number does to a force lies in a band about the motion's lines; where in the spectrum that is, is not asked, so
-/// that intervals are rather too wide than too narrow.
+/// Returns the correlation length of a series in samples: the highest octave mean of its spectral density, over the
+/// density of white noise with the same rms.
+///
+/// The effect of a parameter on the force lies in a band around the lines of the motion. The highest octave is taken
+/// wherever that band is, so intervals are too wide rather than too narrow.
 fn correlation_samples(series: &[f64]) -> f64 {
-    /// Windows of the spectrum: enough for an octave of one line.
+    /// Number of windows: enough for an octave that holds a single line.
     const WINDOWS: usize = 8;
-    /// Samples of a window at most.
-    const LONGEST: usize = 1 << 14;
+    /// Maximum samples per window.
+    const MAX_WINDOW: usize = 1 << 14;
     let square: f64 = series.iter().map(|value| value * value).sum();
-    let length = (series.len() / WINDOWS).min(LONGEST);
+    let length = (series.len() / WINDOWS).min(MAX_WINDOW);
     let Ok(mut welch) = Welch::new(1.0, length as f64) else {
         return 1.0;
     };
     series.iter().for_each(|value| welch.add(*value));
     let density = welch.density();
-    // One-sided, at one sample a second.
+    // One-sided density at one sample per second.
     let white = 2.0 * square / series.len() as f64;
     if welch.windows() == 0 || white <= 0.0 {
         return 1.0;
@@ -78,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn white_noise_counts_each_sample_and_slow_noise_few() {
+    fn white_noise_is_uncorrelated_and_slow_noise_is_correlated() {
         let mut rng = Rng::with_seed(9);
         // x_k = p x_(k-1) + e_k has (1 + p)/(1 - p) times the density of white noise at low frequency.
         for (p, expected) in [(0.0, 1.0), (0.5, 3.0), (0.9, 19.0)] {
