@@ -5,7 +5,6 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyType};
 
-use crate::built::BuiltDamper;
 use crate::error::{Outcome, refuse};
 use crate::pickled::{Pickled, pickled};
 
@@ -37,15 +36,15 @@ macro_rules! in_precision {
 #[pyclass(module = "dashpot")]
 pub struct State {
     pub numbers: Numbers,
-    /// The damper that stepped last.
-    by: Py<BuiltDamper>,
+    /// The `BuiltDamper` that stepped last.
+    by: Py<PyAny>,
 }
 
 static STATUS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 impl State {
     /// A state of a damper.
-    pub fn new(numbers: Numbers, by: &Bound<'_, BuiltDamper>) -> Self {
+    pub fn new(numbers: Numbers, by: &Bound<'_, PyAny>) -> Self {
         let by = by.clone().unbind();
         Self { numbers, by }
     }
@@ -61,7 +60,7 @@ impl State {
     }
 
     /// A damper has stepped it.
-    pub fn stepped_by(&mut self, damper: &Bound<'_, BuiltDamper>) {
+    pub fn stepped_by(&mut self, damper: &Bound<'_, PyAny>) {
         if !self.by.is(damper) {
             self.by = damper.clone().unbind();
         }
