@@ -1,5 +1,6 @@
 //! `dashpot shims`: the shim packs of a damper, theory beside published and used.
 
+mod capital;
 mod fe;
 mod plots;
 mod report;
