@@ -41,6 +41,8 @@ pub trait Real:
     const NAME: &'static str;
     /// Zero.
     const ZERO: Self;
+    /// Largest finite number.
+    const MAX: Self;
 
     /// Rounds to the nearest representable number.
     fn from_f64(value: f64) -> Self;
@@ -61,9 +63,6 @@ pub(crate) trait Scalar: Lanes<Self, 1> {
     /// Distance from 1 to the next larger number.
     #[cfg(feature = "builder")]
     const EPSILON: f64;
-    /// Largest finite number.
-    #[cfg(feature = "builder")]
-    const MAX: Self;
     /// Number of significant binary digits.
     const MANTISSA_DIGITS: u32;
     /// A table of zeros.
@@ -91,6 +90,7 @@ macro_rules! real {
         impl Real for $float {
             const NAME: &'static str = stringify!($float);
             const ZERO: Self = 0.0;
+            const MAX: Self = $float::MAX;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -115,8 +115,6 @@ macro_rules! real {
 
             #[cfg(feature = "builder")]
             const EPSILON: f64 = $float::EPSILON as f64;
-            #[cfg(feature = "builder")]
-            const MAX: Self = $float::MAX;
             const MANTISSA_DIGITS: u32 = $float::MANTISSA_DIGITS;
             #[cfg(feature = "builder")]
             const ZERO_TABLE: Table<Self> = Table::<$float>::ZERO;
