@@ -4,8 +4,8 @@
 //! a bank steps eight dampers together on processors with vector instructions.
 
 use crate::damper::Damper;
-use crate::math::Real;
 use crate::math::group::GROUP;
+use crate::real::Real;
 use crate::state::DamperState;
 use crate::step::step;
 

@@ -1,8 +1,9 @@
 //! Static laws of a damper, for curves and checks outside the step.
 
-use crate::build::root::bracketed_root;
 use crate::build::{CheckedParameters, ElementLaws};
+pub use crate::hydraulics::Corner;
 use crate::hydraulics::{Corners, HydraulicSide, jet_velocity};
+use crate::math::root::bracketed_root;
 
 /// One of the three shim-pack valves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,22 +15,6 @@ pub enum ShimPackValve {
     PistonCompression,
     /// Foot valve that works in compression against the reservoir.
     FootCompression,
-}
-
-/// A corner of a damper's law, where the slope of velocity over force jumps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Corner {
-    /// The preloaded shim-pack valve of the piston opens.
-    PistonValveOpens,
-    /// The relief valve opens.
-    ReliefOpens,
-    /// The foot valve opens against its preload or the reservoir pressure.
-    FootValveOpens,
-    /// In compression, the pressure of the rod side reaches or leaves the vapour pressure.
-    Vapour,
-    /// The element yields at the saturation velocity or the force limit.
-    Yields,
 }
 
 /// Laws of a damper at constant velocity: springs at rest, clearance taken up.

@@ -1,9 +1,8 @@
 //! The damper: constants for one step size, shared by any number of states.
 
-use crate::encoding::revision;
-use crate::error::ClearanceError;
-use crate::math::Real;
-use crate::parameters::{MAX_CLEARANCE_M, MAX_FORCE_N};
+use crate::parameters::{MAX_CLEARANCE_M, MAX_FORCE_N, Mount};
+use crate::real::Real;
+use crate::revision;
 use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
@@ -163,6 +162,12 @@ impl<T: Real> Damper<T> {
             && state.force.abs() <= self.force_limit_n()
     }
 }
+
+/// A clearance outside 0 to 0.1 m.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("mount.clearance_m must be {}", Mount::RANGES.clearance_m.allowed)]
+#[non_exhaustive]
+pub struct ClearanceError;
 
 #[cfg(all(test, feature = "builder"))]
 mod tests {

@@ -1,10 +1,6 @@
-//! Errors of building and changing a damper. The step itself cannot fail.
+//! Errors of building a damper. The step itself cannot fail.
 
 use core::fmt;
-
-use crate::parameters::Mount;
-#[cfg(feature = "builder")]
-use crate::parameters::{Numbers, Range};
 
 /// An invalid parameter: the name of the field, its value and the allowed range.
 ///
@@ -65,39 +61,4 @@ impl fmt::Display for Bound {
         self.0
             .map_or(Ok(()), |bound| write!(f, "; here the bound is {bound}"))
     }
-}
-
-/// A clearance outside 0 to 0.1 m.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("mount.clearance_m must be {}", Mount::RANGES.clearance_m.allowed)]
-#[non_exhaustive]
-pub struct ClearanceError;
-
-/// Checks a value against its range and the result of its relation to other parameters.
-///
-/// # Errors
-/// The field, if the value is out of range or `keeps_relation` is false.
-#[cfg(feature = "builder")]
-pub(crate) fn require(
-    section: &'static str,
-    range: &Range,
-    value: f64,
-    keeps_relation: bool,
-) -> Result<(), BuildError> {
-    if range.contains(value) && keeps_relation {
-        Ok(())
-    } else {
-        Err(BuildError::new(section, range.key, value, range.allowed))
-    }
-}
-
-/// Checks every number of a field against its range.
-#[cfg(feature = "builder")]
-pub(crate) fn require_range(
-    section: &'static str,
-    range: &Range,
-    field: &impl Numbers,
-) -> Result<(), BuildError> {
-    let mut numbers = field.numbers().iter();
-    numbers.try_for_each(|value| require(section, range, *value, true))
 }

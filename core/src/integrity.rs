@@ -2,8 +2,8 @@
 //! constant time.
 
 use crate::damper::Damper;
-use crate::encoding::revision;
-use crate::math::Real;
+use crate::real::Real;
+use crate::revision;
 use crate::state::DamperState;
 use crate::table::ROWS;
 

@@ -5,10 +5,12 @@
 #![warn(missing_docs)]
 
 pub mod bank;
+mod bins;
 #[cfg(feature = "builder")]
 mod build;
 #[cfg(feature = "builder")]
 pub mod characteristic;
+mod checksum;
 mod damper;
 mod encoding;
 mod error;
@@ -24,9 +26,12 @@ mod math;
 #[cfg(feature = "builder")]
 mod oil;
 pub mod parameters;
+mod real;
+mod revision;
 mod scalars;
 #[cfg(feature = "builder")]
 pub mod shim;
+mod stages;
 mod state;
 mod status;
 mod step;
@@ -37,10 +42,11 @@ mod unusual;
 pub use bank::step_bank;
 #[cfg(feature = "builder")]
 pub use build::CheckedParameters;
-pub use damper::Damper;
-pub use encoding::{ImageError, Loading, SavedStateError, crc_32};
-pub use error::{BuildError, ClearanceError};
-pub use math::Real;
+pub use checksum::crc_32;
+pub use damper::{ClearanceError, Damper};
+pub use encoding::{ImageError, Loading, SavedStateError};
+pub use error::BuildError;
 pub use parameters::DamperParameters;
+pub use real::Real;
 pub use state::DamperState;
 pub use status::Status;

@@ -1,7 +1,7 @@
 //! The constants of a damper outside its table.
 
-use crate::math::Real;
-use crate::table::DOUBLINGS;
+use crate::bins::DOUBLINGS;
+use crate::real::Real;
 
 /// Largest bound of moves and stretches (m): the length of the largest range of displacement.
 ///

@@ -1,6 +1,6 @@
 //! The state of a damper, which changes from tick to tick.
 
-use crate::math::Real;
+use crate::real::Real;
 use crate::status::Status;
 
 /// Upper bits of the status word, which distinguish a state from uninitialised memory.

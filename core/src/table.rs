@@ -5,24 +5,15 @@
 //! with 128 bins for each doubling. A bin contains the index of the piece at its lower border. At most
 //! [`KNOTS_PER_BIN`] knots lie within a bin, so this number of comparisons finds the piece.
 
-use crate::encoding::checksum;
+use crate::bins::{BINS, bin_shift};
+use crate::checksum;
 use crate::math::Lanes;
 
 /// Number of pieces of a side.
 pub(crate) const PIECES: usize = 64;
 
-/// Number of bins of a side: 16 doublings of the reach.
-pub(crate) const BINS: usize = 1 << BIN_BITS;
-pub(crate) const BIN_BITS: u32 = 11;
-
-/// Number of leading bits of the fraction in the index of a bin.
-pub(crate) const BIN_FRACTION_BITS: u32 = 7;
-
 /// Largest number of knots within a bin.
 pub(crate) const KNOTS_PER_BIN: usize = 2;
-
-/// Number of doublings of the reach from the first knot to the end of the bins.
-pub(crate) const DOUBLINGS: u32 = 1 << (BIN_BITS - BIN_FRACTION_BITS);
 
 const _: () = {
     assert!(
@@ -35,7 +26,6 @@ const _: () = {
     );
     assert!(2 * PIECES <= 256, "the index of a piece is a byte");
     assert!(KNOTS_PER_BIN == 2, "the step compares with two knots");
-    assert!(BIN_FRACTION_BITS < BIN_BITS, "there are several doublings");
     assert!(
         size_of::<Piece<f32>>() == 64,
         "one shift computes the address of a piece"
@@ -56,7 +46,7 @@ const BINS_PER_ROW: usize = 8;
 /// A piece has sixteen numbers, so one shift computes its address.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct Piece<T> {
+pub(crate) struct Piece<T> {
     /// Flow times the step (m), with the sign of the stretch.
     pub(crate) flow: [T; 4],
     /// Flow potential times the step (m^2), positive.
@@ -93,7 +83,7 @@ impl<T> Piece<T> {
 /// Pieces of extension, then of compression, with their bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
-pub struct Table<T> {
+pub(crate) struct Table<T> {
     /// Bins of extension and compression in pairs, so that a bin needs one address.
     pub(crate) bins: [[u8; 2]; BINS],
     pub(crate) pieces: [Piece<T>; 2 * PIECES],
@@ -214,11 +204,6 @@ macro_rules! table {
 
 table!(f32, u32);
 table!(f64, u64);
-
-/// Number of bits below the index of a bin, in a number with this many significant binary digits.
-pub(crate) const fn bin_shift(digits: u32) -> u32 {
-    digits - 1 - BIN_FRACTION_BITS
-}
 
 /// Finds the piece of the positive `reach` on the side of `direction`, and z in it, for each lane. Any number is safe.
 #[inline(always)]

@@ -1,10 +1,10 @@
 //! Handles an unusual state or displacement before a step.
 
 use crate::damper::Damper;
-use crate::math::Real;
+use crate::real::Real;
+use crate::stages::state_at_force;
 use crate::state::DamperState;
 use crate::status::Status;
-use crate::step::state_at_force;
 
 /// Time in which the damper can catch up with its input at its largest rate (s). If the input is farther away, the
 /// force falls from its limit to zero in the same time.

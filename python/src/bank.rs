@@ -103,7 +103,7 @@ impl Bank {
             let kept = kept.into_iter().flatten();
             for ((mut state, at), damper) in kept.zip(at).zip(&self.dampers) {
                 state.numbers = T::numbers(at);
-                state.stepped_by(damper.bind(py));
+                state.stepped_by(damper.bind(py).as_any());
             }
         }
         Ok(forces)

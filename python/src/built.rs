@@ -161,7 +161,7 @@ impl BuiltDamper {
             && !displacements.is_empty()
         {
             state.numbers = T::numbers(at);
-            state.stepped_by(slf);
+            state.stepped_by(slf.as_any());
         }
         Ok(forces)
     }
@@ -227,7 +227,7 @@ impl BuiltDamper {
             Kept::Single(constants) => Numbers::Single(constants.at_rest(displacement_m as f32)),
             Kept::Double(constants) => Numbers::Double(constants.at_rest(displacement_m)),
         };
-        State::new(numbers, slf)
+        State::new(numbers, slf.as_any())
     }
 
     /// Steps one tick and returns the force (N) at a displacement (m) of the seats, positive in extension. It never
@@ -242,7 +242,7 @@ impl BuiltDamper {
             (Kept::Double(constants), Numbers::Double(at)) => constants.step(at, displacement_m),
             _ => return slf.get().other_precision(slf.py()),
         };
-        state.stepped_by(slf);
+        state.stepped_by(slf.as_any());
         Ok(force)
     }
 
@@ -275,7 +275,7 @@ impl BuiltDamper {
             Kept::Single(constants) => Numbers::Single(constants.restore(saved)?),
             Kept::Double(constants) => Numbers::Double(constants.restore(saved)?),
         };
-        Ok(State::new(numbers, slf))
+        Ok(State::new(numbers, slf.as_any()))
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {

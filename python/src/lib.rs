@@ -17,6 +17,7 @@ mod overrides;
 mod pickled;
 mod recording;
 mod remedy;
+mod replacements;
 mod rig;
 mod state;
 mod sweep;

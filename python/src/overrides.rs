@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use dashpot_core::DamperParameters;
-use dashpot_files::vehicle::Replacement;
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyDictMethods, PyFloat, PyInt, PyString};
 
-use crate::damper::Damper;
 use crate::error::{Outcome, refuse};
 
 /// Converts a name or a path-like object to text.
@@ -78,31 +75,4 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
 /// Quotes a text with the syntax common to TOML and JSON.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
-}
-
-/// Converts a dictionary from dampers of a vehicle to their replacements (a name, a path or a `Damper`); empty by
-/// default.
-pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement>> {
-    let Some(given) = given else {
-        return Ok(Vec::new());
-    };
-    let Ok(given) = given.cast::<PyDict>() else {
-        return refuse(format!(
-            "dampers: {}, allowed: a dictionary such as {{\"vertical\": \"in-service\"}}",
-            given.get_type().name()?
-        ));
-    };
-    let one = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-        let dampers = key.str()?.to_string();
-        let Ok(made) = value.cast::<Damper>() else {
-            return Ok(Replacement::named(dampers, path(&value)?));
-        };
-        let parameters = DamperParameters::clone(&made.get().parameters);
-        Ok(Replacement {
-            dampers,
-            by: value.repr()?.to_string(),
-            made: Some(Box::new(parameters)),
-        })
-    };
-    given.iter().map(one).collect()
 }

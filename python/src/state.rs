@@ -5,7 +5,6 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyType};
 
-use crate::built::BuiltDamper;
 use crate::error::{Outcome, refuse};
 use crate::pickled::{Pickled, pickled};
 
@@ -38,15 +37,15 @@ macro_rules! in_precision {
 #[pyclass(module = "dashpot")]
 pub struct State {
     pub numbers: Numbers,
-    /// The damper that last stepped the state.
-    by: Py<BuiltDamper>,
+    /// The `BuiltDamper` that last stepped the state.
+    by: Py<PyAny>,
 }
 
 static STATUS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 impl State {
     /// A state of a damper.
-    pub fn new(numbers: Numbers, by: &Bound<'_, BuiltDamper>) -> Self {
+    pub fn new(numbers: Numbers, by: &Bound<'_, PyAny>) -> Self {
         let by = by.clone().unbind();
         Self { numbers, by }
     }
@@ -60,7 +59,7 @@ impl State {
     }
 
     /// Records that a damper has stepped the state.
-    pub fn stepped_by(&mut self, damper: &Bound<'_, BuiltDamper>) {
+    pub fn stepped_by(&mut self, damper: &Bound<'_, PyAny>) {
         if !self.by.is(damper) {
             self.by = damper.clone().unbind();
         }

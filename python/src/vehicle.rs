@@ -13,7 +13,8 @@ use pyo3::types::PyDict;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::Interruption;
 use crate::json;
-use crate::overrides::{assignments, path, replacements};
+use crate::overrides::{assignments, path};
+use crate::replacements::replacements;
 
 /// Contacts and tracks, each built once per process.
 pub static SHARED: LazyLock<Shared> = LazyLock::new(Shared::default);

@@ -30,8 +30,11 @@ pub const AREAS: [Area; 6] = [
         package: "dashpot-core",
         files: &[
             "core/src/step.rs",
+            "core/src/stages.rs",
             "core/src/unusual.rs",
+            "core/src/bins.rs",
             "core/src/table.rs",
+            "core/src/real.rs",
             "core/src/state.rs",
             "core/src/status.rs",
             "core/src/integrity.rs",

@@ -2,11 +2,11 @@
 
 use core::ops::Deref;
 
-use crate::error::{BuildError, require};
+use crate::error::BuildError;
 use crate::hydraulics::Laws;
 use crate::parameters::{
     DamperParameters, Element, Geometry, Hydraulics, Limits, Oil, Orifice, Reduced, Reservoir,
-    Valve,
+    Valve, require,
 };
 
 /// The laws of an element, ready to evaluate.

@@ -2,11 +2,12 @@
 
 use heapless::Vec;
 
-use super::root::bracketed_root;
 use super::span::{Span, Stage};
-use crate::math::Real;
-use crate::step::GAMMA;
-use crate::table::{DOUBLINGS, KNOTS_PER_BIN, PIECES, Piece};
+use crate::bins::DOUBLINGS;
+use crate::math::root::bracketed_root;
+use crate::real::Real;
+use crate::stages::GAMMA;
+use crate::table::{KNOTS_PER_BIN, PIECES, Piece};
 
 /// A span is not divided if the relative error of its cubics is at most this (1).
 const TOLERANCE: f64 = 1e-9;

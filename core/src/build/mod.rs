@@ -4,7 +4,6 @@ mod branch;
 mod checked;
 mod fit;
 mod knots;
-pub(crate) mod root;
 mod span;
 
 pub(crate) use branch::Branch;
@@ -13,13 +12,14 @@ pub use checked::CheckedParameters;
 pub(crate) use checked::ElementLaws;
 use span::Stage;
 
+use crate::bins::DOUBLINGS;
 use crate::damper::Damper;
 use crate::error::BuildError;
 use crate::hydraulics::HydraulicSide;
-use crate::math::Real;
 use crate::parameters::{DamperParameters, Mount, OilColumn, STEP_ALLOWED, STEP_RANGE_S};
+use crate::real::Real;
 use crate::scalars::{MAX_BOUND_M, Scalars};
-use crate::table::{DOUBLINGS, PIECES};
+use crate::table::PIECES;
 
 impl DamperParameters {
     /// Checks the parameters and builds the damper: [`Self::check`], then [`CheckedParameters::build`].

@@ -3,7 +3,7 @@
 use super::branch::Branch;
 use super::fit;
 use crate::math::elementary::sqrt;
-use crate::step::GAMMA;
+use crate::stages::GAMMA;
 
 /// Low force as a fraction of the force limit; see [`Stage::floor`].
 const LOW_FORCE: f64 = 1e-3;

@@ -13,7 +13,7 @@
 use zerocopy::little_endian::{U16, U32};
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
-use super::checksum::crc_32;
+use crate::checksum::crc_32;
 use crate::damper::Damper;
 use crate::state::DamperState;
 

@@ -12,8 +12,7 @@
 use core::mem::offset_of;
 
 use super::model::{HealthModel, MARK, MIN_TICKS};
-use crate::encoding::checksum;
-use crate::encoding::crc_32;
+use crate::checksum::{self, crc_32};
 
 const MAGIC: [u8; 4] = *b"DAHM";
 /// Version of the format. It changes whenever the meaning of the bytes changes.

@@ -1,7 +1,7 @@
 //! Limits of the density law of the oil: the largest pressure and the force that causes it.
 
 use super::flow::Laws;
-use crate::build::root::bracketed_root;
+use crate::math::root::bracketed_root;
 
 /// Largest pressure over the bulk modulus (1).
 ///

@@ -2,11 +2,11 @@
 
 use heapless::Vec;
 
+use super::corner::Corner;
 use super::flow::Laws;
 use super::two_chamber::{above_vapour_pa, compression_velocity, force_at_difference};
-use crate::build::root::bracketed_root;
-use crate::characteristic::Corner;
 use crate::math::elementary::sqrt;
+use crate::math::root::bracketed_root;
 
 /// Corners of one side, with their forces (N); room for more than a side has.
 pub(crate) type Corners = Vec<(Corner, f64), 8>;

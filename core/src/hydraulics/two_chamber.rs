@@ -3,7 +3,7 @@
 //! `A_ext v = Q_piston(P1 - P2)`, `A_rod v = Q_foot(P1 - P_b)`, `F = P1 A_comp - P2 A_ext`. All forces act on the oil.
 
 use super::flow::Laws;
-use crate::build::root::bracketed_root;
+use crate::math::root::bracketed_root;
 
 /// Pressure of the piston side P1 and pressure difference P1 - P2 (Pa), if no vapour forms.
 fn pressures(laws: &Laws, force_n: f64) -> (f64, f64) {

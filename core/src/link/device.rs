@@ -1,8 +1,9 @@
 //! The device end of the link: takes bytes and ticks, returns responses.
 
 use super::board::{Line, Outputs};
-use super::exchange::{Exchange, Load, Served, answer};
+use super::exchange::{Exchange, Served, answer};
 use super::frame::{FrameReader, REQUEST_BYTES, ResponseFrame};
+use super::load::Load;
 use super::loaded::StepSizeError;
 use super::message::{Counters, Response};
 use super::refusal::Refusal;

@@ -6,8 +6,8 @@ use postcard::ser_flavors::Flavor;
 use serde::Serialize;
 
 use super::message::{Header, Request};
+use crate::checksum;
 use crate::damper::Damper;
-use crate::encoding::checksum;
 
 /// Largest request with header and CRC-32 (bytes): a whole image and its header.
 pub const REQUEST_BYTES: usize = Damper::<f32>::IMAGE_BYTES + 32;

@@ -1,7 +1,7 @@
 //! Checks memory for damage: at each tick one slice of constants, damper by damper, and one state.
 
+use super::limits::MAX_DAMPERS;
 use super::loaded::Loaded;
-use super::message::MAX_DAMPERS;
 use crate::integrity::Check;
 
 // There is one bit for each damper.

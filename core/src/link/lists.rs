@@ -6,7 +6,7 @@ use core::ops::{Deref, DerefMut};
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
-use super::message::{MAX_DAMPERS, MAX_SAMPLES, Sample};
+use super::limits::{MAX_DAMPERS, MAX_SAMPLES};
 
 /// One value for each damper, in the order of the dampers: a slice of at most [`MAX_DAMPERS`] values.
 ///
@@ -19,6 +19,20 @@ use super::message::{MAX_DAMPERS, MAX_SAMPLES, Sample};
 #[derive(Clone, PartialEq, Serialize, Deserialize)]
 #[serde(bound(serialize = "T: Serialize", deserialize = "T: Deserialize<'de>"))]
 pub struct PerDamper<T>(Vec<T, MAX_DAMPERS>);
+
+/// One recorded tick of a damper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Sample {
+    /// Tick count.
+    pub tick: u32,
+    /// Displacement used (m).
+    pub displacement_m: f32,
+    /// Force returned (N).
+    pub force_n: f32,
+    /// Latched [`Status`](crate::Status) bits.
+    pub status: u16,
+}
 
 /// Samples of one damper, oldest first: a slice of at most [`MAX_SAMPLES`] samples.
 #[derive(Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,8 @@
 //! The dampers of a device with their states and the tick count.
 
+use super::limits::MAX_DAMPERS;
 use super::lists::{PerDamper, Reals};
-use super::message::{Forces, MAX_DAMPERS, Response};
+use super::message::{Forces, Response};
 use super::refusal::Refusal;
 use super::slots::Slots;
 use crate::bank::step_bank;

@@ -1,6 +1,6 @@
 //! Requests of a host and responses of a device, encoded with postcard.
 //!
-//! The fields of requests and responses are part of [`PROTOCOL`]; a new field is a new version of the protocol.
+//! The fields of requests and responses are part of the protocol; a new field is a new [version](super::PROTOCOL).
 
 use serde::{Deserialize, Serialize};
 
@@ -8,18 +8,6 @@ use super::lists::{PerDamper, Reals, Samples};
 use super::refusal::Refusal;
 use super::safe_output::LossOfLink;
 use crate::health::HealthReading;
-
-/// Version of the messages. It changes whenever the bytes of a message change. New messages are added at the end
-/// without a new version: a device that does not know one answers [`Refusal::Unreadable`].
-pub const PROTOCOL: u16 = 3;
-/// Largest number of dampers of a device.
-pub const MAX_DAMPERS: usize = 16;
-/// Largest number of telemetry samples in one response.
-pub const MAX_SAMPLES: usize = 8;
-/// Largest number of measured samples in one request.
-pub const MAX_MEASURED: usize = 8;
-/// Bytes of a measured sample.
-pub const MEASURED_BYTES: usize = 8;
 
 /// Header of a request, repeated in its response.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,7 +24,7 @@ pub struct Header {
 pub enum Request<'a> {
     /// Opens the session of the header. Changes no state.
     Hello {
-        /// [`PROTOCOL`] of the host.
+        /// [`PROTOCOL`](super::PROTOCOL) of the host.
         protocol: u16,
     },
     /// Checks an image and replaces a damper with it; the state keeps its force.
@@ -114,8 +102,8 @@ pub enum Request<'a> {
     Measure {
         /// Index of the damper.
         damper: u8,
-        /// Displacement (m) and force (N) of each sample in single precision, little-endian; at most [`MAX_MEASURED`]
-        /// samples.
+        /// Displacement (m) and force (N) of each sample in single precision, little-endian; at most
+        /// [`MAX_MEASURED`](super::MAX_MEASURED) samples.
         samples: &'a [u8],
     },
     /// Requests the health of a damper.
@@ -195,7 +183,7 @@ pub enum Response<'a> {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Welcome<'a> {
-    /// [`PROTOCOL`] of the device.
+    /// [`PROTOCOL`](super::PROTOCOL) of the device.
     pub protocol: u16,
     /// Version of dashpot-core in the device.
     pub core_version: &'a str,
@@ -238,20 +226,6 @@ pub struct Forces {
     pub status: PerDamper<u16>,
     /// Duration of stepping the bank in clock ticks.
     pub clock_ticks: u32,
-}
-
-/// One recorded tick of a damper.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Sample {
-    /// Tick count.
-    pub tick: u32,
-    /// Displacement used (m).
-    pub displacement_m: f32,
-    /// Force returned (N).
-    pub force_n: f32,
-    /// Latched [`Status`](crate::Status) bits.
-    pub status: u16,
 }
 
 /// Counters since power on. Each saturates at its largest value.

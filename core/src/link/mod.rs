@@ -11,7 +11,9 @@ mod device;
 mod exchange;
 mod frame;
 mod guard;
+mod limits;
 mod lists;
+mod load;
 mod loaded;
 mod message;
 mod recorder;
@@ -28,12 +30,10 @@ pub use frame::{
     Frame, FrameError, FrameReader, Message, REQUEST_BYTES, REQUEST_FRAME_BYTES, RESPONSE_BYTES,
     RESPONSE_FRAME_BYTES, RequestFrame, ResponseFrame, request_frame,
 };
-pub use lists::{PerDamper, Reals, Samples};
+pub use limits::{MAX_DAMPERS, MAX_MEASURED, MAX_SAMPLES, MEASURED_BYTES, PROTOCOL};
+pub use lists::{PerDamper, Reals, Sample, Samples};
 pub use loaded::StepSizeError;
-pub use message::{
-    Counters, Forces, Header, MAX_DAMPERS, MAX_MEASURED, MAX_SAMPLES, MEASURED_BYTES, PROTOCOL,
-    Parameter, Request, Response, Sample, Scalar, Welcome,
-};
+pub use message::{Counters, Forces, Header, Parameter, Request, Response, Scalar, Welcome};
 pub use recorder::KEPT_TICKS;
 pub use refusal::Refusal;
 pub use safe_output::{LossOfLink, SafeOutput};

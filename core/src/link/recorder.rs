@@ -1,6 +1,8 @@
 //! The last ticks of the bank, which a host reads for one damper at a time.
 
-use super::message::{MAX_SAMPLES, Response, Sample};
+use super::limits::MAX_SAMPLES;
+use super::lists::Sample;
+use super::message::Response;
 use super::refusal::Refusal;
 use crate::state::DamperState;
 use crate::status::Status;

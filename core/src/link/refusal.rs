@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::message::{MAX_MEASURED, PROTOCOL};
+use super::limits::{MAX_MEASURED, PROTOCOL};
 use crate::encoding::ImageError;
 use crate::health::HealthImageError;
 use crate::parameters::Mount;

@@ -1,12 +1,11 @@
 //! Carries out requests on the loaded dampers.
 
-use super::exchange::Progress;
 use super::guard::Guard;
+use super::limits::{MAX_DAMPERS, PROTOCOL};
 use super::lists::Reals;
+use super::load::Progress;
 use super::loaded::{Loaded, SavedStates, StepSizeError};
-use super::message::{
-    Counters, MAX_DAMPERS, PROTOCOL, Parameter, Request, Response, Scalar, Welcome,
-};
+use super::message::{Counters, Parameter, Request, Response, Scalar, Welcome};
 use super::recorder::Recorder;
 use super::refusal::Refusal;
 use super::safe_output::{LossOfLink, Watch};

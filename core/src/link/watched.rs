@@ -1,6 +1,6 @@
 //! Health estimates, fed with the measured samples of real dampers.
 
-use super::message::{MAX_MEASURED, MEASURED_BYTES};
+use super::limits::{MAX_MEASURED, MEASURED_BYTES};
 use super::refusal::Refusal;
 use crate::health::{Health, HealthLoading, HealthModel, HealthReading};
 

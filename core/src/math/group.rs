@@ -6,7 +6,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, f32x4, f64x4, i32x4, u32x4};
 
 use super::Lanes;
-use crate::table::{BINS, bin_shift};
+use crate::bins::{BINS, bin_shift};
 
 /// Number of lanes of a group.
 pub(crate) const GROUP: usize = 8;
@@ -19,9 +19,9 @@ type Baseline = fearless_simd::x86::Sse2;
 type Baseline = fearless_simd::aarch64::Neon;
 
 /// Numbers of a group in single precision.
-pub type F32 = Pair<f32x4<Baseline>>;
+pub(crate) type F32 = Pair<f32x4<Baseline>>;
 /// Numbers of a group in double precision.
-pub type F64 = Pair<f64x4<Baseline>>;
+pub(crate) type F64 = Pair<f64x4<Baseline>>;
 
 /// Returns the token of [`Baseline`]; the compiler removes the check.
 #[inline(always)]
@@ -35,7 +35,7 @@ fn baseline() -> Baseline {
 
 /// Two vectors. The processor works on one while the other waits for a result.
 #[derive(Clone, Copy)]
-pub struct Pair<V>(V, V);
+pub(crate) struct Pair<V>(V, V);
 
 macro_rules! operator {
     ($operator:ident, $method:ident) => {

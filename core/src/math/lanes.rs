@@ -4,10 +4,10 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::table::{BINS, bin_shift};
+use crate::bins::{BINS, bin_shift};
 
 /// `L` numbers side by side.
-pub trait Lanes<T, const L: usize>:
+pub(crate) trait Lanes<T, const L: usize>:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -29,7 +29,7 @@ pub trait Lanes<T, const L: usize>:
     fn max(self, other: Self) -> Self;
     /// Lane-wise minimum; `other` if `self` is NaN. `other` must not be NaN, nor both zeros of opposite sign.
     fn min(self, other: Self) -> Self;
-    /// True if no magnitude exceeds its bound, given by its [`doubled_bits`](crate::math::real::Scalar). False for NaN.
+    /// True if no magnitude exceeds its bound, given by its [`doubled_bits`](crate::real::Scalar). False for NaN.
     fn all_within(self, doubled_bits: [&T; L]) -> bool;
     /// True for each lane that is not below the limit. True for NaN.
     fn reaches(self, limit: Self) -> [bool; L];
@@ -137,7 +137,7 @@ single_lane!(f64, u64);
 #[cfg(test)]
 mod tests {
     use super::Lanes;
-    use crate::table::BINS;
+    use crate::bins::BINS;
 
     #[test]
     fn a_doubling_has_128_bins() {

@@ -7,10 +7,10 @@ pub(crate) mod approximate;
 )]
 pub(crate) mod group;
 mod lanes;
-mod real;
 
 #[cfg(feature = "builder")]
 pub(crate) mod elementary;
+#[cfg(feature = "builder")]
+pub(crate) mod root;
 
 pub(crate) use lanes::Lanes;
-pub use real::Real;

@@ -4,6 +4,6 @@
 pub(crate) const GROUP: usize = 1;
 
 /// Numbers of a group in single precision.
-pub type F32 = f32;
+pub(crate) type F32 = f32;
 /// Numbers of a group in double precision.
-pub type F64 = f64;
+pub(crate) type F64 = f64;

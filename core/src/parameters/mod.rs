@@ -36,6 +36,8 @@ pub use oil::{
     ATMOSPHERIC_PRESSURE_PA, DENSITY_TEMPERATURE_C, Oil, OilColumn, OilColumnRanges, OilRanges,
 };
 pub use range::Range;
+#[cfg(feature = "builder")]
+pub(crate) use range::require;
 use range::{allowed, parameters};
 pub use shims::{MAX_SHIMS, Shims};
 

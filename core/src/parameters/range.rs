@@ -1,5 +1,10 @@
 //! Ranges and defaults. Each is written once, next to its field; checks, error texts and documentation come from there.
 
+#[cfg(feature = "builder")]
+use super::Numbers;
+#[cfg(feature = "builder")]
+use crate::error::BuildError;
+
 /// Range and default of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -21,6 +26,35 @@ impl Range {
     pub fn contains(&self, value: f64) -> bool {
         (self.min..=self.max).contains(&value)
     }
+}
+
+/// Checks a value against its range and the result of its relation to other parameters.
+///
+/// # Errors
+/// The field, if the value is out of range or `keeps_relation` is false.
+#[cfg(feature = "builder")]
+pub(crate) fn require(
+    section: &'static str,
+    range: &Range,
+    value: f64,
+    keeps_relation: bool,
+) -> Result<(), BuildError> {
+    if range.contains(value) && keeps_relation {
+        Ok(())
+    } else {
+        Err(BuildError::new(section, range.key, value, range.allowed))
+    }
+}
+
+/// Checks every number of a field against its range.
+#[cfg(feature = "builder")]
+pub(crate) fn require_range(
+    section: &'static str,
+    range: &Range,
+    field: &impl Numbers,
+) -> Result<(), BuildError> {
+    let mut numbers = field.numbers().iter();
+    numbers.try_for_each(|value| require(section, range, *value, true))
 }
 
 /// `Some` of the literal, or `None` without one.
@@ -138,7 +172,7 @@ macro_rules! parameters {
                 &self,
                 table: &'static str,
             ) -> Result<(), $crate::error::BuildError> {
-                $($crate::error::require_range(table, &Self::RANGES.$field, &self.$field)?;)+
+                $($crate::parameters::range::require_range(table, &Self::RANGES.$field, &self.$field)?;)+
                 Ok(())
             }
         }

@@ -1,30 +1,10 @@
 //! Results of the contact: forces on patches, wheels and the wheelset, and the state of each wheel.
 
 use super::motion::{MOTION_FIELDS, Motion, RailDisplacement};
+use super::status::Status;
 use super::wheel::{PatchOutput, Wrench};
 use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
-
-/// State of a wheel on its rail, from harmless to worst.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-#[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Status {
-    /// No patch is loaded.
-    #[default]
-    Lifted,
-    /// The tread, the flange or both carry load.
-    Rolling,
-    /// The flange carries load beyond its steepest point: the wheel climbs.
-    Climbing,
-    /// The wheel runs on its flange tip or on the back of the flange.
-    PastTip,
-    /// The pose is outside the tables, and the forces are those at the nearest edge; or the penetration exceeds
-    /// [`MAX_PENETRATION_M`](super::MAX_PENETRATION_M).
-    OutsideTables,
-    /// A field of the motion is NaN or greater than 1e9 in magnitude; the forces are zero.
-    NotFinite,
-}
 
 /// Forces of the rail on one contact patch of the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -4,7 +4,7 @@ use super::hertz::{Steel, SteelError};
 use super::pair::Pair;
 use super::patches::softness_m;
 use super::silhouette::{SilhouettePoint, TurnedWheel, WheelPose};
-use super::tables::TabulatedPatch;
+use super::tabulated_patch::TabulatedPatch;
 use super::zones::{ZONES, Zones};
 use crate::creep::{KalkerError, KalkerTable};
 

@@ -32,13 +32,15 @@ mod rigid;
 mod side_by_side;
 mod silhouette;
 mod source;
+mod status;
 mod surface;
 mod tables;
+mod tabulated_patch;
 mod wheel;
 mod wheelset;
 mod zones;
 
-pub use forces::{PatchForces, Status, WheelDerivatives, WheelForces, WheelsetForces};
+pub use forces::{PatchForces, WheelDerivatives, WheelForces, WheelsetForces};
 pub use geometry::{ContactGeometry, GeometryError, NOMINAL_LOAD_RANGE_N};
 pub use hertz::{Hertz, Steel, SteelError};
 pub use installation::{Installation, InstallationError};
@@ -48,11 +50,10 @@ pub use patches::{Patch, softness_m};
 pub use rigid::RigidContact;
 pub use silhouette::{SilhouettePoint, TurnedWheel, WheelPose};
 pub use source::PatchSource;
+pub use status::Status;
 pub use surface::{MAX_NORMAL_DAMPING_S_PER_M, SurfaceError};
-pub use tables::{
-    Axis, CacheError, Grid, Jump, MAX_JUMP, MAX_NODES, MIN_CURVATURE_PER_M, Tables, TablesError,
-    TabulatedPatch,
-};
+pub use tables::{Axis, CacheError, Grid, Jump, MAX_JUMP, MAX_NODES, Tables, TablesError};
+pub use tabulated_patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
 pub use wheel::MAX_PENETRATION_M;
 pub use wheelset::WheelsetContact;
 pub use zones::{ZONES, Zones};

@@ -7,7 +7,7 @@ use fearless_simd::{Simd, SimdBase, f64x4};
 use super::geometry::ContactGeometry;
 use super::motion::Tangent;
 use super::silhouette::WheelPose;
-use super::tables::{NUMBERS, PatchNumbers, TabulatedPatch};
+use super::tabulated_patch::{NUMBERS, PatchNumbers, TabulatedPatch};
 use super::zones::ZONES;
 use crate::math::number::Number;
 

@@ -1,13 +1,13 @@
 //! Position of a wheel over its rail, and the force on one of its contact patches.
 
-use super::forces::Status;
 use super::frame::{Frame, RailRoll};
 use super::geometry::ContactGeometry;
 use super::loaded_contact::{Contact, CreepNumber};
 use super::motion::{RailNumbers, Tangent};
 use super::pair::Pair;
+use super::status::Status;
 use super::surface::Surface;
-use super::tables::PatchNumbers;
+use super::tabulated_patch::PatchNumbers;
 use crate::creep::{CreepLaw, MAX_CREEPAGE};
 use crate::math::each::Each;
 use crate::math::number::Number;

@@ -4,7 +4,7 @@ use fearless_simd::{Simd, f64x4};
 
 use super::creepage::Creepage;
 use super::kalker::KalkerCoefficients;
-use super::law::LoadedContact;
+use super::loaded_contact::LoadedContact;
 use crate::math::each::Each;
 
 /// Four loaded contacts and their creepages, one per vector lane; the input of [`CreepLaw::forces_in_lanes`].

@@ -1,7 +1,8 @@
 //! Derivatives of the creep forces.
 
 use super::creepage::Creepage;
-use super::law::{CreepForces, CreepLaw, LoadedContact};
+use super::forces::CreepForces;
+use super::loaded_contact::LoadedContact;
 
 /// Creep forces with their derivatives, for Newton's method.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -44,41 +45,4 @@ impl CreepDerivatives {
             by_load: [0, 1, 2].map(by_load),
         }
     }
-}
-
-/// Central differences of `law`, with steps of 1e-5 of the creepage at which linear theory reaches full sliding.
-pub(super) fn differences<L: CreepLaw + ?Sized>(
-    law: &L,
-    contact: &LoadedContact,
-    creepage: &Creepage,
-) -> CreepDerivatives {
-    let forces = law.forces(contact, creepage);
-    let area = contact.a_m * contact.b_m;
-    let stiffness = contact.shear_modulus_pa * area * contact.kalker.c11;
-    let sliding = contact.friction * contact.load_n / stiffness;
-    if !(sliding > 0.0 && sliding.is_finite()) {
-        return CreepDerivatives {
-            forces,
-            ..CreepDerivatives::default()
-        };
-    }
-    let step = 1e-5 * sliding;
-    let steps = [step, step, step / area.sqrt()];
-    let mut by_creepage = [[0.0; 3]; 3];
-    for (c, step) in steps.into_iter().enumerate() {
-        let at = |step: f64| {
-            let mut moved = *creepage;
-            *[
-                &mut moved.longitudinal,
-                &mut moved.lateral,
-                &mut moved.spin_per_m,
-            ][c] += step;
-            law.forces(contact, &moved).components()
-        };
-        let (before, after) = (at(-step), at(step));
-        for k in 0..3 {
-            by_creepage[k][c] = (after[k] - before[k]) / (2.0 * step);
-        }
-    }
-    CreepDerivatives::new(forces, by_creepage, contact, creepage)
 }

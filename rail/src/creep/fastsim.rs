@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use super::creepage::Creepage;
-use super::law::{CreepForces, CreepLaw, LoadedContact};
+use super::forces::CreepForces;
+use super::law::CreepLaw;
+use super::loaded_contact::LoadedContact;
 use crate::setters::setters;
 
 /// Kalker's FASTSIM (Vehicle System Dynamics 11, 1982, 1-13).

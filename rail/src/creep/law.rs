@@ -4,79 +4,11 @@ use fearless_simd::{Simd, f64x4};
 
 use super::contact_lanes::ContactLanes;
 use super::creepage::Creepage;
-use super::derivatives::{CreepDerivatives, differences};
-use super::kalker::KalkerCoefficients;
+use super::derivatives::CreepDerivatives;
+use super::forces::CreepForces;
+use super::loaded_contact::LoadedContact;
 use crate::math::each::Each;
 use crate::math::number::load;
-
-/// One loaded contact, the input of creep laws.
-///
-/// The fields are complete; none will be added.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LoadedContact {
-    /// Normal load, N.
-    pub load_n: f64,
-    /// Semi-axis in the rolling direction, m.
-    pub a_m: f64,
-    /// Semi-axis across, m.
-    pub b_m: f64,
-    /// Shear modulus, Pa.
-    pub shear_modulus_pa: f64,
-    /// Kalker's coefficients of the ellipse.
-    pub kalker: KalkerCoefficients,
-    /// Friction coefficient at the contact's sliding speed, dimensionless.
-    pub friction: f64,
-}
-
-/// Creep forces on the wheel, in [contact axes](crate::creep).
-///
-/// The fields are complete; none will be added.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct CreepForces {
-    /// Force in the rolling direction, N.
-    pub longitudinal_n: f64,
-    /// Force along the common tangent to the field side, N.
-    pub lateral_n: f64,
-    /// Spin moment about axis 3, N m.
-    pub moment_n_m: f64,
-}
-
-impl CreepForces {
-    /// Returns `[longitudinal force, lateral force, moment]`, N and N m.
-    #[inline]
-    pub fn components(&self) -> [f64; 3] {
-        [self.longitudinal_n, self.lateral_n, self.moment_n_m]
-    }
-
-    /// Forces with components `[longitudinal force, lateral force, moment]`, N and N m.
-    #[inline(always)]
-    pub(crate) fn of_components([longitudinal_n, lateral_n, moment_n_m]: [f64; 3]) -> Self {
-        Self {
-            longitudinal_n,
-            lateral_n,
-            moment_n_m,
-        }
-    }
-
-    /// Multiplies forces and moment by `factor`.
-    #[inline]
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self::of_components(self.components().map(|component| component * factor))
-    }
-
-    /// Magnitude of the tangential force, N.
-    pub fn magnitude_n(&self) -> f64 {
-        (self.longitudinal_n * self.longitudinal_n + self.lateral_n * self.lateral_n).sqrt()
-    }
-
-    /// Dissipated power divided by the speed, N: `-(Fx xi + Fy eta + M phi)`; positive if energy is dissipated.
-    pub fn dissipation_n(&self, creepage: &Creepage) -> f64 {
-        -(self.longitudinal_n * creepage.longitudinal
-            + self.lateral_n * creepage.lateral
-            + self.moment_n_m * creepage.spin_per_m)
-    }
-}
 
 /// A creep law: the tangential forces of a loaded contact as a function of the creepage.
 ///
@@ -152,6 +84,43 @@ impl<L: CreepLaw + ?Sized> CreepLaw for Box<L> {
     ) -> CreepDerivatives {
         self.as_ref().forces_with_derivatives(contact, creepage)
     }
+}
+
+/// Central differences of `law`, with steps of 1e-5 of the creepage at which linear theory reaches full sliding.
+fn differences<L: CreepLaw + ?Sized>(
+    law: &L,
+    contact: &LoadedContact,
+    creepage: &Creepage,
+) -> CreepDerivatives {
+    let forces = law.forces(contact, creepage);
+    let area = contact.a_m * contact.b_m;
+    let stiffness = contact.shear_modulus_pa * area * contact.kalker.c11;
+    let sliding = contact.friction * contact.load_n / stiffness;
+    if !(sliding > 0.0 && sliding.is_finite()) {
+        return CreepDerivatives {
+            forces,
+            ..CreepDerivatives::default()
+        };
+    }
+    let step = 1e-5 * sliding;
+    let steps = [step, step, step / area.sqrt()];
+    let mut by_creepage = [[0.0; 3]; 3];
+    for (c, step) in steps.into_iter().enumerate() {
+        let at = |step: f64| {
+            let mut moved = *creepage;
+            *[
+                &mut moved.longitudinal,
+                &mut moved.lateral,
+                &mut moved.spin_per_m,
+            ][c] += step;
+            law.forces(contact, &moved).components()
+        };
+        let (before, after) = (at(-step), at(step));
+        for k in 0..3 {
+            by_creepage[k][c] = (after[k] - before[k]) / (2.0 * step);
+        }
+    }
+    CreepDerivatives::new(forces, by_creepage, contact, creepage)
 }
 
 /// Evaluates the contacts in the lanes one after the other.

@@ -3,7 +3,9 @@
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_4};
 
 use super::creepage::Creepage;
-use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
+use super::forces::CreepForces;
+use super::law::{CreepLaw, linear_forces};
+use super::loaded_contact::LoadedContact;
 
 /// Closed-form saturation with spin (Polach, A Fast Wheel-Rail Forces Calculation Computer Code,
 /// Vehicle System Dynamics Supplement 33, 1999, 728-739).

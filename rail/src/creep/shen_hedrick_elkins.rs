@@ -1,7 +1,9 @@
 //! The creep law of Shen, Hedrick and Elkins.
 
 use super::creepage::Creepage;
-use super::law::{CreepForces, CreepLaw, LoadedContact, linear_forces};
+use super::forces::CreepForces;
+use super::law::{CreepLaw, linear_forces};
+use super::loaded_contact::LoadedContact;
 
 /// Kalker's linear forces, reduced by the cubic of Vermeulen and Johnson
 /// `mu N (f - f^2/3 + f^3/27)`, where `f = |F linear| / (mu N)` is limited to 3

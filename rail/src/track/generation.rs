@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::error::{Place, TrackError, within};
-use super::irregularity::Irregularity;
+use super::irregularity::{Irregularity, MAX_SAMPLES};
 use super::spectrum::{Density, Spectrum};
 
 /// Range of wavelengths of an irregularity.
@@ -113,8 +113,6 @@ pub struct Generation {
     pub spacing_m: Option<f64>,
 }
 
-/// Maximum number of samples of an irregularity: almost 1000 km at 0.25 m, 256 MB.
-pub const MAX_SAMPLES: usize = 4_000_000;
 /// Maximum interval of wave numbers, rad/m.
 const MAX_INTERVAL: f64 = 1e-3;
 /// Minimum number of intervals, for a narrow band.

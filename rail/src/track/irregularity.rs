@@ -3,6 +3,9 @@
 use super::rails::{Channels, RailDeviation};
 use crate::math::spline::Spline;
 
+/// Maximum number of samples of an irregularity: almost 1000 km at 0.25 m, 256 MB.
+pub const MAX_SAMPLES: usize = 4_000_000;
+
 /// Number of zeros before the first and after the last sample. The overshoot of the spline decreases by a factor of
 /// 0.27 per sample, so it is below rounding at the outermost sample.
 const MARGIN: usize = 30;

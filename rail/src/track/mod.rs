@@ -39,8 +39,8 @@ mod spectrum;
 
 pub use defect::{Defect, Rails};
 pub use error::{Place, TrackError};
-pub use generation::{Band, Generation, MAX_SAMPLES, Seeds};
-pub use irregularity::Irregularity;
+pub use generation::{Band, Generation, Seeds};
+pub use irregularity::{Irregularity, MAX_SAMPLES};
 pub use layout::{Alignment, Course, Layout, Part};
 pub use rails::{Channels, RailDeviation};
 pub use spectrum::{Density, Spectrum};

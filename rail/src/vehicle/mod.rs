@@ -33,17 +33,19 @@ mod engine;
 mod error;
 mod linear;
 mod modes;
+mod parameters;
 mod ride_point;
 mod running;
 mod standstill;
 
-pub use body::{Body, COORDINATES, Coordinate, VehicleParameters, Wheelset};
+pub use body::{Body, COORDINATES, Coordinate, Wheelset};
 pub use element::{Direction, Element, End, Law, MAX_STOP_POINTS};
 pub use engine::{
     CANT_BASE_M, Energy, RailSupport, SPEED_M_PER_S, STEP_S, Stop, Vehicle, VehicleState,
 };
 pub use error::VehicleError;
 pub use modes::Mode;
+pub use parameters::VehicleParameters;
 pub use ride_point::RidePoint;
 pub use running::Running;
 pub use standstill::Standstill;

@@ -1,6 +1,6 @@
 //! Points at which ride accelerations are measured.
 
-use super::body::{Body, VehicleParameters};
+use super::body::Body;
 use super::error::VehicleError;
 
 /// An accelerometer position on a body.
@@ -60,14 +60,14 @@ impl RidePoint {
         ]
     }
 
-    pub(super) fn check(&self, vehicle: &VehicleParameters) -> Result<(), VehicleError> {
+    pub(super) fn check(&self, bodies: &[Body]) -> Result<(), VehicleError> {
         for ((name, allowed), value) in POSITION_BOUNDS_M.into_iter().zip(self.at_m) {
             VehicleError::check(&self.name, name, value, allowed)?;
         }
-        if vehicle.bodies.iter().any(|body| body.name == self.on) {
+        if bodies.iter().any(|body| body.name == self.on) {
             return Ok(());
         }
-        let names = vehicle.bodies.iter().map(|body| body.name.clone());
+        let names = bodies.iter().map(|body| body.name.clone());
         Err(VehicleError::NoSuchBody {
             point: self.name.clone(),
             on: self.on.clone(),

@@ -1,10 +1,11 @@
 //! Linear equations of a vehicle that runs on straight track at constant speed.
 
-use super::body::{Body, COORDINATES, VehicleParameters};
+use super::body::{Body, COORDINATES};
 use super::carried::Carried;
 use super::error::VehicleError;
 use super::linear::Linear;
 use super::modes::{self, Mode};
+use super::parameters::VehicleParameters;
 use super::standstill::{Standstill, attach, wheelset_bodies};
 use crate::contact::{
     PatchSource, RailDisplacement, WheelDerivatives, WheelsetContact, WheelsetForces,

@@ -3,11 +3,12 @@
 use nalgebra::{DVector, SymmetricEigen, Vector3};
 
 use super::GRAVITY_M_PER_S2;
-use super::body::{Body, COORDINATES, Coordinate, VehicleParameters, Wheelset};
+use super::body::{Body, COORDINATES, Coordinate, Wheelset};
 use super::element::{Element, End};
 use super::error::VehicleError;
 use super::linear::{Attachment, Linear};
 use super::modes::{self, Mode};
+use super::parameters::VehicleParameters;
 
 /// A vehicle at standstill: the rails hold its wheelsets, and its bodies rest on their elements.
 #[derive(Debug, Clone)]
@@ -142,7 +143,7 @@ fn check(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
         element.check()?;
     }
     for point in &vehicle.ride_points {
-        point.check(vehicle)?;
+        point.check(&vehicle.bodies)?;
     }
     check_names(vehicle)
 }

@@ -3,9 +3,10 @@
 use super::super::words::{PIECE, TABLE};
 use super::header::Header;
 use super::{CHECK_BYTES, ImageError};
+use crate::checksum;
 use crate::damper::Damper;
-use crate::encoding::{checksum, revision};
 use crate::parameters::{Limits, MAX_CLEARANCE_M, MAX_FORCE_N, Range};
+use crate::revision;
 use crate::scalars::{SCALARS, Scalars};
 use crate::table::{INDEX_SLICES, ROWS};
 

@@ -19,7 +19,7 @@ use header::{Header, VERSION};
 pub use loading::Loading;
 use zerocopy::IntoBytes;
 
-use super::checksum::crc_32;
+use crate::checksum::crc_32;
 use crate::damper::Damper;
 
 /// Number of bytes of the CRC-32.

@@ -1,5 +1,6 @@
 //! `dashpot shims`: compares the shim packs of a damper in theory, as published and as used.
 
+mod capital;
 mod fe;
 mod plots;
 mod report;

@@ -4,6 +4,7 @@ use dashpot_core::characteristic::Characteristic;
 use dashpot_core::parameters::Hydraulics;
 use plotters::prelude::SeriesLabelPosition;
 
+use super::capital::capital;
 use super::report::{ValveReport, radii};
 use crate::commands::failure::Outcome;
 use dashpot_report::plot::curves::{Curve, ramp};
@@ -169,12 +170,4 @@ fn flow(
         keeps_to_values: false,
         curves: vec![Curve::new(name, GREEN_LINE, points).wide(11)],
     }
-}
-
-/// Capitalises the first letter.
-pub(super) fn capital(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }

@@ -6,9 +6,9 @@ use fearless_simd::{Simd, SimdBase, dispatch, f32x4, f32x8, f64x4};
 
 use super::axis::whole;
 use super::node::Node;
-use super::patch::{NUMBERS, PatchNumbers};
 use super::{Finder, Tables};
 use crate::contact::source::{PatchReader, PatchSlopes};
+use crate::contact::tabulated_patch::{NUMBERS, PatchNumbers};
 use crate::contact::zones::ZONES;
 use crate::math::each::Each;
 use crate::math::number::{Number, load, transposed};

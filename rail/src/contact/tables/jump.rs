@@ -3,7 +3,7 @@
 
 use crate::contact::geometry::ContactGeometry;
 use crate::contact::silhouette::{SilhouettePoint, TurnedWheel, WheelPose};
-use crate::contact::tables::patch::TabulatedPatch;
+use crate::contact::tabulated_patch::TabulatedPatch;
 use crate::contact::zones::ZONES;
 
 /// Loads at which the force is compared, as fractions of the nominal load.

@@ -5,7 +5,6 @@ mod cache;
 mod cell;
 mod jump;
 mod node;
-mod patch;
 
 use std::array::from_fn;
 
@@ -16,12 +15,11 @@ use cell::{Cell, LocatedPoses};
 use fearless_simd::{Simd, dispatch, f64x4};
 pub use jump::{Jump, MAX_JUMP};
 use node::Node;
-pub use patch::{MIN_CURVATURE_PER_M, TabulatedPatch};
-pub(super) use patch::{NUMBERS, PatchNumbers};
 
 use super::geometry::ContactGeometry;
 use super::silhouette::WheelPose;
 use super::source::{PatchReader, sealed};
+use super::tabulated_patch::TabulatedPatch;
 use super::zones::ZONES;
 use crate::math::each::Each;
 

@@ -1,6 +1,6 @@
 //! One node of the tables: the patches at one pose.
 
-use super::patch::{NUMBERS, TabulatedPatch};
+use crate::contact::tabulated_patch::{NUMBERS, TabulatedPatch};
 use crate::contact::zones::ZONES;
 
 /// The interpenetrations of all patches, which decide which of them carry load, and the packed numbers of each patch.

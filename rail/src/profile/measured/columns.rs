@@ -1,7 +1,7 @@
 //! Two columns in mm: lateral position to the field side, depth down.
 
 use super::ProfileError;
-use super::reading::{Mirror, OrientedRows};
+use super::mirror::{Mirror, OrientedRows};
 use super::row::{Row, cells, number, numbered};
 
 /// Names of the two columns.

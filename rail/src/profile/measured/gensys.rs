@@ -6,7 +6,7 @@
 
 use super::ProfileError;
 use super::columns::rows;
-use super::reading::{Mirror, OrientedRows};
+use super::mirror::{Mirror, OrientedRows};
 use crate::profile::Body;
 
 /// Reads the points of `text`, in the axes of a profile.

@@ -14,8 +14,8 @@
 //!
 //! The manufacturer's own description was not available, so the gauge side of a rail is based on these two programs.
 
+use super::mirror::{Mirror, OrientedRows};
 use super::orientation::head_up;
-use super::reading::{Mirror, OrientedRows};
 use super::row::{Row, cells, number, numbered};
 use super::{MIN_POINTS, ProfileError};
 use crate::profile::{Body, s1002};

@@ -16,6 +16,7 @@ mod error;
 mod format;
 mod gensys;
 mod miniprof;
+mod mirror;
 mod orientation;
 mod reading;
 mod row;
@@ -27,10 +28,11 @@ use std::path::Path;
 
 pub use error::ProfileError;
 pub use format::{Format, UnknownFormat};
-pub use reading::{Mirror, Options, Reading, UnknownMirror};
+pub use mirror::{Mirror, UnknownMirror};
+pub use reading::{Options, Reading};
 
 use super::{Body, Profile};
-use reading::OrientedRows;
+use mirror::OrientedRows;
 
 /// Minimum number of points of a profile: one every 2 mm over a rail head.
 pub const MIN_POINTS: usize = 30;

@@ -14,7 +14,7 @@
 //! does not exist.
 
 use super::ProfileError;
-use super::reading::{Mirror, OrientedRows};
+use super::mirror::{Mirror, OrientedRows};
 use super::row::{Row, cells, number, numbered};
 use crate::profile::Body;
 

@@ -19,11 +19,11 @@ use super::tangent::{ContactBlocks, SurfaceConstants};
 use super::{STEP_S, Vehicle, WheelsetConstants};
 use crate::contact::{PatchSource, WheelsetContact};
 use crate::creep::CreepLaw;
-use crate::vehicle::body::VehicleParameters;
 use crate::vehicle::carried::Carried;
 use crate::vehicle::element::Law;
 use crate::vehicle::error::VehicleError;
 use crate::vehicle::linear::Linear;
+use crate::vehicle::parameters::VehicleParameters;
 use crate::vehicle::standstill::{Standstill, attach, wheelset_bodies};
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {

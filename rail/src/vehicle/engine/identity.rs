@@ -3,8 +3,9 @@
 use sha2::{Digest, Sha256};
 
 use super::rails::RailSupport;
-use crate::vehicle::body::{Body, VehicleParameters};
+use crate::vehicle::body::Body;
 use crate::vehicle::element::{Direction, Element, Law};
+use crate::vehicle::parameters::VehicleParameters;
 use crate::vehicle::standstill::wheelset_bodies;
 
 /// A digest of the parameters that a vehicle's state depends on: bodies, elements, rails and step.

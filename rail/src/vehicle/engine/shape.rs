@@ -54,10 +54,12 @@ struct BlocksShape {
     carried: usize,
 }
 
-impl Shape {
+impl VehicleState {
+    /// Number of bodies and lengths of all lists. A deserialised state may have any.
     #[inline(always)]
-    pub fn new(state: &VehicleState) -> Self {
-        Self {
+    pub(super) fn shape(&self) -> Shape {
+        let state = self;
+        Shape {
             bodies: state.bodies,
             coordinates: state.coordinates.len(),
             velocities: state.velocities.len(),

@@ -5,7 +5,6 @@ use dashpot_core::DamperState;
 use super::block::{N, Vector};
 use super::guidance::Guidance;
 use super::identity::Identity;
-use super::shape::Shape;
 use super::structure::Blocks;
 use crate::contact::{Status, WheelsetForces};
 use crate::vehicle::error::VehicleError;
@@ -187,12 +186,6 @@ impl VehicleState {
         }
         *outside = force_n;
         Ok(())
-    }
-
-    /// Number of bodies and lengths of all lists. A deserialised state may have any.
-    #[inline(always)]
-    pub(super) fn shape(&self) -> Shape {
-        Shape::new(self)
     }
 
     /// Returns the worst status of all wheels.

@@ -3,7 +3,7 @@
 use plotters::prelude::SeriesLabelPosition;
 
 use super::Solved;
-use super::plots::panel;
+use super::panel::panel;
 use crate::commands::failure::Outcome;
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::sheet::Panel;

@@ -2,6 +2,7 @@
 
 mod chart;
 mod options;
+mod panel;
 mod plots;
 mod report;
 

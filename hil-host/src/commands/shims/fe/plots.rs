@@ -4,13 +4,14 @@
 use plotters::prelude::SeriesLabelPosition;
 use plotters::style::RGBColor;
 
-use super::super::plots::capital;
 use super::Solved;
 use super::chart::chart;
+use super::panel::panel;
 use crate::commands::failure::Outcome;
+use crate::commands::shims::capital::capital;
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::map::{DiscMap, maps};
-use dashpot_report::plot::sheet::{Layout, Panel, Scale, sheet};
+use dashpot_report::plot::sheet::{Layout, Panel, sheet};
 use dashpot_report::plot::style::{BLUE_LINE, GREEN_LINE, PALE, RED_LINE};
 use dashpot_testbench::plate::Bending;
 
@@ -44,21 +45,6 @@ pub(in crate::commands::shims) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'stat
         ),
         ("correction-factor.svg", sheet(columns, &charts)?),
     ])
-}
-
-/// Creates a panel for a valve.
-pub(super) fn panel(solved: &Solved, x_label: &str, y_label: &str, curves: Vec<Curve>) -> Panel {
-    Panel {
-        title: format!("{} valve", capital(solved.location.name)),
-        x_label: x_label.into(),
-        y_label: y_label.into(),
-        legend: Some(SeriesLabelPosition::UpperLeft),
-        sides: false,
-        x_scale: Scale::Linear,
-        scale: Scale::Linear,
-        keeps_to_values: false,
-        curves,
-    }
 }
 
 /// Curves of a value over the radius: under uniform pressure, over a boss and between two bosses.

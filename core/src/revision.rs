@@ -1,6 +1,6 @@
 //! Revision of a damper: 32-bit FNV-1a hash (Fowler, Noll, Vo) of the bits of all constants.
 
-use crate::math::Real;
+use crate::real::Real;
 use crate::scalars::Scalars;
 #[cfg(feature = "builder")]
 use crate::table::{Piece, Table};

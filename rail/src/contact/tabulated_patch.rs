@@ -1,8 +1,8 @@
 //! One patch of the tables: Hertz constants and Kalker coefficients, stored as `f32`.
 
-use crate::contact::hertz::{Hertz, Steel};
-use crate::contact::pair::Pair;
-use crate::contact::patches::Patch;
+use super::hertz::{Hertz, Steel};
+use super::pair::Pair;
+use super::patches::Patch;
 use crate::creep::{KalkerCoefficients, KalkerTable};
 
 /// Minimum transverse curvature of a patch, 1/m. In a closer fit, as in a flange root, the load spreads over the whole
@@ -15,7 +15,7 @@ const LIGHT_FRACTION: f64 = 1e-3;
 const LIFT_M: f64 = 0.1e-3;
 
 /// Length of a packed [`PatchNumbers`]: three vectors of four.
-pub(in crate::contact) const NUMBERS: usize = 12;
+pub(super) const NUMBERS: usize = 12;
 
 /// Interpolated quantities of one patch apart from its interpenetration, as numbers, vector lanes or with derivatives.
 #[derive(Debug, Clone, Copy)]
@@ -113,7 +113,7 @@ pub struct TabulatedPatch {
 impl TabulatedPatch {
     /// Computes the Hertz constants and Kalker coefficients of `patch` on a wheel rolled by `roll`, rad, which is
     /// subtracted from the contact angle to get that in the wheel's axes.
-    pub(in crate::contact) fn new(
+    pub(super) fn new(
         pair: &Pair,
         steel: &Steel,
         kalker: &KalkerTable,
@@ -141,7 +141,7 @@ impl TabulatedPatch {
     }
 
     /// The quantities apart from the interpenetration.
-    pub(in crate::contact) fn to_numbers(self) -> PatchNumbers<f64> {
+    pub(super) fn to_numbers(self) -> PatchNumbers<f64> {
         PatchNumbers {
             wheel_y: self.wheel_y_m,
             wheel_z: self.wheel_z_m,
@@ -154,10 +154,7 @@ impl TabulatedPatch {
         }
     }
 
-    pub(in crate::contact) fn from_numbers(
-        interpenetration_m: f64,
-        numbers: PatchNumbers<f64>,
-    ) -> Self {
+    pub(super) fn from_numbers(interpenetration_m: f64, numbers: PatchNumbers<f64>) -> Self {
         Self {
             interpenetration_m,
             wheel_y_m: numbers.wheel_y,

@@ -3,8 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Lanes;
-use super::group::{self, GROUP};
+use crate::math::Lanes;
+use crate::math::group::{self, GROUP};
 use crate::table::Table;
 
 /// Scalar of a damper, implemented only for `f32` and `f64`.
@@ -18,24 +18,11 @@ use crate::table::Table;
 /// assert_eq!(twice(0.25_f32), 0.5);
 /// assert_eq!(<f64 as Real>::NAME, "f64");
 /// ```
-pub trait Real: Scalar {
-    /// Name of the type: `f32` or `f64`.
-    const NAME: &'static str;
-    /// Zero.
-    const ZERO: Self;
-
-    /// Rounds to the nearest representable number.
-    fn from_f64(value: f64) -> Self;
-    /// Converts to double precision.
-    fn to_f64(self) -> f64;
-    /// Returns the bits, zero-extended.
-    fn to_bits_u64(self) -> u64;
-    /// True if the number is neither NaN nor infinite.
-    fn is_finite(self) -> bool;
-}
-
-/// Operations of a scalar for the step and the builder. Not public, so other crates cannot implement [`Real`].
-pub trait Scalar:
+#[expect(
+    private_bounds,
+    reason = "seals the trait and keeps its internal operations private"
+)]
+pub trait Real:
     Copy
     + Debug
     + Default
@@ -47,19 +34,39 @@ pub trait Scalar:
     + Neg<Output = Self>
     + Send
     + Sync
-    + Lanes<Self, 1>
+    + Scalar
     + 'static
 {
+    /// Name of the type: `f32` or `f64`.
+    const NAME: &'static str;
+    /// Zero.
+    const ZERO: Self;
+    /// Largest finite number.
+    const MAX: Self;
+
+    /// Rounds to the nearest representable number.
+    fn from_f64(value: f64) -> Self;
+    /// Converts to double precision.
+    fn to_f64(self) -> f64;
+    /// Returns the bits, zero-extended.
+    fn to_bits_u64(self) -> u64;
+    /// True if the number is neither NaN nor infinite.
+    fn is_finite(self) -> bool;
+}
+
+/// Operations of a scalar for the step and the builder. The trait is private, so other crates can neither call them nor
+/// implement [`Real`].
+pub(crate) trait Scalar: Lanes<Self, 1> {
     /// Numbers of a group of dampers.
     type Group: Lanes<Self, GROUP>;
 
     /// Distance from 1 to the next larger number.
+    #[cfg(feature = "builder")]
     const EPSILON: f64;
-    /// Largest finite number.
-    const MAX: Self;
     /// Number of significant binary digits.
     const MANTISSA_DIGITS: u32;
     /// A table of zeros.
+    #[cfg(feature = "builder")]
     const ZERO_TABLE: Table<Self>;
 
     /// Returns the number with the doubled bits of this one, which must be a magnitude below 1.5.
@@ -69,8 +76,10 @@ pub trait Scalar:
     /// Inverse of [`Scalar::doubled_bits`].
     fn halved_bits(self) -> Self;
     /// See [`Table::index`].
+    #[cfg(feature = "builder")]
     fn index(table: &mut Table<Self>);
     /// See [`Table::check`].
+    #[cfg(feature = "builder")]
     fn table_check(table: &Table<Self>) -> u32;
     /// See [`Table::check_row`].
     fn check_row(table: &Table<Self>, row: usize, crc: u32) -> u32;
@@ -81,6 +90,7 @@ macro_rules! real {
         impl Real for $float {
             const NAME: &'static str = stringify!($float);
             const ZERO: Self = 0.0;
+            const MAX: Self = $float::MAX;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -103,9 +113,10 @@ macro_rules! real {
         impl Scalar for $float {
             type Group = group::$group;
 
+            #[cfg(feature = "builder")]
             const EPSILON: f64 = $float::EPSILON as f64;
-            const MAX: Self = $float::MAX;
             const MANTISSA_DIGITS: u32 = $float::MANTISSA_DIGITS;
+            #[cfg(feature = "builder")]
             const ZERO_TABLE: Table<Self> = Table::<$float>::ZERO;
 
             fn doubled_bits(self) -> Self {
@@ -114,9 +125,11 @@ macro_rules! real {
             fn halved_bits(self) -> Self {
                 Self::from_bits(self.to_bits() >> 1)
             }
+            #[cfg(feature = "builder")]
             fn index(table: &mut Table<Self>) {
                 table.index();
             }
+            #[cfg(feature = "builder")]
             fn table_check(table: &Table<Self>) -> u32 {
                 table.check()
             }

@@ -1,0 +1,36 @@
+//! Dampers of a vehicle that are replaced, as Python gives them.
+
+use dashpot_core::DamperParameters;
+use dashpot_files::vehicle::Replacement;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::damper::Damper;
+use crate::error::{Outcome, refuse};
+use crate::overrides::path;
+
+/// Reads a dictionary from dampers of a vehicle to their replacements: a name, a path or a `Damper`. Empty without one.
+pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement>> {
+    let Some(given) = given else {
+        return Ok(Vec::new());
+    };
+    let Ok(given) = given.cast::<PyDict>() else {
+        return refuse(format!(
+            "dampers: {}, allowed: a dictionary such as {{\"vertical\": \"in-service\"}}",
+            given.get_type().name()?
+        ));
+    };
+    let one = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let dampers = key.str()?.to_string();
+        let Ok(made) = value.cast::<Damper>() else {
+            return Ok(Replacement::named(dampers, path(&value)?));
+        };
+        let parameters = DamperParameters::clone(&made.get().parameters);
+        Ok(Replacement {
+            dampers,
+            by: value.repr()?.to_string(),
+            made: Some(Box::new(parameters)),
+        })
+    };
+    given.iter().map(one).collect()
+}
