@@ -1,9 +1,9 @@
 //! How well the tests determine each parameter, from the singular values of the sensitivities.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use serde::Serialize;
 
 use super::CalibrationError;
+use super::determination::{Determination, Determined};
 use super::model::Model;
 
 /// Minimum singular value, as a share of the largest, of a direction that counts as known; the derivatives are finite
@@ -21,34 +21,6 @@ const MIN_COMPONENT: f64 = 0.3;
 
 /// Correlation above which two parameters are reported.
 pub const HIGH_CORRELATION: f64 = 0.9;
-
-/// How well the tests determine a parameter.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Determined {
-    /// Standard deviation by linear theory, in the unit of the parameter.
-    pub standard_deviation: f64,
-    /// Variance inflation factor, at least 1, relative to independent samples of equal scatter.
-    ///
-    /// It is computed from the gradients of whole stretches, because displacement errors act where the force changes
-    /// fast and last as long as that.
-    pub inflation: f64,
-    /// True if the parameter changes a force by more than the scatter.
-    #[serde(rename = "is_felt")]
-    pub has_effect: bool,
-    /// Keys of the parameters that could compensate for this one.
-    #[serde(rename = "together_with")]
-    pub confounded_with: Vec<String>,
-}
-
-/// How well the tests determine all parameters.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Determination {
-    /// One entry per parameter.
-    #[serde(rename = "numbers")]
-    pub parameters: Vec<Determined>,
-    /// Correlation matrix, priors included.
-    pub correlation: Vec<Vec<f64>>,
-}
 
 impl Model<'_> {
     /// Evaluates how well the tests determine the parameters at `coordinates`.

@@ -1,7 +1,7 @@
 //! Searches for the cause of an implausible fit: fits each cause that the user can remove, so that the advice works.
 
+use super::finding::Finding;
 use super::loops::Factors;
-use super::misfit::Finding;
 use super::model::Model;
 use super::remedy::{Advice, Remedy};
 use super::varied::Varied;

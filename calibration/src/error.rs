@@ -2,10 +2,10 @@
 
 use dashpot_core::BuildError;
 
-use super::determined::Determined;
-use super::misfit::Finding;
+use super::determination::Determined;
+use super::finding::Finding;
+use super::keys::RIG;
 use super::remedy::{Advice, Remedy};
-use super::rig;
 use dashpot_files::damper::DamperError;
 use dashpot_testbench::TestbenchError;
 
@@ -43,7 +43,7 @@ pub enum CalibrationError {
     /// A damper parameter was given where a rig parameter is required.
     #[error(
         "{key}: only rig parameters can be held ({}); a damper parameter keeps its value unless it is varied",
-        rig::RIG.join(", ")
+        RIG.join(", ")
     )]
     NotOfRig {
         /// Key of the parameter.

@@ -2,16 +2,20 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod determination;
 mod determined;
 mod diagnosis;
 mod error;
+mod finding;
 mod fit;
 mod indices;
 mod influence;
+mod keys;
 mod loops;
 mod misfit;
 mod model;
 mod plausible;
+mod prior;
 mod profile;
 mod remedy;
 mod request;
@@ -20,22 +24,26 @@ mod rig;
 mod varied;
 mod warning;
 
-pub use determined::{Determination, Determined, HIGH_CORRELATION};
+pub use determination::{Determination, Determined};
+pub use determined::HIGH_CORRELATION;
 pub use error::CalibrationError;
+pub use finding::Finding;
 use fit::Fit;
 pub use indices::IndexTest;
 use influence::widened;
 pub use influence::{DENSITY, Influence, TEMPERATURE, TEMPERATURE_UNCERTAINTY_K};
+pub use keys::{DISPLACEMENT_OFFSET, FORCE_OFFSET, RIG, SKEW};
 pub use loops::{LoopTest, Recorded};
-pub use misfit::{Finding, MAX_MISFIT};
+pub use misfit::MAX_MISFIT;
 use model::Model;
+pub use prior::Prior;
 use profile::Better;
 pub use profile::{Profile, RISE_95};
 pub use remedy::{Advice, Remedy};
 pub use request::Request;
 use residual::residual_rms_n;
-pub use rig::{DISPLACEMENT_OFFSET, FORCE_OFFSET, HeldRig, RIG, SKEW};
-pub use varied::{Prior, Varied};
+pub use rig::HeldRig;
+pub use varied::Varied;
 pub use warning::Warning;
 use warning::{AT_BOUND, Found};
 

@@ -5,8 +5,9 @@ use nalgebra::DMatrix;
 
 use super::CalibrationError;
 use super::indices::IndexTest;
+use super::keys::{FORCE_OFFSET, SKEW};
 use super::loops::LoopTest;
-use super::rig::{FORCE_OFFSET, HeldRig, SKEW};
+use super::rig::HeldRig;
 use super::varied::Varied;
 use dashpot_files::damper::Keyed;
 use dashpot_testbench::bench_test;

@@ -1,6 +1,6 @@
 //! Plausible range of each damper parameter, which gives the default bounds of a calibration, and default priors.
 
-use super::Prior;
+use super::prior::Prior;
 
 /// Default bounds, scale and prior of a parameter.
 pub(super) struct Plausible {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::determined::Determined;
+use super::determination::Determined;
 use super::fit::Fit;
 use super::model::Model;
 use super::varied::Varied;

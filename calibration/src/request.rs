@@ -1,8 +1,10 @@
 //! Translates a user's request into the parameters of a calibration.
 
+use super::keys::{DISPLACEMENT_OFFSET, RIG, SKEW};
 use super::loops::LoopTest;
-use super::rig::{DISPLACEMENT_OFFSET, HeldRig, RIG, SKEW, is_rig_parameter};
-use super::varied::{Prior, Varied};
+use super::prior::Prior;
+use super::rig::{HeldRig, is_rig_parameter};
+use super::varied::Varied;
 use super::{CalibrationError, plausible};
 use dashpot_files::damper::Keyed;
 

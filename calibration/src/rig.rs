@@ -4,21 +4,8 @@
 use serde::Serialize;
 
 use super::CalibrationError;
+use super::keys::{FORCE_OFFSET, RIG, SKEW};
 use super::loops::LoopTest;
-
-/// Key of the delay of the recorded force relative to the displacement (s).
-pub const SKEW: &str = "sensor_skew_s";
-
-/// Key of the reading of the force sensor at zero force (N).
-pub const FORCE_OFFSET: &str = "force_offset_n";
-
-/// Key of the reading of the displacement sensor at the middle of the motion (m).
-///
-/// No force of a damper depends on it, so it is reported for each test and never varied.
-pub const DISPLACEMENT_OFFSET: &str = "displacement_offset_m";
-
-/// Rig parameters that forces determine.
-pub const RIG: [&str; 2] = [SKEW, FORCE_OFFSET];
 
 /// Default bounds of the skew (s).
 const SKEW_BOUNDS_S: [f64; 2] = [-0.02, 0.02];

@@ -4,19 +4,12 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::Serialize;
 
+use super::keys::{FORCE_OFFSET, SKEW};
 use super::loops::LoopTest;
-use super::rig::{self, FORCE_OFFSET, SKEW};
+use super::prior::Prior;
+use super::rig;
 use super::{CalibrationError, plausible};
 use dashpot_files::damper::{Keyed, range};
-
-/// Prior of a parameter: a normal distribution.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Prior {
-    /// Mean, in the unit of the parameter.
-    pub mean: f64,
-    /// Standard deviation.
-    pub standard_deviation: f64,
-}
 
 /// A parameter that is varied.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,13 +1,14 @@
 //! Bench test: repeats a harmonic motion until the force is periodic, and computes the indices of one cycle.
 
 use std::f64::consts::TAU;
-use std::ops::RangeInclusive;
 
 use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_core::{CheckedParameters, Status};
 use serde::Serialize;
 
 use dashpot_files::harmonic::Harmonic;
+
+pub use super::limits::STEPS_PER_CYCLE;
 
 use super::TestbenchError;
 
@@ -20,9 +21,6 @@ const MAX_CYCLES: usize = 200;
 
 /// Ticks between two checks for cancellation.
 const TICKS_PER_CHECK: usize = 1 << 16;
-
-/// Allowed number of steps per cycle.
-pub const STEPS_PER_CYCLE: RangeInclusive<f64> = 20.0..=2e7;
 
 /// Indices of one periodic cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -6,8 +6,7 @@ use dashpot_reference::ReferenceError;
 
 use dashpot_files::harmonic::{Harmonic, HarmonicError};
 
-use super::bench_test::STEPS_PER_CYCLE;
-use super::swept_sine::MAX_STEPS as MAX_SWEEP_STEPS;
+use super::limits::{MAX_SWEEP_STEPS, STEPS_PER_CYCLE};
 use dashpot_files::FileError;
 
 /// Errors of the test bench.

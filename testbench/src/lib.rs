@@ -9,6 +9,7 @@ pub mod compiled;
 mod error;
 pub mod excitation;
 pub mod health;
+pub mod limits;
 pub mod motion;
 pub mod plate;
 pub mod published;

@@ -14,6 +14,7 @@ use dashpot_core::parameters::STEP_RANGE_S;
 
 use super::TestbenchError;
 use super::bench_test::NOT_FOLLOWED;
+use super::limits::MAX_SWEEP_STEPS;
 use super::response::Response;
 use dashpot_files::harmonic::Harmonic;
 
@@ -22,9 +23,6 @@ pub const WINDOW_CYCLES: u32 = 2;
 
 /// Name of the window.
 pub const WINDOW: &str = "Bartlett";
-
-/// Maximum number of steps of a sweep: a few minutes of computing.
-pub const MAX_STEPS: f64 = 2e9;
 
 /// Number of cycles from rest to the first window.
 const LEAD_CYCLES: f64 = 2.0;
@@ -122,7 +120,7 @@ impl Sweep {
             rate_per_s,
         };
         let steps = (sweep.end_hz / sweep.start_hz).ln() / rate_per_s / sweep.step_s();
-        if steps > MAX_STEPS {
+        if steps > MAX_SWEEP_STEPS {
             return Err(TestbenchError::SweepSteps { steps });
         }
         Ok(sweep)
