@@ -146,7 +146,7 @@ fn build_firmware() -> Outcome {
 }
 
 fn build_wheel() -> Outcome {
-    let path = wheel("release", &repository().join("target/wheels"))?;
+    let path = wheel("dist", &repository().join("target/wheels"))?;
     println!("python3 -m pip install {}", path.display());
     Ok(())
 }
