@@ -249,7 +249,7 @@ fn errors_have_file_line_and_name() {
         ),
         (
             fault("time_s = 1\ndamper = \"vertical\""),
-            "case.toml:6: fault 1: neither damper_file nor set",
+            "case.toml:6: fault 1: no effect without `damper_file` or `set`",
         ),
     ];
     for (text, expected) in cases {
@@ -267,7 +267,7 @@ fn a_fault_may_be_given_in_words() {
     options.faults.push(FaultOptions {
         time_s: 0.0,
         damper: "rear vertical damper 4".into(),
-        by: Some("paper".into()),
+        replacement: Some("paper".into()),
         overrides: Vec::new(),
     });
     let case = options.case().unwrap();

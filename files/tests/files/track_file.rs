@@ -214,11 +214,11 @@ fn errors_have_file_line_and_name() {
         ),
         (
             part("kind = \"circular\"\nlength_m = 1\nradius_m = 300"),
-            "line.toml:7: part 2 of the layout: missing `cant_m` of a circular part",
+            "line.toml:7: part 2 of the layout: a circular part needs `cant_m`",
         ),
         (
             part("kind = \"straight\"\nlength_m = 1\nradius_m = 300"),
-            "line.toml:7: part 2 of the layout: `radius_m`, which a straight part has not",
+            "line.toml:7: part 2 of the layout: a straight part has no `radius_m`",
         ),
         (
             part("kind = \"circular\"\nlength_m = 1\nradius_m = 30\ncant_m = 0"),
@@ -230,13 +230,13 @@ fn errors_have_file_line_and_name() {
         ),
         (
             format!("{STRAIGHT}\n[[defect]]\nkind = \"twist\"\nrails = \"left\"\nstart_m = 1\n"),
-            "line.toml:7: defect 1: `rails`, which a twist has not",
+            "line.toml:7: defect 1: a twist has no `rails`",
         ),
         (
             format!(
                 "{STRAIGHT}\n[[defect]]\nkind = \"cosine-dip\"\nstart_m = 1\nlength_m = 1\ndepth_m = 1e-3\n"
             ),
-            "line.toml:7: defect 1: missing `rails` of a cosine dip",
+            "line.toml:7: defect 1: a cosine dip needs `rails`",
         ),
         (
             format!(
@@ -258,19 +258,19 @@ fn errors_have_file_line_and_name() {
         ),
         (
             generated(""),
-            "line.toml:7: irregularity: missing `seed`: a spectrum has",
+            "line.toml:7: irregularity: missing `seed`: a spectrum needs",
         ),
         (
             generated("seed = 1\nshift_m = 3\n"),
-            "line.toml:7: irregularity: `shift_m` beside `spectrum`, allowed: beside `file`",
+            "line.toml:7: irregularity: `shift_m` given with `spectrum`, allowed: with `file`",
         ),
         (
             irregularity("file = \"a.csv\"\nseed = 1"),
-            "line.toml:7: irregularity: `seed` beside `file`, allowed: beside `spectrum`",
+            "line.toml:7: irregularity: `seed` given with `file`, allowed: with `spectrum`",
         ),
         (
             irregularity(""),
-            "line.toml:7: irregularity: allowed: either `spectrum` or `file`",
+            "line.toml:7: irregularity: give either `spectrum` or `file`",
         ),
     ];
     for (text, expected) in cases {

@@ -60,7 +60,7 @@ pub(super) fn save(save: &SaveArguments, link: &LinkArguments) -> Outcome<()> {
             Response::Saved { tick, states } => BankState::from_bytes(tick, states),
             _ => None,
         })?;
-        (report.tick, report.dampers) = (bank.tick, bank.places.len());
+        (report.tick, report.dampers) = (bank.tick, bank.slots.len());
         file.write_all(bank.to_toml()?.as_bytes())
             .map_err(|error| cannot_write(path, error))?;
         Ok(())
@@ -86,7 +86,7 @@ pub(super) fn restore(restore: &RestoreArguments, link: &LinkArguments) -> Outco
     let report = Report {
         file: input::name(path).display().to_string(),
         tick: bank.tick,
-        dampers: bank.places.len(),
+        dampers: bank.slots.len(),
     };
     link.print(&report, |out, report| {
         let (tick, file) = (report.tick, &report.file);
@@ -97,14 +97,14 @@ pub(super) fn restore(restore: &RestoreArguments, link: &LinkArguments) -> Outco
 
 /// Whether the states are of the dampers of these revisions, or why not.
 fn check(bank: &BankState, revisions: &[u32]) -> Result<(), String> {
-    if bank.places.len() != revisions.len() {
+    if bank.slots.len() != revisions.len() {
         return Err(format!(
             "{}, the target has {}; allowed: one state for each place",
-            counted(bank.places.len() as u64, "state"),
+            counted(bank.slots.len() as u64, "state"),
             counted(revisions.len() as u64, "place")
         ));
     }
-    let pairs = bank.places.iter().zip(revisions).enumerate();
+    let pairs = bank.slots.iter().zip(revisions).enumerate();
     let others: Vec<String> = pairs
         .filter(|(_, (state, revision))| state.revision != **revision)
         .map(|(place, (state, revision))| {
