@@ -525,7 +525,7 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "\"speed_km_h\", from = 100, to = 140, count = 2",
             "\"vertical.mount.clearance_m\", values = [1e-3]",
-            "study.toml:12: vary: vertical.mount.clearance_m twice",
+            "study.toml:12: vary: duplicate parameter vertical.mount.clearance_m",
         ),
         (
             "observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\", \"last_lateral_m\"]",
@@ -540,12 +540,12 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "to = 140, count = 2",
             "to = 140, count = 2, factor = 0",
-            "speed_km_h: factor 0, allowed: a finite number but 0",
+            "speed_km_h: factor 0, allowed: finite numbers except 0",
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
             "indices = { sweeps = [\"clearance\"], observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\"] }",
-            "several indices over two axes, allowed: one",
+            "several indices of a sweep with two axes, allowed: one",
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",

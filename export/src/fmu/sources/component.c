@@ -8,16 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Part of an internal step by which the size of a step may be off. */
+/* Tolerance of a communication step's size, as a fraction of an internal step. */
 #define CLOSE 1e-6
 
-/* The same for the time at which it begins: importers that add up steps add up what they round. */
+/* Tolerance of a step's start time: importers that add up steps also add up rounding errors. */
 #define CLOSE_AT 0.1
 
-/* Relative spacing of numbers in double precision. */
+/* Relative spacing of double-precision numbers. */
 #define EPSILON 2.220446049250313e-16
 
-/* Internal steps of a communication step, and of a run, at most: more of these no time can tell apart. */
+/* Maximum number of internal steps in a communication step, and in a run: a time cannot resolve more. */
 #define MOST_STEPS 1e9
 #define MOST_STEPS_OF_ALL 4503599627370496.0
 
@@ -132,7 +132,7 @@ double component_time_s(const component *this)
     return this->start_s + (double)this->steps * model_step_s;
 }
 
-/* Times of which a thousandth of an internal step can be told. */
+/* True if a time resolves a thousandth of an internal step. */
 static double latest_s(void)
 {
     return 1e-3 / EPSILON * model_step_s;
@@ -244,7 +244,7 @@ component_status component_get_integer(component *this, uint32_t variable, int32
                                                                          : component_no_variable(this, variable);
 }
 
-/* A step that is not taken. An importer that asks for the same again would ask for ever. */
+/* Refuses a step. Refusing the same step again is an error, because the importer would repeat it forever. */
 static component_status refuse_step(component *this, double at_s, double step_s, const char *format, ...)
 {
     const bool is_again = this->refused_at_s == at_s && this->refused_step_s == step_s;
@@ -264,7 +264,7 @@ component_status component_step(component *this, double at_s, double step_s)
 {
     const double now_s = component_time_s(this);
     const double count = floor(step_s / model_step_s + 0.5);
-    /* A size that is the difference of two times errs by their last digits, too. */
+    /* A size computed as the difference of two times also has their rounding errors. */
     const double close_s = CLOSE * model_step_s + 4 * EPSILON * fabs(now_s);
     const char *notice;
 
@@ -297,7 +297,7 @@ bool component_has_ended(const component *this)
     return model_has_ended(this->model);
 }
 
-/* Of a state: hash of all that follows, hash of the token, phase, steps, times, then the model. */
+/* Header of a state: hash of everything that follows, hash of the token, phase, steps, times; then the model. */
 enum { HASH_BYTES = 4, HEAD_BYTES = HASH_BYTES + 4 + 4 + 8 + 2 * 8 };
 
 /* FNV-1a (Fowler, Noll, Vo; 32 bit). */
@@ -348,7 +348,7 @@ component_status component_get_state(component *this, void **pointer)
     return COMPONENT_OK;
 }
 
-/* Whether it is a state of this FMU, whole. */
+/* True for a complete state of this FMU. */
 static bool is_state(const component *this, const uint8_t *bytes, size_t count)
 {
     uint64_t stated, token;

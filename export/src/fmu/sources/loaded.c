@@ -1,6 +1,6 @@
 
-/* The dampers are those of the images in the folder of resources, as `dashpot export --lang bin` writes them: another
- * image under the same name is another damper. */
+/* Dampers loaded from images in the resources folder, as Dashpot exports them; an image can be replaced by that of
+ * another damper. */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ enum {
     IMAGE_VERSION = 3
 };
 
-/* A table in memory. */
+/* Table in memory. */
 typedef struct table {
     damper_piece pieces[2 * DAMPER_PIECES];
     uint8_t bins[DAMPER_BINS][2];
@@ -46,7 +46,7 @@ static damper_real word(const uint8_t *image, unsigned number)
         (damper_bits)damper_get(image + HEADER_BYTES + number * DAMPER_REAL_BYTES, DAMPER_REAL_BYTES));
 }
 
-/* Names the piece at the lower border of each bin of a side. The knots rise, the first a power of two. */
+/* Finds the piece at the lower border of each bin of a side. The knots increase; the first is a power of two. */
 static void index_side(table *this, unsigned side)
 {
     const unsigned end = (side + 1) * DAMPER_PIECES;
@@ -73,7 +73,7 @@ static void index_side(table *this, unsigned side)
     }
 }
 
-/* Makes a damper of an image; returns what is wrong with it, or NULL. */
+/* Builds a damper from an image; returns a description of the problem, or NULL. */
 static const char *load(damper_damper *damper, table *this, const uint8_t *image, size_t count)
 {
     static const uint8_t magic[] = {'D', 'A', 'S', 'H', 0xff, 0xfe};

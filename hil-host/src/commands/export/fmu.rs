@@ -11,7 +11,7 @@ use super::named::constant_name;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
 use dashpot_export::Word;
-use dashpot_export::fmu::{Fmu, Interface, Named, archive, compile};
+use dashpot_export::fmu::{CompileError, Fmu, Interface, Named, Remedy, archive, compile};
 use dashpot_files::Scalar;
 use dashpot_files::damper;
 use dashpot_files::output::{self, write_bytes};
@@ -161,6 +161,26 @@ pub(super) fn fmu_name(arguments: &ExportArguments, of: &str) -> String {
     }
 }
 
+/// A compile error with its remedies in the words of the command line.
+fn cannot_compile(error: &CompileError) -> Failure {
+    let remedies = error.remedies().iter().map(|remedy| match remedy {
+        Remedy::OtherCompiler => "another C compiler in the variable CC",
+        Remedy::SourcesOnly => "no library for this platform with --sources-only",
+        Remedy::Fmi3 => "--fmi 3",
+        Remedy::OtherLibrary => "a library for this platform with --library FILE",
+    });
+    let remedies: Vec<&str> = remedies.collect();
+    // Messages of a compiler end with a line of their own.
+    let separator = match error {
+        CompileError::Failed { .. } => "\n",
+        _ => "; ",
+    };
+    Failure::new(match remedies.is_empty() {
+        true => error.to_string(),
+        false => format!("{error}{separator}allowed: {}", remedies.join(", or ")),
+    })
+}
+
 /// Compiles the FMU, unless only sources are wanted, writes it and tells of it.
 ///
 /// # Errors
@@ -170,7 +190,7 @@ pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) ->
     let step_us = (fmu.step_s() * 1e12).round() / 1e6;
     let binary = match arguments.fmu.sources_only {
         true => None,
-        false => Some(compile(fmu).map_err(|error| Failure::new(error.to_string()))?),
+        false => Some(compile(fmu).map_err(|error| cannot_compile(&error))?),
     };
     let bytes = archive(fmu, binary.as_ref()).map_err(|error| Failure::new(error.to_string()))?;
     write_bytes(&arguments.output, &bytes)?;
