@@ -63,7 +63,7 @@ pub fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
 /// Number of decimals of the labels on an axis.
 #[derive(Clone, Copy)]
 pub enum Digits {
-    /// The same for every number.
+    /// Equal for all numbers.
     Fixed(usize),
     /// As many as needed for the number's power of ten.
     OfDecade,

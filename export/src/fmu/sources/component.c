@@ -132,7 +132,7 @@ double component_time_s(const component *this)
     return this->start_s + (double)this->steps * model_step_s;
 }
 
-/* True if a time resolves a thousandth of an internal step. */
+/* Latest time (s) that still resolves a thousandth of an internal step. */
 static double latest_s(void)
 {
     return 1e-3 / EPSILON * model_step_s;

@@ -91,8 +91,8 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
         return "no image of a damper: it does not begin with DASH";
     }
     if (damper_get(image + 6, 2) != IMAGE_VERSION || damper_get(image + 8, 4) != DAMPER_REAL_BYTES) {
-        return DAMPER_REAL_BYTES == 4 ? "an image of another version or scalar; allowed: export --lang bin --scalar f32"
-                                      : "an image of another version or scalar; allowed: export --lang bin --scalar f64";
+        return DAMPER_REAL_BYTES == 4 ? "an image of another version or scalar; allowed: one exported in f32"
+                                      : "an image of another version or scalar; allowed: one exported in f64";
     }
     if (count != IMAGE_BYTES || damper_get(image + 12, 4) != IMAGE_BYTES) {
         return "an image cut short or too long";
