@@ -53,8 +53,8 @@ pub(super) fn guarded(constant: &str, declaration: &str) -> String {
     format!("#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n")
 }
 
-/// Returns the provenance comment and the array's declaration. C++ needs the declaration before the definition, otherwise
-/// the constant has internal linkage.
+/// Returns the provenance comment and the array's declaration. C++ needs the declaration before the definition,
+/// otherwise the constant has internal linkage.
 fn declaration<T: Word>(
     constant: &str,
     damper: &Damper<T>,

@@ -39,7 +39,8 @@ fn declaration(constant: &str, provenance: &Provenance<'_>) -> Result<String, Ex
     ))
 }
 
-/// Returns Rust source of `pub static NAME: [u8; ...]`, the input of `HealthModel::from_image`, for `include!` or as a module.
+/// Returns Rust source of `pub static NAME: [u8; ...]`, the input of `HealthModel::from_image`, for `include!` or as a
+/// module.
 ///
 /// # Errors
 /// Returns an error if `constant` is not a constant name: a capital letter, then capitals, digits and `_`.

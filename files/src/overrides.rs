@@ -44,7 +44,8 @@ pub(crate) fn explain(error: &toml::de::Error) -> String {
     }
 }
 
-/// Returns `` ; did you mean `word`? `` with the most similar of the `known` words, or an empty text if none is similar.
+/// Returns `` ; did you mean `word`? `` with the most similar of the `known` words, or an empty text if none is
+/// similar.
 pub fn did_you_mean<'a>(unknown: &str, known: impl Iterator<Item = &'a str>) -> String {
     known
         .map(|key| (strsim::jaro_winkler(unknown, key), key))

@@ -33,8 +33,8 @@ pub enum NamedProfileError {
     File(#[from] FileError),
 }
 
-/// Loads the profile of `body` called `name`: built in (`s1002`, `uic60`) or a file. For a file it also returns a report
-/// of the reading.
+/// Loads the profile of `body` called `name`: built in (`s1002`, `uic60`) or a file. For a file it also returns a
+/// report of the reading.
 ///
 /// # Errors
 /// Returns an error for an unknown profile or options that do not apply to it; for files, same as [`read`].

@@ -52,8 +52,8 @@ pub fn page(title: &str, history: &History) -> Result<String, DrawError> {
         shares: Some("time"),
     };
     let caption = html! {
-        "Blue: estimate with a band of two standard deviations. Dashed: baseline. Amber: alarm limits. An alarm is raised \
-         when an estimate exceeds a limit by " (history.model.limits().deviations) " standard deviations."
+        "Blue: estimate with a band of two standard deviations. Dashed: baseline. Amber: alarm limits. An alarm is \
+         raised when an estimate exceeds a limit by " (history.model.limits().deviations) " standard deviations."
     };
     let body = html! {
         h1 { "Health of a damper" }
@@ -62,7 +62,9 @@ pub fn page(title: &str, history: &History) -> Result<String, DrawError> {
         (alarms(history))
         h2 { "Estimates" }
         (figure(&plots, &caption)?)
-        (footer(&html! { "Flow factor: flow divided by the nominal flow at the same force. Its inverse is the damping factor." }))
+        (footer(&html! {
+            "Flow factor: flow divided by the nominal flow at the same force. Its inverse is the damping factor."
+        }))
     };
     Ok(document("Dashpot: health of a damper", &body))
 }

@@ -1,8 +1,8 @@
 //! Vehicle with externally computed dampers, as the model behind `model.h` (`export/src/fmu/sources`).
 //!
-//! The C code of an FMU guarantees the following for every function. A pointer to a model comes from `model_new` and is not
-//! freed. Other pointers are valid for one value of their type, or for the number of bytes given. No two threads use a model
-//! at the same time. In return, no panic leaves a function.
+//! The C code of an FMU guarantees the following for every function. A pointer to a model comes from `model_new` and is
+//! not freed. Other pointers are valid for one value of their type, or for the number of bytes given. No two threads
+//! use a model at the same time. In return, no panic leaves a function.
 
 mod model;
 mod result;

@@ -111,8 +111,8 @@ impl Model {
         self.saved_bytes
     }
 
-    /// Writes the length and the bytes of the state into `to`, which contains zeros. Without enough room `to` stays zero, which
-    /// is not a valid state.
+    /// Writes the length and the bytes of the state into `to`, which contains zeros. Without enough room `to` stays
+    /// zero, which is not a valid state.
     pub fn save(&self, to: &mut [u8]) {
         let saved = self.vehicle.saved().unwrap_or_default();
         if let Some((count, content)) = to.split_first_chunk_mut()

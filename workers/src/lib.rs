@@ -14,8 +14,8 @@ pub fn threads() -> usize {
 /// Runs `work` on the items with a pool of threads, starting in order, and passes each result with its item's index to
 /// `on_result` on the calling thread as soon as it is complete.
 ///
-/// After `on_result` returns an error, no further item is started, and the closure that `work` receives, `is_cancelled`,
-/// returns true.
+/// After `on_result` returns an error, no further item is started, and the closure that `work` receives,
+/// `is_cancelled`, returns true.
 ///
 /// # Errors
 /// Returns the first error of `on_result`.

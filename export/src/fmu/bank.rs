@@ -34,8 +34,8 @@ pub struct Named<T> {
 }
 
 impl Fmu {
-    /// FMU of dampers, all built for the step `step_s` (s). Its functions start with `identifier`, made of ASCII letters,
-    /// digits and `_`. With `is_loaded`, the constants are replaceable images in the resources folder.
+    /// FMU of dampers, all built for the step `step_s` (s). Its functions start with `identifier`, made of ASCII
+    /// letters, digits and `_`. With `is_loaded`, the constants are replaceable images in the resources folder.
     ///
     /// # Errors
     /// Returns an error if the identifier in capitals is not a valid C constant name.
@@ -192,14 +192,14 @@ fn about<T: Word>(step_s: f64, is_loaded: bool) -> Markup {
          displacement at t: one communication step late. With the velocity, it is that of t + h."
     }
     p {
-        "h must be a multiple of " (step_s) " s; otherwise the step is refused and nothing changes. A displacement that \
-         is not finite is held, and one that moves faster than the damper allows is limited; each sets a bit of status \
-         and gives one warning. clearance_m may be changed between steps."
+        "h must be a multiple of " (step_s) " s; otherwise the step is refused and nothing changes. A displacement \
+         that is not finite is held, and one that moves faster than the damper allows is limited; each sets a \
+         bit of status and gives one warning. clearance_m may be changed between steps."
     }
     @if is_loaded {
         p {
-            "The constants are images in the folder resources, as Dashpot exports them, for this step and scalar. An image \
-             of another damper may be put in place of each."
+            "The constants are images in the folder resources, as Dashpot exports them, for this step and scalar. An \
+             image of another damper may be put in place of each."
         }
     }
     }

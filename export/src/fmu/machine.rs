@@ -115,8 +115,8 @@ impl Machine {
         }
     }
 
-    /// True if a linker can put this object file into a library for `platform`. A processor that is missing in the tables
-    /// above is not compared.
+    /// True if a linker can put this object file into a library for `platform`. A processor that is missing in the
+    /// tables above is not compared.
     pub fn links_into(&self, platform: &Self) -> bool {
         let has_name = |processor| match processor {
             Processor::Known(name) => platform.format.names().iter().any(|known| known.1 == name),
@@ -204,8 +204,8 @@ fn elf(bytes: &[u8]) -> Option<Machine> {
     })
 }
 
-/// Reads a PE header: at 0x3c is the offset of `PE\0\0`, which is followed by `Machine` and `Characteristics` (0x2000: a
-/// DLL).
+/// Reads a PE header: at 0x3c is the offset of `PE\0\0`, which is followed by `Machine` and `Characteristics` (0x2000:
+/// a DLL).
 fn pe(bytes: &[u8]) -> Option<Machine> {
     if bytes.get(..2)? != b"MZ" {
         return None;
@@ -243,8 +243,8 @@ fn mach_o(bytes: &[u8]) -> Option<Machine> {
     })
 }
 
-/// Reads a universal Mach-O file and returns the slice for this machine, or else the first one. The header is big-endian:
-/// magic number, number of slices, and five words per slice, the third of which is the offset.
+/// Reads a universal Mach-O file and returns the slice for this machine, or else the first one. The header is
+/// big-endian: magic number, number of slices, and five words per slice, the third of which is the offset.
 fn universal(bytes: &[u8]) -> Option<Machine> {
     let big_endian = |at| word(bytes, at).map(u32::swap_bytes);
     if big_endian(0)? != 0xcafe_babe {

@@ -1,7 +1,8 @@
 //! FMUs for co-simulation (Functional Mock-up Interface 2.0 or 3.0): a damper, a bank of dampers, or a vehicle.
 //!
-//! `sources/` implements the interface in C, on top of the step of `standalone/` or of a library. `headers/` contains the
-//! official headers (Modelica Association, BSD 2-Clause). Constants are compiled in, or are images in the resources folder.
+//! `sources/` implements the interface in C, on top of the step of `standalone/` or of a library. `headers/` contains
+//! the official headers (Modelica Association, BSD 2-Clause). Constants are compiled in, or are images in the resources
+//! folder.
 
 mod archive;
 mod bank;

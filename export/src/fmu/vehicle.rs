@@ -22,13 +22,13 @@ const UNITS: [(&str, &str); 5] = [
 ];
 
 impl Fmu {
-    /// FMU of a vehicle with the variables of `coupled`. Its functions start with `identifier`, made of ASCII letters, digits
-    /// and `_`. `library` is the static library of `dashpot-vehicle-model`; `tables` is name and content of the file with the
-    /// contact tables.
+    /// FMU of a vehicle with the variables of `coupled`. Its functions start with `identifier`, made of ASCII letters,
+    /// digits and `_`. `library` is the static library of `dashpot-vehicle-model`; `tables` is name and content of the
+    /// file with the contact tables.
     ///
     /// # Errors
-    /// Returns an error if the identifier in capitals is not a valid C constant name, if the case cannot be written, or if the
-    /// library cannot be read.
+    /// Returns an error if the identifier in capitals is not a valid C constant name, if the case cannot be written, or
+    /// if the library cannot be read.
     pub fn of_vehicle(
         interface: Interface,
         identifier: &str,
@@ -55,7 +55,8 @@ impl Fmu {
         variables.push(Variable {
             name: "ending".into(),
             unit: "",
-            description: "0 running, 1 completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5 beyond the model, 6 overturned",
+            description: "0 running, 1 completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5 beyond the \
+                          model, 6 overturned",
             kind: Kind::Counter,
         });
         Ok(Self {
@@ -102,20 +103,23 @@ fn constants(step_s: f64, token: &str, digest: &str) -> String {
     format!(
         "/* Identity of this FMU. */\n\n#include \"model.h\"\n\n\
          const double model_step_s = {step_s:e};\nconst char model_token[] = \"{token}\";\n\n\
-         /* Digest of the case in the resources folder, which the library checks. */\nconst char model_case_digest[] = \"{digest}\";\n"
+         /* Digest of the case in the resources folder, which the library checks. */\n\
+         const char model_case_digest[] = \"{digest}\";\n"
     )
 }
 
 fn about(case: &CoupledCase) -> Markup {
     html! {
         p {
-            "The vehicle of the case " (case.case.name) " on its track. The force of " (case.outside.join(", ")) " is an input. \
-             Outputs are the signals of a Dashpot vehicle history, and the rate of each external damper over the last internal \
-             step."
+            "The vehicle of the case " (case.case.name) " on its track. The force of " (case.outside.join(", "))
+            " is an input. Outputs are the signals of a Dashpot vehicle history, and the rate of each external damper \
+             over the last internal step."
         }
         p {
-            "A force that is set at time t acts at the end of the internal step that starts at t, and stays until another is \
-             set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond the model; " code { "ending" }
+            "A force that is set at time t acts at the end of the internal step that starts at t, and stays until \
+             another is set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond the \
+             model; "
+            code { "ending" }
             " gives the reason."
         }
     }

@@ -8,8 +8,8 @@ use crate::Word;
 const STEPS: u32 = 2048;
 
 /// Hash (FNV-1a, 32 bit) of a damper's states over the motion generated in `damper.c`: random moves about zero from a
-/// linear congruential generator (Numerical Recipes), halved every 128 steps from the largest credible move, with failed
-/// readings, a jump and a change of clearance.
+/// linear congruential generator (Numerical Recipes), halved every 128 steps from the largest credible move, with
+/// failed readings, a jump and a change of clearance.
 pub(super) fn digest<T: Word>(damper: &Damper<T>) -> u32 {
     let mut damper = *damper;
     let mut state = damper.at_rest(T::ZERO);

@@ -1,8 +1,8 @@
 //! A damper in C99 without a library: step and constants in one header and one source.
 //!
-//! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. Names that start with
-//! `prefix_` or `PREFIX_` get the prefix of the constant, so that several dampers link into one program. The step works
-//! with any damper of its scalar: the constants are separate.
+//! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. Names that start
+//! with `prefix_` or `PREFIX_` get the prefix of the constant, so that several dampers link into one program. The step
+//! works with any damper of its scalar: the constants are separate.
 
 mod constants;
 mod digest;
@@ -31,8 +31,8 @@ pub fn standalone_header<T: Word>(
     Ok(comment(constant, damper, provenance)? + &declarations(constant, damper))
 }
 
-/// Returns C99 source of a damper: step and constants, without a library. The source includes `header`, the file name of
-/// [`standalone_header`]; with `None` the source contains the declarations itself.
+/// Returns C99 source of a damper: step and constants, without a library. The source includes `header`, the file name
+/// of [`standalone_header`]; with `None` the source contains the declarations itself.
 ///
 /// # Errors
 /// Same as [`standalone_header`]; also if `header` is not valid between quotation marks.

@@ -156,8 +156,8 @@ pub struct CaseOptions {
 }
 
 impl CaseOptions {
-    /// A vehicle on a track at a speed (km/h) with defaults: 10 s from distance 0, friction 0.4, normal damping 5 s/m, time
-    /// step 1 ms.
+    /// A vehicle on a track at a speed (km/h) with defaults: 10 s from distance 0, friction 0.4, normal damping 5 s/m,
+    /// time step 1 ms.
     pub fn new(vehicle: &str, track: &str, speed_km_h: f64) -> Self {
         Self {
             name: None,
@@ -180,10 +180,12 @@ impl CaseOptions {
 
     /// Loads the case called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
     ///
-    /// File names in it are relative to the case file; file names within its `set` are relative to the working directory.
+    /// File names in it are relative to the case file; file names within its `set` are relative to the working
+    /// directory.
     ///
     /// # Errors
-    /// Returns an error if there is no such case or readable file, if the text is not TOML, or for unknown or missing keys.
+    /// Returns an error if there is no such case or readable file, if the text is not TOML, or for unknown or missing
+    /// keys.
     pub fn load(name: &str) -> Result<Self, CaseError> {
         let found = SHIPPED.find::<CaseError>(name)?;
         Self::parse_in(&found)
@@ -263,8 +265,8 @@ impl CaseOptions {
     /// Resolves the case: loads vehicle and track and checks all numbers.
     ///
     /// # Errors
-    /// Returns an error for a number out of bounds, an unknown or invalid vehicle or track, or a fault of an unknown damper;
-    /// with file and line if the value comes from a case file.
+    /// Returns an error for a number out of bounds, an unknown or invalid vehicle or track, or a fault of an unknown
+    /// damper; with file and line if the value comes from a case file.
     pub fn case(&self) -> Result<Case, CaseError> {
         self.resolve().map_err(|error| match &self.origin {
             Some(origin) => origin.locate(error),

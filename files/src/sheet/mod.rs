@@ -86,8 +86,8 @@ impl SheetParameters {
     /// Loads the sheet called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
     ///
     /// # Errors
-    /// Returns an error with file and line if there is no such sheet or readable file, if the text is not TOML, for unknown
-    /// or missing keys, a motion out of range, contradictory limits, or a duplicate name.
+    /// Returns an error with file and line if there is no such sheet or readable file, if the text is not TOML, for
+    /// unknown or missing keys, a motion out of range, contradictory limits, or a duplicate name.
     ///
     /// ```
     /// let sheet = dashpot_files::sheet::SheetParameters::load("example")?;

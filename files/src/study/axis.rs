@@ -72,8 +72,8 @@ pub fn format_number(number: f64) -> String {
 /// Parameter and its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// One of: a number of the case (`speed_km_h`); `vehicle` or `track`; `dampers.table.key` or `part.key` as in an override
-    /// of the vehicle; dampers to replace (`vertical`); or `worn_damper`.
+    /// One of: a number of the case (`speed_km_h`); `vehicle` or `track`; `dampers.table.key` or `part.key` as in an
+    /// override of the vehicle; dampers to replace (`vertical`); or `worn_damper`.
     pub parameter: String,
     /// Values, in the order of the cases.
     pub values: Vec<Value>,
@@ -97,7 +97,8 @@ impl Axis {
     /// Sets the parameter of a case to a value.
     ///
     /// # Errors
-    /// Returns a description of the problem for an unknown parameter, or for a number where a name is needed and vice versa.
+    /// Returns a description of the problem for an unknown parameter, or for a number where a name is needed and vice
+    /// versa.
     pub fn apply(&self, case: &mut CaseOptions, value: &Value) -> Result<(), String> {
         let parameter = self.parameter.as_str();
         let is_number = CaseOptions::NUMBERS.contains(&parameter);

@@ -87,8 +87,8 @@ impl StudyParameters {
     /// File names in it are relative to the study file; file names within `set` are relative to the working directory.
     ///
     /// # Errors
-    /// Returns an error with file and line if there is no such study or readable file, if the text is not TOML, for unknown
-    /// or missing keys, an axis without values, or a duplicate or unknown name.
+    /// Returns an error with file and line if there is no such study or readable file, if the text is not TOML, for
+    /// unknown or missing keys, an axis without values, or a duplicate or unknown name.
     ///
     /// ```
     /// let study = dashpot_files::study::StudyParameters::load("paper")?;

@@ -73,7 +73,8 @@ impl TrackParameters {
     /// Builds the track and generates or reads its irregularity, which takes about 30 ms per generated kilometre.
     ///
     /// # Errors
-    /// Returns an error with file and line if the irregularity cannot be generated, or if a measured file cannot be used.
+    /// Returns an error with file and line if the irregularity cannot be generated, or if a measured file cannot be
+    /// used.
     pub fn build(&self) -> Result<Track, FileError> {
         Track::new(
             self.layout.clone(),
@@ -83,8 +84,8 @@ impl TrackParameters {
         .map_err(|error| self.in_irregularity(error))
     }
 
-    /// Returns the track with its irregularity already generated or read, so that it can be serialized and needs no other
-    /// file.
+    /// Returns the track with its irregularity already generated or read, so that it can be serialized and needs no
+    /// other file.
     ///
     /// # Errors
     /// Same as [`Self::build`].
@@ -129,12 +130,12 @@ impl TrackParameters {
     }
 }
 
-/// Loads the track called `name`: a built-in one, or the TOML file at that path (`-` for standard input). The file name of
-/// a measured irregularity is relative to the track file.
+/// Loads the track called `name`: a built-in one, or the TOML file at that path (`-` for standard input). The file name
+/// of a measured irregularity is relative to the track file.
 ///
 /// # Errors
-/// Returns an error if there is no such track or readable file, if the text is not TOML, for unknown or missing keys, and
-/// for invalid parts or defects.
+/// Returns an error if there is no such track or readable file, if the text is not TOML, for unknown or missing keys,
+/// and for invalid parts or defects.
 ///
 /// ```
 /// let track = dashpot_files::track::load("curve-r600")?.build()?;

@@ -53,7 +53,8 @@ fn offset_of<T>(tables: &[Spanned<T>], number: usize) -> usize {
 }
 
 impl TrackTables {
-    /// Converts the tables parsed from `text`; error messages call the text `file`, and file names are relative to `folder`.
+    /// Converts the tables parsed from `text`; error messages call the text `file`, and file names are relative to
+    /// `folder`.
     pub fn parameters(
         self,
         file: &Path,

@@ -69,5 +69,5 @@ pub enum VehicleFileError {
 }
 
 /// Forms of an override, for error messages.
-pub const FORM: &str = "part.key=value with a TOML value, such as body.mass_kg=70e3, or dampers.table.key=value, such as \
-                        vertical.mount.clearance_m=2e-3";
+pub const FORM: &str = "part.key=value with a TOML value, such as body.mass_kg=70e3, or dampers.table.key=value, such \
+                        as vertical.mount.clearance_m=2e-3";

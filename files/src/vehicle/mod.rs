@@ -41,8 +41,8 @@ const SHIPPED: Shipped = Shipped {
 /// name.
 ///
 /// # Errors
-/// Returns an error if there is no such vehicle or readable file, if the text is not TOML, for unknown or missing keys, an
-/// unknown damper, an override of an unknown part, and invalid parts.
+/// Returns an error if there is no such vehicle or readable file, if the text is not TOML, for unknown or missing keys,
+/// an unknown damper, an override of an unknown part, and invalid parts.
 ///
 /// ```
 /// let vehicle = dashpot_files::vehicle::load("locomotive", &["body.mass_kg=70e3".into()])?;
@@ -143,7 +143,8 @@ fn parse_in(
     Ok(vehicle)
 }
 
-/// Returns the file name with the line of a part. A part that is one of several equal ones is called by name and number.
+/// Returns the file name with the line of a part. A part that is one of several equal ones is called by name and
+/// number.
 fn locate(file: &str, text: &str, part: &str) -> String {
     let without_number = part.rsplit_once(' ').map(|(name, _)| name);
     let line_of = |wanted: &str| {

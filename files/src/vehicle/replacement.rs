@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use dashpot_core::DamperParameters;
 
-/// Replacement of a vehicle's dampers by another damper, written `dampers=damper`. It also discards the overrides in the
-/// replaced tables.
+/// Replacement of a vehicle's dampers by another damper, written `dampers=damper`. It also discards the overrides in
+/// the replaced tables.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replacement {
     /// Dampers to replace: a direction (longitudinal, lateral, vertical) or a name in the vehicle file. A name takes

@@ -313,7 +313,7 @@ fn errors_from_building_have_file_and_line() {
 #[test]
 fn an_unknown_track_suggests_a_similar_one() {
     let message = track::load("curve-r20").unwrap_err().to_string();
-    let expected = "track `curve-r20`: no such track or file; give a TOML file or a track: ideal, straight, straight-short, \
-                    straight-german, curve-r200, curve-r300, curve-r600; did you mean `curve-r200`?";
+    let expected = "track `curve-r20`: no such track or file; give a TOML file or a track: ideal, straight, \
+                    straight-short, straight-german, curve-r200, curve-r300, curve-r600; did you mean `curve-r200`?";
     assert_eq!(message, expected);
 }

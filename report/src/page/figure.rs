@@ -17,7 +17,8 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Height of a panel on a desktop screen (pixels).
     pub height: u32,
-    /// Name of a group of figures with the same abscissa, which share the cursor across the page; `None` for this figure only.
+    /// Name of a group of figures with the same abscissa, which share the cursor across the page; `None` for this
+    /// figure only.
     pub shares: Option<&'static str>,
 }
 
@@ -121,7 +122,8 @@ impl Figure {
     }
 }
 
-/// Legend: key, name and value under the cursor of each named curve. A single curve without a name shows its value only.
+/// Legend: key, name and value under the cursor of each named curve. A single curve without a name shows its value
+/// only.
 fn legend(curves: &[Curve]) -> Markup {
     let is_single = curves.iter().filter(|curve| curve.has_values()).count() == 1;
     html! {

@@ -40,7 +40,8 @@ pub fn document(title: &str, body: &Markup) -> String {
                 main {
                     noscript {
                         p.note {
-                            "The plots are missing because the page's script does not run here. Text and tables are complete."
+                            "The plots are missing because the page's script does not run here. Text and tables are \
+                             complete."
                         }
                     }
                     (body)

@@ -1,6 +1,7 @@
 //! Content security policy: the browser may load and run only the content of the page itself.
 //!
-//! An inline script or style is allowed if the policy contains the hash of its text (W3C, Content Security Policy Level 3).
+//! An inline script or style is allowed if the policy contains the hash of its text (W3C, Content Security Policy Level
+//! 3).
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;

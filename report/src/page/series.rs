@@ -92,7 +92,8 @@ pub(super) fn key(curve: &Curve) -> Markup {
                 Stroke::Band => rect width="22" height="12" fill="currentColor" fill-opacity="0.25" {},
                 Stroke::Bars => path d="M5 1V11M11 3V9M17 1V11" stroke="currentColor" stroke-width=(width) {},
                 Stroke::Line | Stroke::Dashes | Stroke::Marks | Stroke::Filled => {
-                    path d="M0 6H22" stroke="currentColor" stroke-width=(width.clamp(2.0, 6.0)) stroke-dasharray=[dashes] {}
+                    path d="M0 6H22" stroke="currentColor" stroke-width=(width.clamp(2.0, 6.0))
+                        stroke-dasharray=[dashes] {}
                 }
             }
         }

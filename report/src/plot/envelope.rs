@@ -40,8 +40,8 @@ impl Default for Envelope {
 }
 
 impl Envelope {
-    /// Adds the value at `tick`, which must be later than all previous ones; ticks may be skipped. Values that are not finite
-    /// are ignored.
+    /// Adds the value at `tick`, which must be later than all previous ones; ticks may be skipped. Values that are not
+    /// finite are ignored.
     pub fn record(&mut self, tick: u32, value: f64) {
         if !value.is_finite() {
             return;

@@ -7,7 +7,8 @@ use super::sheet::{Panel, Scale};
 use crate::page::panel;
 use dashpot_testbench::response::Response;
 
-/// Minimum loss angle (degrees) for showing damping on a logarithmic scale; below it the damper is practically a spring.
+/// Minimum loss angle (degrees) for showing damping on a logarithmic scale; below it the damper is practically a
+/// spring.
 const MIN_LOSS_ANGLE_DEG: f64 = 0.1;
 
 /// Returns empty panels for dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m). `scale` applies to
@@ -25,8 +26,8 @@ pub fn panels(scale: Scale) -> [Panel; 3] {
     ]
 }
 
-/// Returns a response as one curve for each panel. Curves have gaps where the loss angle is undefined or too small for a
-/// logarithmic scale.
+/// Returns a response as one curve for each panel. Curves have gaps where the loss angle is undefined or too small for
+/// a logarithmic scale.
 pub fn of(name: &str, colour: RGBColor, responses: &[Response], scale: Scale) -> [Curve; 3] {
     let curve = |value: &dyn Fn(&Response) -> Option<f64>| {
         let points = responses.iter();

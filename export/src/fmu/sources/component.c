@@ -18,8 +18,8 @@
 #define EPSILON 2.220446049250313e-16
 
 /* Maximum number of internal steps in a communication step, and in a run: a time cannot resolve more. */
-#define MOST_STEPS 1e9
-#define MOST_STEPS_OF_ALL 4503599627370496.0
+#define MAX_STEPS 1e9
+#define MAX_TOTAL_STEPS 4503599627370496.0
 
 const char *const component_categories[COMPONENT_ERROR + 1] = {
     NULL, "logStatusWarning", "logStatusDiscard", "logStatusError"
@@ -65,7 +65,7 @@ component *component_new(const component *with, const char *token, const char *r
     }
     memcpy(this->name, name, strlen(name) + 1);
     if (token == NULL || strcmp(token, model_token) != 0) {
-        (void)component_tell(this, COMPONENT_ERROR, "the description is of another FMU: its token is %.200s, this is %s",
+        (void)component_tell(this, COMPONENT_ERROR, "the description belongs to another FMU: its token is %.200s, this is %s",
                              token == NULL ? "missing" : token, model_token);
     } else if ((this->model = model_new(resources, reason, sizeof reason)) == NULL) {
         (void)component_tell(this, COMPONENT_ERROR, "%s", reason);
@@ -227,7 +227,7 @@ component_status component_set_reals(component *this, const uint32_t variables[]
             return component_tell(this, COMPONENT_DISCARD, "value reference %lu: %.12g, allowed: %s", reference, values[number],
                                   model_allowed(variables[number]));
         case MODEL_READ_ONLY:
-            return component_tell(this, COMPONENT_ERROR, "value reference %lu is an output, and cannot be set", reference);
+            return component_tell(this, COMPONENT_ERROR, "value reference %lu is an output and cannot be set", reference);
         default:
             return component_no_variable(this, variables[number]);
         }
@@ -271,16 +271,16 @@ component_status component_step(component *this, double at_s, double step_s)
     if (!(fabs(at_s - now_s) <= CLOSE_AT * model_step_s)) {
         return refuse_step(this, at_s, step_s, "a step from %.12g s, but the last one ended at %.12g s", at_s, now_s);
     }
-    if (!(count >= 1 && count <= MOST_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
+    if (!(count >= 1 && count <= MAX_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
         return refuse_step(this, at_s, step_s,
                            "a communication step of %.12g s, allowed: a multiple of the internal step of %.12g s, up to %.0e of it",
-                           step_s, model_step_s, MOST_STEPS);
+                           step_s, model_step_s, MAX_STEPS);
     }
     if (!(now_s + step_s <= this->stop_s + CLOSE_AT * model_step_s)) {
         return component_tell(this, COMPONENT_ERROR, "a step to %.12g s, beyond the stop time of %.12g s", now_s + step_s,
                               this->stop_s);
     }
-    if (!(is_time(now_s + step_s) && (double)this->steps + count <= MOST_STEPS_OF_ALL)) {
+    if (!(is_time(now_s + step_s) && (double)this->steps + count <= MAX_TOTAL_STEPS)) {
         return refuse_step(this, at_s, step_s, "a step to %.12g s, allowed: times within %.3g s of 0", now_s + step_s, latest_s());
     }
     forget_refused_step(this);
@@ -367,15 +367,15 @@ component_status component_set_state(component *this, const component_state *sta
     double start_s, stop_s;
 
     if (state == NULL || !is_state(this, state->content, state->bytes)) {
-        return component_tell(this, COMPONENT_DISCARD, "no state of this FMU");
+        return component_tell(this, COMPONENT_DISCARD, "not a state of this FMU");
     }
     from = model_take(state->content + HASH_BYTES + 4, &phase, 4);
     from = model_take(from, &steps, 8);
     from = model_take_real(from, &start_s);
     from = model_take_real(from, &stop_s);
     if (phase == 0 || phase > FAILED || (phase & (phase - 1)) != 0 || !is_time(start_s) || !(stop_s >= start_s)
-        || (double)steps > MOST_STEPS_OF_ALL || model_restore(this->model, from) != MODEL_DONE) {
-        return component_tell(this, COMPONENT_DISCARD, "the state is of another model");
+        || (double)steps > MAX_TOTAL_STEPS || model_restore(this->model, from) != MODEL_DONE) {
+        return component_tell(this, COMPONENT_DISCARD, "the state belongs to another model");
     }
     forget_refused_step(this);
     this->phase = (component_phase)phase;

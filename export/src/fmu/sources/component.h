@@ -78,8 +78,8 @@ component_status component_none(component *this, const char *function, const uin
 /* A function for a capability or mode that this FMU does not have. */
 component_status component_unsupported(component *this, const char *function);
 
-/* Steps to `at_s + step_s`. Refuses a step that is not a multiple of the internal step or does not start at the end of the
- * last one. The step is shorter if the model ends. */
+/* Steps to `at_s + step_s`. Refuses a step that is not a multiple of the internal step or does not start at the end
+ * of the last one. The step is shorter if the model ends. */
 component_status component_step(component *this, double at_s, double step_s);
 bool component_has_ended(const component *this);
 

@@ -107,7 +107,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         return NULL;
     }
     if (fmuResourceLocation != NULL && !folder_of(fmuResourceLocation, folder, sizeof folder)) {
-        log_message(&with, COMPONENT_ERROR, component_categories[COMPONENT_ERROR], "the URI of the resources is too long, or no path");
+        log_message(&with, COMPONENT_ERROR, component_categories[COMPONENT_ERROR], "the URI of the resources is too long or not a path");
         return NULL;
     }
     return component_new(&with, fmuGUID, fmuResourceLocation == NULL ? NULL : folder);

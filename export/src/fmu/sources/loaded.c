@@ -88,17 +88,17 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
     unsigned number, piece;
 
     if (count < HEADER_BYTES || memcmp(image, magic, sizeof magic) != 0) {
-        return "no image of a damper: it does not begin with DASH";
+        return "not a damper image: it does not begin with DASH";
     }
     if (damper_get(image + 6, 2) != IMAGE_VERSION || damper_get(image + 8, 4) != DAMPER_REAL_BYTES) {
         return DAMPER_REAL_BYTES == 4 ? "an image of another version or scalar; allowed: one exported in f32"
                                       : "an image of another version or scalar; allowed: one exported in f64";
     }
     if (count != IMAGE_BYTES || damper_get(image + 12, 4) != IMAGE_BYTES) {
-        return "an image cut short or too long";
+        return "an image that is cut short or too long";
     }
     if (crc_32(image, IMAGE_BYTES - 4) != damper_get(image + IMAGE_BYTES - 4, 4)) {
-        return "a damaged image: its checksum is another";
+        return "a damaged image: its checksum is wrong";
     }
     for (number = 0; number < SCALARS; number++) {
         *scalars[number] = word(image, number);
@@ -140,10 +140,10 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
         || !(damper_largest_displacement_m(damper) >= (damper_real)1e-3)
         || !(damper_largest_displacement_m(damper) <= (damper_real)0.7)
         || !(damper->force_limit_n <= (damper_real)1e7)) {
-        return "an image whose constants do not go together";
+        return "an image with inconsistent constants";
     }
     if (damper->step_s != dampers_as_built[0]->step_s) {
-        return "an image for another step than that of this FMU";
+        return "an image for a different step than that of this FMU";
     }
     return NULL;
 }
@@ -164,7 +164,7 @@ damper_damper *dampers_new(const char *resources, char *reason, size_t reason_by
         char path[4096];
         const int length = snprintf(path, sizeof path, "%s/image_%u.bin", resources == NULL ? "" : resources, number + 1);
         FILE *file = resources != NULL && length > 0 && (size_t)length < sizeof path ? fopen(path, "rb") : NULL;
-        const char *wrong = resources == NULL ? "the importer named no folder of resources" : "cannot be read";
+        const char *wrong = resources == NULL ? "the importer gave no resources folder" : "cannot be read";
 
         if (file != NULL) {
             wrong = load(&dampers[number], &tables[number], image, fread(image, 1, sizeof image, file));

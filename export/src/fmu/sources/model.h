@@ -30,8 +30,8 @@ typedef enum model_result {
 extern const double model_step_s;
 extern const char model_token[];
 
-/* Creates a model with its start values. Returns NULL and writes the reason if memory or a file in the folder `resources` is
- * missing. */
+/* Creates a model with its start values. Returns NULL and writes the reason if memory or a file in the folder
+ * `resources` is missing. */
 model *model_new(const char *resources, char *reason, size_t reason_bytes);
 void model_free(model *this);
 
@@ -52,7 +52,8 @@ const char *model_allowed(uint32_t variable);
 /* Ends the initialization: the model is at rest at the inputs. */
 void model_start(model *this);
 
-/* Runs steps of model_step_s up to the next communication point. Returns their number, which is smaller if the model ends. */
+/* Runs steps of model_step_s up to the next communication point. Returns their number, which is smaller if the model
+ * ends. */
 uint64_t model_step(model *this, uint64_t steps);
 
 /* True if the model has ended, and true if it has failed; model_notice gives the reason. */
