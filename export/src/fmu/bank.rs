@@ -24,7 +24,7 @@ const BUILT_IN: &str = include_str!("sources/built_in.c");
 const LOADED: &str = include_str!("sources/loaded.c");
 
 /// Damper with its name.
-pub struct Named<T> {
+pub struct NamedDamper<T> {
     /// Preset or file of the damper.
     pub name: String,
     /// The damper as built.
@@ -42,7 +42,7 @@ impl Fmu {
     pub fn of_dampers<T: Word>(
         interface: Interface,
         identifier: &str,
-        dampers: &[Named<T>],
+        dampers: &[NamedDamper<T>],
         step_s: f64,
         is_loaded: bool,
     ) -> Result<Self, ExportError> {
@@ -99,8 +99,8 @@ impl Fmu {
 }
 
 /// Variables of all dampers; with several dampers the names contain the damper's number.
-fn all_variables<T>(dampers: &[Named<T>]) -> Vec<Variable> {
-    let of_damper = |(number, named): (usize, &Named<T>)| match dampers.len() {
+fn all_variables<T>(dampers: &[NamedDamper<T>]) -> Vec<Variable> {
+    let of_damper = |(number, named): (usize, &NamedDamper<T>)| match dampers.len() {
         1 => variables("", named.clearance_m),
         _ => variables(&format!("damper[{number}]."), named.clearance_m),
     };
@@ -154,7 +154,12 @@ fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
 }
 
 /// Source with the step and the constants of all dampers.
-fn source<T: Word>(dampers: &[Named<T>], step_s: f64, token: &str, is_loaded: bool) -> String {
+fn source<T: Word>(
+    dampers: &[NamedDamper<T>],
+    step_s: f64,
+    token: &str,
+    is_loaded: bool,
+) -> String {
     let mut text = String::from(
         "/* The step of a damper, and the constants of the dampers of this FMU. */\n\n#include \"damper.h\"\n\n",
     );

@@ -20,7 +20,7 @@ use maud::Markup;
 use sha2::{Digest, Sha256};
 
 pub use archive::archive;
-pub use bank::Named;
+pub use bank::NamedDamper;
 pub use binary::{Binary, CompileError, Remedy, compile};
 pub use machine::Machine;
 

@@ -74,7 +74,7 @@ fn what_is_no_image_for_it_is_refused_with_the_reason() {
         (whole[..whole.len() - 1].to_vec(), "cut short or too long"),
         ([&whole[..], b"x"].concat(), "cut short or too long"),
         (damaged, "its checksum is wrong"),
-        (exported(&["--step-us", "500"]), "for another step"),
+        (exported(&["--step-us", "500"]), "for a different step"),
         (
             exported(&["--scalar", "f64"]),
             "allowed: export --lang bin --scalar f32",

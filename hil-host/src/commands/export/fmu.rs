@@ -11,7 +11,7 @@ use super::named::constant_name;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
 use dashpot_export::Word;
-use dashpot_export::fmu::{CompileError, Fmu, Interface, Named, Remedy, archive, compile};
+use dashpot_export::fmu::{CompileError, Fmu, Interface, NamedDamper, Remedy, archive, compile};
 use dashpot_files::Scalar;
 use dashpot_files::damper;
 use dashpot_files::output::{self, write_bytes};
@@ -136,7 +136,7 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
     let named = dampers.into_iter().map(|(name, parameters)| -> Outcome<_> {
         let damper: Damper<T> = parameters.build(step_s)?;
         let clearance_m = parameters.mount.clearance_m;
-        Ok(Named {
+        Ok(NamedDamper {
             name,
             damper,
             clearance_m,
@@ -170,7 +170,7 @@ fn cannot_compile(error: &CompileError) -> Failure {
         Remedy::OtherLibrary => "a library for this platform with --library FILE",
     });
     let remedies: Vec<&str> = remedies.collect();
-    // Messages of a compiler end with a line of their own.
+    // The messages of a compiler may span several lines.
     let separator = match error {
         CompileError::Failed { .. } => "\n",
         _ => "; ",
