@@ -1,4 +1,4 @@
-//! C source with the bytes of a damper as a constant in flash, and the header that declares it.
+//! C source with a damper's bytes as a constant in flash, and the header that declares it.
 
 use std::fmt::Write;
 
@@ -7,12 +7,12 @@ use dashpot_core::Damper;
 use super::{ExportError, Provenance, Word, error, name};
 use dashpot_files::Scalar;
 
-/// C source of `const uint8_t NAME[]`, to compile on its own or to include in one file; C99 and C++11.
+/// Returns C source (C99, C++11) of `const uint8_t NAME[]`, to compile separately or to include in one file.
 ///
-/// The array is what `dashpot_damper_init` of the C library takes.
+/// The array is the input of `dashpot_damper_init` in the C library.
 ///
 /// # Errors
-/// The scalar is not `f32`; `constant` is no name of a constant, or one that headers may define.
+/// Returns an error if the scalar is not `f32`, or if `constant` is not a valid constant name or reserved by C headers.
 pub fn c_source<T: Word>(
     constant: &str,
     damper: &Damper<T>,
@@ -22,7 +22,7 @@ pub fn c_source<T: Word>(
     Ok(declaration + &array(constant, &T::image(damper)))
 }
 
-/// The array of some bytes.
+/// Defines an array of bytes.
 pub(super) fn array(constant: &str, bytes: &[u8]) -> String {
     let mut text = format!("\nconst uint8_t {constant}[{}] = {{\n", bytes.len());
     for row in bytes.chunks(16) {
@@ -34,10 +34,10 @@ pub(super) fn array(constant: &str, bytes: &[u8]) -> String {
     text
 }
 
-/// C header that declares the array of [`c_source`] with its size; C++ too.
+/// Returns a C and C++ header that declares the array of [`c_source`] with its size.
 ///
 /// # Errors
-/// Those of [`c_source`].
+/// Same as [`c_source`].
 pub fn c_header<T: Word>(
     constant: &str,
     damper: &Damper<T>,
@@ -47,14 +47,14 @@ pub fn c_header<T: Word>(
     Ok(guarded(constant, &declaration))
 }
 
-/// A header of a declaration.
+/// Wraps a declaration in an include guard.
 pub(super) fn guarded(constant: &str, declaration: &str) -> String {
     let guard = format!("{}{constant}_H", error::C_LIBRARY_PREFIX);
     format!("#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n")
 }
 
-/// Where the damper is from, and its array declared: without a declaration before it a constant of C++
-/// would be of its own file only.
+/// Returns the provenance comment and the array's declaration. C++ needs the declaration before the definition,
+/// otherwise the constant has internal linkage.
 fn declaration<T: Word>(
     constant: &str,
     damper: &Damper<T>,
@@ -73,7 +73,7 @@ fn declaration<T: Word>(
     Ok(declared(&comment, &provenance.title(), constant, length))
 }
 
-/// The declaration of an array of `length` bytes, after a comment.
+/// Returns a comment and the declaration of an array of `length` bytes.
 pub(super) fn declared(comment: &str, title: &str, constant: &str, length: usize) -> String {
     format!(
         "{comment}\n\

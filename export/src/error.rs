@@ -1,52 +1,65 @@
-//! Why a damper cannot be exported.
+//! Export errors.
+
+use std::path::PathBuf;
 
 use dashpot_files::Scalar;
 
-/// What the macros of `dashpot.h` and the guards of exported headers start with.
+/// Prefix of the macros in `dashpot.h` and of the include guards of exported headers.
 pub(super) const C_LIBRARY_PREFIX: &str = "DASHPOT_";
 
-/// How macros of `stdint.h` end.
-pub(super) const RESERVED_ENDS: [&str; 4] = ["_MAX", "_MIN", "_C", "_WIDTH"];
+/// Suffixes of the macros in `stdint.h`.
+pub(super) const RESERVED_SUFFIXES: [&str; 4] = ["_MAX", "_MIN", "_C", "_WIDTH"];
 
-/// Why a damper cannot be exported; each says what is allowed.
+/// Error from an export, with the allowed values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
-    /// No name of a constant.
-    #[error("name {name}: no name of a constant, allowed: A to Z first, then A to Z, 0 to 9 and _")]
+    /// Invalid name of a constant.
+    #[error("constant {name}: {reason}")]
     Name {
         /// The name.
         name: String,
+        /// The problem.
+        reason: NameError,
     },
-    /// A name that headers of C may define.
+    /// File name that C cannot include.
     #[error(
-        "name {name}: the C headers may define it, allowed: not NULL, no start with {C_LIBRARY_PREFIX}, no end \
-         in {}",
-        RESERVED_ENDS.join(", ")
-    )]
-    ReservedName {
-        /// The name.
-        name: String,
-    },
-    /// A file's name that C cannot include.
-    #[error(
-        "file {file}: C cannot include it, allowed: Unicode without \
-         quotation mark, backslash and control character"
+        "file {file}: C cannot include it, allowed: Unicode without quotation marks, backslashes and control characters"
     )]
     Include {
-        /// The name.
+        /// Name of the file.
         file: String,
     },
-    /// A case that cannot be written.
-    #[error("the case cannot be written: {0}")]
+    /// Cannot write the case.
+    #[error("cannot write the case: {0}")]
     Case(String),
-    /// A library of vehicles that cannot be read.
-    #[error("the library of vehicles {0}")]
-    Library(String),
-    /// A scalar that the C library does not have.
-    #[error("scalar {scalar}: the C library is of single precision, allowed for it: f32")]
+    /// Cannot read the vehicle library.
+    #[error("{}: cannot read the vehicle library: {reason}", path.display())]
+    Library {
+        /// The library.
+        path: PathBuf,
+        /// Error from the operating system.
+        reason: String,
+    },
+    /// Scalar that the C library does not support.
+    #[error("scalar {scalar}: the C library uses single precision, allowed: f32")]
     Scalar {
         /// The scalar.
         scalar: Scalar,
     },
+}
+
+/// Problem with the name of a constant, with the allowed names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NameError {
+    /// Invalid characters.
+    #[error("not a valid constant name, allowed: A to Z first, then A to Z, 0 to 9 and _")]
+    Invalid,
+    /// Reserved by the C headers.
+    #[error(
+        "reserved by C headers, allowed: names other than NULL that do not start with {C_LIBRARY_PREFIX} or end in {}",
+        RESERVED_SUFFIXES.join(", ")
+    )]
+    Reserved,
 }

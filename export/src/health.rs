@@ -1,4 +1,4 @@
-//! A model of health as a constant of Rust or C: the bytes of its image, which firmware and the C library check.
+//! A health model as a Rust or C constant: the bytes of its image, which firmware and the C library check.
 
 use std::fmt::Write;
 
@@ -7,10 +7,10 @@ use dashpot_core::health::HealthModel;
 use super::c::{array, declared, guarded};
 use super::{ExportError, Provenance, name};
 
-/// C source of `const uint8_t NAME[]`, what `dashpot_health_model_init` of the C library takes; C99 and C++11.
+/// Returns C source (C99, C++11) of `const uint8_t NAME[]`, the input of `dashpot_health_model_init` in the C library.
 ///
 /// # Errors
-/// `constant` is no name of a constant, or one that headers may define.
+/// Returns an error if `constant` is not a valid constant name or reserved by C headers.
 pub fn health_c_source(
     constant: &str,
     model: &HealthModel,
@@ -19,10 +19,10 @@ pub fn health_c_source(
     Ok(declaration(constant, provenance)? + &array(constant, &model.to_image()))
 }
 
-/// C header that declares the array of [`health_c_source`] with its size; C++ too.
+/// Returns a C and C++ header that declares the array of [`health_c_source`] with its size.
 ///
 /// # Errors
-/// Those of [`health_c_source`].
+/// Same as [`health_c_source`].
 pub fn health_c_header(constant: &str, provenance: &Provenance<'_>) -> Result<String, ExportError> {
     Ok(guarded(constant, &declaration(constant, provenance)?))
 }
@@ -39,10 +39,11 @@ fn declaration(constant: &str, provenance: &Provenance<'_>) -> Result<String, Ex
     ))
 }
 
-/// Rust source of `pub static NAME: [u8; ...]`, what `HealthModel::from_image` takes, for `include!` or as a module.
+/// Returns Rust source of `pub static NAME: [u8; ...]`, the input of `HealthModel::from_image`, for `include!` or as a
+/// module.
 ///
 /// # Errors
-/// `constant` is no Rust constant's name: capital letter first, then capitals, digits and `_`.
+/// Returns an error if `constant` is not a constant name: a capital letter, then capitals, digits and `_`.
 pub fn health_rust_source(
     constant: &str,
     model: &HealthModel,

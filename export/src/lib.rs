@@ -13,7 +13,7 @@ mod standalone;
 mod word;
 
 pub use c::{c_header, c_source};
-pub use error::ExportError;
+pub use error::{ExportError, NameError};
 pub use health::{health_c_header, health_c_source, health_rust_source};
 pub use provenance::Provenance;
 pub use rust::rust_source;

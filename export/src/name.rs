@@ -1,9 +1,9 @@
-//! Names that a constant may have.
+//! Checks of constant names and include names.
 
-use super::ExportError;
-use super::error::{C_LIBRARY_PREFIX, RESERVED_ENDS};
+use super::error::{C_LIBRARY_PREFIX, RESERVED_SUFFIXES};
+use super::{ExportError, NameError};
 
-/// A capital first, then capitals, digits and `_`: no keyword of Rust, C or C++ is written so.
+/// Checks a constant name: a capital letter, then capitals, digits and `_`. No keyword of Rust, C or C++ has this form.
 pub(super) fn check(name: &str) -> Result<(), ExportError> {
     let valid = name.starts_with(|first: char| first.is_ascii_uppercase())
         && name
@@ -12,28 +12,35 @@ pub(super) fn check(name: &str) -> Result<(), ExportError> {
     if valid {
         Ok(())
     } else {
-        Err(ExportError::Name { name: name.into() })
+        Err(name_error(name, NameError::Invalid))
     }
 }
 
-/// As [`check`], and no macro of `dashpot.h` or of the headers an exported C source includes.
+/// Same as [`check`]; also refuses macros of `dashpot.h` and of the headers that exported C sources include.
 pub(super) fn check_c(name: &str) -> Result<(), ExportError> {
     check(name)?;
     if name == "NULL"
         || name.starts_with(C_LIBRARY_PREFIX)
-        || RESERVED_ENDS.iter().any(|end| name.ends_with(end))
+        || RESERVED_SUFFIXES
+            .iter()
+            .any(|suffix| name.ends_with(suffix))
     {
-        return Err(ExportError::ReservedName { name: name.into() });
+        return Err(name_error(name, NameError::Reserved));
     }
     Ok(())
 }
 
-/// A file's name that may stand between the quotation marks of an `#include`.
+fn name_error(name: &str, reason: NameError) -> ExportError {
+    let name = name.to_owned();
+    ExportError::Name { name, reason }
+}
+
+/// Checks that a file name is valid between the quotation marks of an `#include`.
 pub(super) fn checked_include(file: &str) -> Result<&str, ExportError> {
-    let unfit = |letter: char| {
+    let is_invalid = |letter: char| {
         letter.is_control() || ['"', '\\', char::REPLACEMENT_CHARACTER].contains(&letter)
     };
-    if file.is_empty() || file.contains(unfit) {
+    if file.is_empty() || file.contains(is_invalid) {
         return Err(ExportError::Include { file: file.into() });
     }
     Ok(file)

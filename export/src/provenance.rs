@@ -1,4 +1,4 @@
-//! Where an exported damper came from, as a comment of its source.
+//! Origin of an exported damper, as a comment in the source.
 
 use dashpot_core::health::{Health, HealthModel};
 use dashpot_core::{Damper, DamperState};
@@ -6,18 +6,18 @@ use dashpot_core::{Damper, DamperState};
 use super::Word;
 use dashpot_files::Scalar;
 
-/// How an exported damper was made, written into the file.
+/// Origin of an exported damper, written into the file.
 pub struct Provenance<'a> {
-    /// Preset or file the damper came from.
+    /// Preset or file of the damper.
     pub damper: &'a str,
-    /// The requested step (us).
+    /// Requested time step (us).
     pub step_us: f64,
-    /// Command line that makes the file again.
+    /// Command line that reproduces the file.
     pub command: &'a str,
 }
 
 impl Provenance<'_> {
-    /// Damper and step in a few words.
+    /// One-line title with damper and step.
     pub(super) fn title(&self) -> String {
         format!(
             "Damper `{}`, step {} us.",
@@ -26,21 +26,21 @@ impl Provenance<'_> {
         )
     }
 
-    /// As [`Self::title`], of the damper's model of health.
+    /// Same as [`Self::title`] for the damper's health model.
     pub(super) fn health_title(&self) -> String {
         format!(
-            "Model of health of damper `{}`, step {} us.",
+            "Health model of damper `{}`, step {} us.",
             one_line(self.damper),
             self.step_us
         )
     }
 
-    /// As [`Self::comment`], of the damper's model of health.
+    /// Same as [`Self::comment`] for the damper's health model.
     pub(super) fn health_comment(&self, needs: &str) -> String {
         let version = env!("CARGO_PKG_VERSION");
         format!(
-            "// Model of health of damper `{}` for a step of {} us ({:.6} kHz).\n\
-             // {} bytes in flash; in memory it takes {} bytes, an estimate {}.\n\
+            "// Health model of damper `{}` for a step of {} us ({:.6} kHz).\n\
+             // {} bytes in flash; {} bytes in memory, {} more for each estimate.\n\
              // Made by dashpot {version} with\n//     {}\n\
              // Needs {needs} {version}; do not edit.\n",
             one_line(self.damper),
@@ -53,7 +53,7 @@ impl Provenance<'_> {
         )
     }
 
-    /// Comment lines of Rust or C; `stored` says what the source holds, `needs` what reads it.
+    /// Returns comment lines for Rust or C; `stored` describes the content, `needs` the code that reads it.
     pub(super) fn comment<T: Word>(&self, damper: &Damper<T>, stored: &str, needs: &str) -> String {
         let version = env!("CARGO_PKG_VERSION");
         format!(
@@ -72,7 +72,7 @@ impl Provenance<'_> {
     }
 }
 
-/// A file name may hold a line break, which would end the comment.
+/// Replaces control characters: a line break in a file name would end the comment.
 fn one_line(text: &str) -> String {
     text.chars()
         .map(|letter| if letter.is_control() { ' ' } else { letter })

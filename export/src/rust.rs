@@ -7,10 +7,10 @@ use dashpot_core::Damper;
 use super::{ExportError, Provenance, Word, name};
 use dashpot_files::Scalar;
 
-/// Rust source of `pub static NAME: Damper<T>`, for `include!` or as a module.
+/// Returns Rust source of `pub static NAME: Damper<T>`, for `include!` or as a module.
 ///
 /// # Errors
-/// `constant` is no Rust constant's name: capital letter first, then capitals, digits and `_`.
+/// Returns an error if `constant` is not a constant name: a capital letter, then capitals, digits and `_`.
 pub fn rust_source<T: Word>(
     constant: &str,
     damper: &Damper<T>,

@@ -1,20 +1,20 @@
-//! What an exported damper consists of, for either scalar.
+//! Words and bytes of an exported damper, for both scalars.
 
 use std::fmt::LowerHex;
 
 use dashpot_core::{Damper, DamperState, Real};
 
-/// A scalar whose dampers are written as words or as bytes.
+/// Scalar whose dampers can be written as words or bytes.
 pub trait Word: Real {
-    /// The words of a damper, as literals.
+    /// Returns the words of a damper as literals.
     fn literals(damper: &Damper<Self>) -> Vec<String>;
-    /// The bytes of a damper, as firmware and the C library check them.
+    /// Returns the image of a damper, which firmware and the C library check.
     fn image(damper: &Damper<Self>) -> Vec<u8>;
-    /// The words of a damper, zero-extended.
+    /// Returns the words of a damper, zero-extended.
     fn words(damper: &Damper<Self>) -> Vec<u64>;
-    /// The number of a word.
+    /// Converts a word to its number.
     fn from_word(word: u64) -> Self;
-    /// A state as bare bytes.
+    /// Returns the bytes of a state, without a checksum.
     fn state_bytes(state: &DamperState<Self>) -> Vec<u8>;
 }
 

@@ -1,68 +1,68 @@
-//! Why a file cannot be used.
+//! Errors from reading and writing files.
 
 use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a file cannot be used: which one, where in it, and what is allowed there.
+/// Error from reading or writing a file: names the file, the position in it and the allowed values.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
-    /// The file or standard input cannot be read.
+    /// Cannot read the file or standard input.
     #[error("{}: cannot read: {source}", path.display())]
     Read {
-        /// The file, or the name of the stream.
+        /// The file, or the name of the standard stream.
         path: PathBuf,
-        /// The system's reason.
+        /// Error from the operating system.
         source: io::Error,
     },
-    /// The file or standard output cannot be written.
+    /// Cannot write the file or standard output.
     #[error("{}: cannot write: {source}", path.display())]
     Write {
-        /// The file, or the name of the stream.
+        /// The file, or the name of the standard stream.
         path: PathBuf,
-        /// The system's reason.
+        /// Error from the operating system.
         source: io::Error,
     },
-    /// A folder for files cannot be made.
-    #[error("{}: cannot make the folder: {source}", path.display())]
+    /// Cannot create a directory.
+    #[error("{}: cannot create the directory: {source}", path.display())]
     Folder {
-        /// The folder.
+        /// The directory.
         path: PathBuf,
-        /// The system's reason.
+        /// Error from the operating system.
         source: io::Error,
     },
-    /// What the file holds is not as it must be.
+    /// Invalid file content.
     #[error("{}: {source}", path.display())]
     Content {
-        /// The file, or the name of the stream.
+        /// The file, or the name of the standard stream.
         path: PathBuf,
-        /// What is wrong, and what is allowed.
+        /// The problem, and the allowed values.
         source: Box<dyn Error + Send + Sync>,
     },
-    /// One line of the file is not as it must be.
+    /// Invalid line.
     #[error("{}:{line}: {source}", path.display())]
     Line {
-        /// The file, or the name of the stream.
+        /// The file, or the name of the standard stream.
         path: PathBuf,
         /// Line of the file, from 1.
         line: u64,
-        /// What is wrong, and what is allowed.
+        /// The problem, and the allowed values.
         source: Box<dyn Error + Send + Sync>,
     },
-    /// One cell of a table in the file is not as it must be.
+    /// Invalid cell of a text table.
     #[error("{}:{line}: column {column}: {source}", path.display())]
     Cell {
-        /// The file, or the name of the stream.
+        /// The file, or the name of the standard stream.
         path: PathBuf,
         /// Line of the file, from 1.
         line: u64,
         /// Name of the column.
         column: String,
-        /// What is wrong, and what is allowed.
+        /// The problem, and the allowed values.
         source: Box<dyn Error + Send + Sync>,
     },
-    /// One value of a table in the file, which has no lines, is not as it must be.
+    /// Invalid value of a table in a binary file, which has rows but no lines.
     #[error("{}: row {row}: column {column}: {source}", path.display())]
     Row {
         /// The file.
@@ -71,19 +71,19 @@ pub enum FileError {
         row: u64,
         /// Name of the column.
         column: String,
-        /// What is wrong, and what is allowed.
+        /// The problem, and the allowed values.
         source: Box<dyn Error + Send + Sync>,
     },
 }
 
 impl FileError {
-    /// The file at `path` cannot be read.
+    /// Error for a file that cannot be read.
     pub fn read(path: &Path, source: io::Error) -> Self {
         let path = path.to_owned();
         Self::Read { path, source }
     }
 
-    /// What the file at `path` holds is not as it must be.
+    /// Error for invalid content of the file at `path`.
     pub fn in_file(path: &Path, source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self::Content {
             path: path.to_owned(),
@@ -91,7 +91,7 @@ impl FileError {
         }
     }
 
-    /// A line of the file at `path` is not as it must be.
+    /// Error for an invalid line of the file at `path`; lines count from 1.
     pub fn in_line(
         path: &Path,
         line: u64,
@@ -104,7 +104,7 @@ impl FileError {
         }
     }
 
-    /// A cell of the file at `path` is not as it must be.
+    /// Error for an invalid cell of the file at `path`; lines count from 1.
     pub fn in_cell(
         path: &Path,
         line: u64,
@@ -119,7 +119,7 @@ impl FileError {
         }
     }
 
-    /// A value of the table in the file at `path`, which has no lines, is not as it must be.
+    /// Error for an invalid table value in a binary file at `path`; rows count from 1.
     pub fn in_row(
         path: &Path,
         row: u64,
@@ -134,7 +134,7 @@ impl FileError {
         }
     }
 
-    /// Whether the file was a pipe whose reader has left: nothing is wrong with it.
+    /// True if the output was a pipe and its reader has closed it, which is not a failure.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Self::Write { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
     }

@@ -1,4 +1,4 @@
-//! Reading: a file by its name, or standard input for `-`.
+//! Reading files, or standard input for `-`.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -7,21 +7,21 @@ use std::path::Path;
 
 use super::FileError;
 
-/// Stands for standard input or standard output in place of a file; a file of this name is `./-`.
+/// Name of standard input or standard output. A file with this name can be given as `./-`.
 pub const STANDARD_STREAM: &str = "-";
 
-/// Whether `path` is `-`.
+/// True if `path` is `-`.
 pub fn is_standard_stream(path: &Path) -> bool {
     path == Path::new(STANDARD_STREAM)
 }
 
-/// Whether `name` can only be a file's: `-`, a name with a folder, or one with an extension. Any other
-/// name may be one of the program's own.
+/// True if `name` can only be a file name: `-`, a path with a directory, or a name with an extension. Any other name
+/// may also be a built-in name.
 pub fn is_file_name(name: &Path) -> bool {
     is_standard_stream(name) || name.extension().is_some() || name.components().count() > 1
 }
 
-/// `path` as messages call it.
+/// Name of an input in messages.
 pub fn name(path: &Path) -> Cow<'_, Path> {
     if is_standard_stream(path) {
         Cow::Borrowed(Path::new("standard input"))
@@ -33,7 +33,7 @@ pub fn name(path: &Path) -> Cow<'_, Path> {
 /// Opens `path` for reading.
 ///
 /// # Errors
-/// There is no such file, it is a folder, or it may not be read.
+/// Returns an error if the file does not exist, is a directory or cannot be read.
 pub fn open(path: &Path) -> Result<Box<dyn Read>, FileError> {
     if is_standard_stream(path) {
         return Ok(Box::new(io::stdin().lock()));
@@ -47,10 +47,10 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, FileError> {
     Ok(Box::new(file))
 }
 
-/// All bytes of `path`.
+/// Reads all bytes of `path`.
 ///
 /// # Errors
-/// As [`open`].
+/// Same as [`open`].
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     open(path)?
@@ -59,10 +59,10 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// All text of `path`.
+/// Reads all text of `path`.
 ///
 /// # Errors
-/// As [`open`], or bytes that are not UTF-8.
+/// Same as [`open`]; also if the bytes are not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
     String::from_utf8(read(path)?).map_err(|error| {
         let reason = format!("not UTF-8 text: {}", error.utf8_error());
@@ -70,7 +70,7 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
     })
 }
 
-/// Bytes in the file at `path`, for a progress bar; 0 where that is not known.
+/// Size of the file at `path` in bytes, for a progress bar; 0 if unknown.
 pub fn length(path: &Path) -> u64 {
     if is_standard_stream(path) {
         return 0;

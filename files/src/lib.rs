@@ -24,6 +24,6 @@ pub mod vehicle;
 
 pub use error::FileError;
 pub use nanosecond::nearest_nanosecond;
-pub use overrides::nearest;
+pub use overrides::did_you_mean;
 pub use scalar::{Scalar, UnknownScalar};
 pub use shipped::UnknownName;

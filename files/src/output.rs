@@ -1,4 +1,4 @@
-//! Writing: files whole or not at all, or standard output for `-`.
+//! Writing files, each completely or not at all, or standard output for `-`.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -9,7 +9,7 @@ use super::FileError;
 use super::input::is_standard_stream;
 use super::temporary::Temporary;
 
-/// `path` as messages call it.
+/// Name of an output in messages.
 pub fn name(path: &Path) -> Cow<'_, Path> {
     if is_standard_stream(path) {
         Cow::Borrowed(Path::new("standard output"))
@@ -18,7 +18,7 @@ pub fn name(path: &Path) -> Cow<'_, Path> {
     }
 }
 
-/// `path` cannot be written.
+/// Error for an output that cannot be written.
 pub fn cannot_write(path: &Path, source: impl Into<io::Error>) -> FileError {
     FileError::Write {
         path: name(path).into_owned(),
@@ -26,7 +26,7 @@ pub fn cannot_write(path: &Path, source: impl Into<io::Error>) -> FileError {
     }
 }
 
-/// Rows of CSV cannot be written to `path`.
+/// Error for CSV rows that cannot be written to `path`.
 pub fn cannot_write_rows(path: &Path, error: csv::Error) -> FileError {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => cannot_write(path, error),
@@ -34,11 +34,10 @@ pub fn cannot_write_rows(path: &Path, error: csv::Error) -> FileError {
     }
 }
 
-/// As [`write_whole`] where there is a path, which `write` is given with the file; without one `write` is
-/// called all the same.
+/// Calls [`write_whole`] if there is a path, passing path and file to `write`; otherwise calls `write` with `None`.
 ///
 /// # Errors
-/// As [`write_whole`].
+/// Same as [`write_whole`].
 pub fn write_whole_if<T, E: From<FileError>>(
     path: Option<&Path>,
     write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Result<T, E>,
@@ -49,12 +48,13 @@ pub fn write_whole_if<T, E: From<FileError>>(
     }
 }
 
-/// Writes `path` through `write`; the file appears under its name only when `write` succeeded,
-/// and a file already there stays untouched otherwise. Returns what `write` returns. A link is followed; standard output (`-`), a
-/// device or a pipe, which cannot be replaced, is written to as it stands.
+/// Writes `path` through `write` and returns the value that `write` returns.
+///
+/// The file appears under its name only if `write` succeeds; otherwise an existing file stays unchanged. Symbolic links
+/// are followed. Standard output (`-`), devices and pipes cannot be replaced and are written directly.
 ///
 /// # Errors
-/// What `write` returns, or the folder cannot be written.
+/// Returns the error of `write`, or an error if the directory cannot be written.
 pub fn write_whole<T, E: From<FileError>>(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<T, E>,
@@ -67,24 +67,24 @@ pub fn write_whole<T, E: From<FileError>>(
         let file = file.map_err(|error| cannot_write(path, error))?;
         return write_through(path, file, write);
     }
-    let (written, result) = Written::new(path, write)?;
-    written.rename()?;
+    let (pending, result) = PendingFile::new(path, write)?;
+    pending.rename()?;
     Ok(result)
 }
 
-/// Whether `path` names a file that is or may be there, not standard output, a device or a pipe.
+/// True if `path` is a regular file or does not exist; false for standard output, devices and pipes.
 pub fn is_replaceable(path: &Path) -> bool {
     !is_standard_stream(path) && std::fs::metadata(path).map_or(true, |old| old.is_file())
 }
 
-/// A file written whole that has not got its name yet; without [`Self::rename`] it goes.
-struct Written<'a> {
+/// A complete file under a temporary name; deleted on drop unless [`Self::rename`] was called.
+struct PendingFile<'a> {
     path: &'a Path,
     target: PathBuf,
     temporary: Temporary,
 }
 
-impl<'a> Written<'a> {
+impl<'a> PendingFile<'a> {
     fn new<T, E: From<FileError>>(
         path: &'a Path,
         write: impl FnOnce(&mut dyn Write) -> Result<T, E>,
@@ -108,12 +108,12 @@ impl<'a> Written<'a> {
             None => make_readable(file),
         }
         .map_err(failed)?;
-        let written = Self {
+        let pending = Self {
             path,
             target,
             temporary,
         };
-        Ok((written, result))
+        Ok((pending, result))
     }
 
     fn rename(self) -> Result<(), FileError> {
@@ -134,31 +134,31 @@ fn write_through<T, E: From<FileError>>(
     Ok(result)
 }
 
-/// Writes `bytes` to `path`, whole or not at all.
+/// Writes `bytes` to `path`, completely or not at all.
 ///
 /// # Errors
-/// The file cannot be written.
+/// Returns an error if the file cannot be written.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     write_whole(path, |file| write_all(file, path, bytes))
 }
 
-/// Writes files that belong together: no one gets its name before all are written.
+/// Writes files that belong together: none appears under its name before all are written.
 ///
 /// # Errors
-/// One cannot be written, or is there and not a file.
+/// Returns an error if one cannot be written, or exists and is not a regular file.
 pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), FileError> {
-    let written: Vec<Written<'_>> = files
+    let pending: Vec<PendingFile<'_>> = files
         .iter()
         .map(|&(path, bytes)| {
             if is_replaceable(path) {
-                let (written, ()) = Written::new(path, |file| write_all(file, path, bytes))?;
-                Ok(written)
+                let (pending, ()) = PendingFile::new(path, |file| write_all(file, path, bytes))?;
+                Ok(pending)
             } else {
                 Err(cannot_write(path, io::Error::other("it is not a file")))
             }
         })
         .collect::<Result<_, _>>()?;
-    written.into_iter().try_for_each(Written::rename)
+    pending.into_iter().try_for_each(PendingFile::rename)
 }
 
 fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Result<(), FileError> {
@@ -166,10 +166,10 @@ fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Result<(), File
         .map_err(|error| cannot_write(path, error))
 }
 
-/// Makes a folder and those above it, where they are missing.
+/// Creates a directory and its missing parents.
 ///
 /// # Errors
-/// It cannot be made.
+/// Returns an error if it cannot be created.
 pub fn create_folder(folder: &Path) -> Result<(), FileError> {
     std::fs::create_dir_all(folder).map_err(|source| FileError::Folder {
         path: folder.to_owned(),
@@ -177,10 +177,10 @@ pub fn create_folder(folder: &Path) -> Result<(), FileError> {
     })
 }
 
-/// Writes each file, a name and its text, into `folder`, made where it is missing; the paths of the files.
+/// Writes each file, given as name and text, into `folder`, creating it if necessary; returns the paths.
 ///
 /// # Errors
-/// The folder cannot be made or a file not be written.
+/// Returns an error if the directory cannot be created or a file cannot be written.
 pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Result<Vec<String>, FileError> {
     create_folder(folder)?;
     files
@@ -193,7 +193,7 @@ pub fn write_folder(folder: &Path, files: &[(&str, String)]) -> Result<Vec<Strin
         .collect()
 }
 
-/// A temporary file is private to its owner; a result is for everyone who may read the folder.
+/// Temporary files are private to their owner; results are readable by everyone who can read the directory.
 #[cfg(unix)]
 fn make_readable(file: &File) -> io::Result<()> {
     use std::os::unix::fs::PermissionsExt;

@@ -1,25 +1,34 @@
-//! Overrides of a file's values: `path.key=value`.
+//! Overrides of values in a file: `path.key=value`.
 
-/// The keys before the last, the last key, and the value of `path.key=value`, the value written as in TOML; an integer is a
-/// number like any other.
+/// A parsed override `path.key=value`.
+pub(crate) struct Override<'a> {
+    /// Keys of the tables, outermost first.
+    pub path: Vec<&'a str>,
+    /// Key in the innermost table.
+    pub key: &'a str,
+    /// Value; integers are converted to floating point.
+    pub value: toml::Value,
+}
+
+/// Parses an override `path.key=value` with a TOML value.
 ///
 /// # Errors
-/// What is wrong with the assignment, in words.
-pub(crate) fn parse(assignment: &str) -> Result<(Vec<&str>, &str, toml::Value), String> {
+/// Returns a description of the problem.
+pub(crate) fn parse(assignment: &str) -> Result<Override<'_>, String> {
     let (path, value) = assignment.split_once('=').ok_or("no `=`")?;
     let value: toml::Table = toml::from_str(&format!("value = {}", value.trim()))
         .map_err(|error| error.message().to_owned())?;
     let value = value.get("value").cloned().ok_or("no value")?;
-    let mut keys: Vec<&str> = path.trim().split('.').collect();
-    let last = keys.pop().filter(|key| !key.is_empty()).ok_or("no key")?;
+    let mut path: Vec<&str> = path.trim().split('.').collect();
+    let key = path.pop().filter(|key| !key.is_empty()).ok_or("no key")?;
     let value = match value {
         toml::Value::Integer(number) => toml::Value::Float(number as f64),
         other => other,
     };
-    Ok((keys, last, value))
+    Ok(Override { path, key, value })
 }
 
-/// The parser's message with the nearest known key where it met an unknown one.
+/// Returns the parser's message; for an unknown key it adds the most similar known key.
 pub(crate) fn explain(error: &toml::de::Error) -> String {
     let message = error.to_string();
     let message = message.trim_end();
@@ -29,17 +38,18 @@ pub(crate) fn explain(error: &toml::de::Error) -> String {
             if error.message().starts_with("unknown field")
                 || error.message().starts_with("unknown variant") =>
         {
-            format!("{message}{}", nearest(unknown, known.iter().copied()))
+            format!("{message}{}", did_you_mean(unknown, known.iter().copied()))
         }
         _ => message.to_owned(),
     }
 }
 
-/// `; did you mean` the nearest of the `known` words, where one is near.
-pub fn nearest<'a>(unknown: &str, known: impl Iterator<Item = &'a str>) -> String {
+/// Returns `` ; did you mean `word`? `` with the most similar of the `known` words, or an empty text if none is
+/// similar.
+pub fn did_you_mean<'a>(unknown: &str, known: impl Iterator<Item = &'a str>) -> String {
     known
         .map(|key| (strsim::jaro_winkler(unknown, key), key))
-        .filter(|(likeness, _)| *likeness > 0.7)
+        .filter(|(similarity, _)| *similarity > 0.7)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map_or_else(String::new, |(_, key)| format!("; did you mean `{key}`?"))
 }

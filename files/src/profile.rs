@@ -1,4 +1,4 @@
-//! Profile files of wheels and rails.
+//! Profiles of wheels and rails, built in or from files.
 
 use std::path::Path;
 
@@ -7,36 +7,37 @@ use dashpot_rail::profile::{Body, Profile, s1002, uic60};
 
 use super::{FileError, input};
 
-/// Why there is no profile.
+/// Error from loading a profile.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum NamedProfileError {
-    /// A wavelength that no profile is smoothed by.
+    /// Smoothing wavelength (m) out of range.
     #[error("smoothing_m: {0}, allowed: 0 to 0.05 m")]
     Smoothing(f64),
-    /// A built-in profile is read in no format.
-    #[error("{known} is built in; allowed with a format or mirror: a profile file")]
+    /// A format or mirror was given for a built-in profile.
+    #[error("{known} is built in; a format or mirror is allowed for profile files only")]
     BuiltIn {
-        /// The profile.
+        /// Name of the profile.
         known: &'static str,
     },
-    /// The name is neither the built-in profile's nor a file's.
+    /// The name is neither the built-in profile nor a file.
     #[error("{name}: no such profile, allowed: {known} or a profile file")]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// The built-in profile.
+        /// Name of the built-in profile.
         known: &'static str,
     },
-    /// The file cannot be used.
+    /// Cannot use the file.
     #[error(transparent)]
     File(#[from] FileError),
 }
 
-/// The profile of `body` called `name`: the built-in one, `s1002` or `uic60`, or a file, with what was read of that.
+/// Loads the profile of `body` called `name`: built in (`s1002`, `uic60`) or a file. For a file it also returns a
+/// report of the reading.
 ///
 /// # Errors
-/// No such profile, options that there are not for it, or as [`read`].
+/// Returns an error for an unknown profile or options that do not apply to it; for files, same as [`read`].
 ///
 /// ```
 /// use dashpot_files::profile;
@@ -73,12 +74,12 @@ pub fn load(
     Err(NamedProfileError::Unknown { name, known })
 }
 
-/// Reads the profile of `body` at `path`, where `-` is standard input, as [`measured::parse`] does.
+/// Reads the profile of `body` at `path` (`-` for standard input) with [`measured::parse`].
 ///
-/// Letters that are not UTF-8 are replaced: they stand in comments, in whatever encoding a gauge's computer had.
+/// Bytes that are not UTF-8 are replaced: they occur in comments, in the encoding of the profile gauge's computer.
 ///
 /// # Errors
-/// The file cannot be read, or the errors of [`measured::parse`] with file, line and column.
+/// Returns an error if the file cannot be read, and the errors of [`measured::parse`] with file, line and column.
 pub fn read(path: &Path, body: Body, options: &Options) -> Result<(Profile, Reading), FileError> {
     let bytes = input::read(path)?;
     let path = &*input::name(path);

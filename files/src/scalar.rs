@@ -1,4 +1,4 @@
-//! The scalars that the step runs in, and their names.
+//! Scalar types of the damper step, by name.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,11 +6,11 @@ use std::str::FromStr;
 use dashpot_core::Real;
 use serde::Serialize;
 
-/// A scalar that the step runs in.
+/// Scalar type of the damper step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Scalar {
-    /// Single precision, as on the target.
+    /// Single precision, as in firmware.
     #[default]
     F32,
     /// Double precision.
@@ -21,7 +21,7 @@ impl Scalar {
     /// Both scalars.
     pub const ALL: [Self; 2] = [Self::F32, Self::F64];
 
-    /// That of a type.
+    /// Returns the scalar for a Rust type.
     pub fn of<T: Real>() -> Self {
         if T::NAME == <f32 as Real>::NAME {
             Self::F32
@@ -30,7 +30,7 @@ impl Scalar {
         }
     }
 
-    /// Its name, as in Rust.
+    /// Name of the type in Rust.
     pub const fn name(self) -> &'static str {
         match self {
             Self::F32 => <f32 as Real>::NAME,
@@ -45,7 +45,7 @@ impl fmt::Display for Scalar {
     }
 }
 
-/// A name that no scalar has.
+/// Unknown scalar name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("no scalar `{0}`, allowed: f32, f64")]
 pub struct UnknownScalar(String);

@@ -1,48 +1,51 @@
-//! What ships with the program by its name, or a file in its place.
+//! Built-in data selected by name, with a file as the alternative.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use super::overrides::nearest;
+use super::overrides::did_you_mean;
 use super::{FileError, input};
 
-/// A name that is neither one of the program's own nor a file's.
+/// A name that is neither built in nor a file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{what} `{name}`: no such {one} or file; give a TOML file or a {one}: {known}{hint}")]
+#[error(
+    "{kind} `{name}`: no such {built_in} or file; give a TOML file or a {built_in}: {known}{hint}"
+)]
 pub struct UnknownName {
-    /// What was looked for.
-    pub what: &'static str,
-    /// What one of the program's own is called.
-    pub one: &'static str,
-    /// The name.
+    /// Kind of data, such as `damper`.
+    pub kind: &'static str,
+    /// Word for a built-in item, such as `preset`.
+    pub built_in: &'static str,
+    /// The unknown name.
     pub name: String,
-    /// Those there are.
+    /// Built-in names, separated by commas.
     pub known: String,
-    /// The nearest one, where one is near.
+    /// Suggestion of a similar name; empty if none is similar.
     pub hint: String,
 }
 
-/// What of a kind ships with the program.
+/// Built-in items of one kind.
 pub(crate) struct Shipped {
-    /// What they are.
-    pub what: &'static str,
-    /// What one of them is called.
-    pub one: &'static str,
-    /// Names and texts.
+    /// Kind of data, such as `damper`.
+    pub kind: &'static str,
+    /// Word for one item, such as `preset`.
+    pub built_in: &'static str,
+    /// Name and text of each item.
     pub texts: &'static [(&'static str, &'static str)],
 }
 
-/// A text found by a name.
+/// Text found for a name.
 pub(crate) struct Found {
-    /// What stands for it in errors.
+    /// Name in error messages.
     pub name: String,
+    /// The text.
     pub text: Cow<'static, str>,
-    /// From where the names of files in it count.
+    /// Directory to which file names in the text are relative.
     pub folder: PathBuf,
 }
 
 impl Shipped {
-    /// The text called `name`: a shipped one, or the file at that path, `-` being standard input.
+    /// Finds the text called `name`: a built-in one, or the file at that path (`-` for standard input).
     pub fn find<E: From<UnknownName> + From<FileError>>(&self, name: &str) -> Result<Found, E> {
         if let Some((_, text)) = self.texts.iter().find(|(shipped, _)| *shipped == name) {
             return Ok(Found {
@@ -55,11 +58,11 @@ impl Shipped {
         if !input::is_file_name(path) && !path.exists() {
             let names = || self.texts.iter().map(|(shipped, _)| *shipped);
             return Err(E::from(UnknownName {
-                what: self.what,
-                one: self.one,
+                kind: self.kind,
+                built_in: self.built_in,
                 name: name.to_owned(),
                 known: names().collect::<Vec<_>>().join(", "),
-                hint: nearest(name, names()),
+                hint: did_you_mean(name, names()),
             }));
         }
         Ok(Found {
@@ -70,11 +73,11 @@ impl Shipped {
     }
 }
 
-/// `name` as it stands in a file of `folder`: a file's name counts from there, any other is one of the program's own.
-pub(crate) fn named_in(folder: &Path, name: &str) -> String {
+/// Resolves a name written in a file of `folder`: file names are relative to that directory, other names are built in.
+pub(crate) fn resolve_name(folder: &Path, name: &str) -> String {
     let path = Path::new(name);
     if input::is_standard_stream(path) {
-        // Only a command line can mean standard input.
+        // Inside a file, `-` is a file name, not standard input.
         return folder.join("./-").to_string_lossy().into_owned();
     }
     if input::is_file_name(path) {

@@ -1,4 +1,4 @@
-//! The states of a bank as a file that a person can read.
+//! Saved states of a damper bank as a readable TOML file.
 
 use std::path::Path;
 
@@ -10,21 +10,22 @@ use super::{FileError, input};
 
 const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 
-/// The states of a bank at a tick.
+/// States of a damper bank at one tick.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BankState {
-    /// The last tick.
+    /// Last completed tick.
     pub tick: u32,
-    /// One state for each place, from place 0 on.
-    pub places: Vec<PlaceState>,
+    /// State of each slot, starting at slot 0.
+    #[serde(rename = "places")]
+    pub slots: Vec<SlotState>,
 }
 
-/// The state of the damper in a place: [`DamperState::to_bytes`].
+/// State of the damper in one slot, the fields of [`DamperState::to_bytes`]; SI units.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct PlaceState {
-    /// Of the damper that made it.
+pub struct SlotState {
+    /// Revision of the damper that last stepped the state.
     #[serde(with = "hexadecimal")]
     pub revision: u32,
     displacement_m: f32,
@@ -35,7 +36,7 @@ pub struct PlaceState {
     rejected_inputs: u16,
 }
 
-impl PlaceState {
+impl SlotState {
     fn from_bytes(bytes: [u8; STATE_BYTES]) -> Self {
         let [x, stretch, potential, force, revision, last] = words(bytes);
         let [s0, s1, n0, n1] = last;
@@ -45,7 +46,7 @@ impl PlaceState {
             stretch_m: f32::from_le_bytes(stretch),
             flow_potential_m2: f32::from_le_bytes(potential),
             force_n: f32::from_le_bytes(force),
-            status: status_bits::of_word(u16::from_le_bytes([s0, s1])),
+            status: status_bits::from_word(u16::from_le_bytes([s0, s1])),
             rejected_inputs: u16::from_le_bytes([n0, n1]),
         }
     }
@@ -66,43 +67,42 @@ impl PlaceState {
     }
 }
 
-/// The bytes in words of 4.
+/// Splits the bytes into words of 4 bytes.
 fn words(bytes: [u8; STATE_BYTES]) -> [[u8; 4]; STATE_BYTES / 4] {
     std::array::from_fn(|word| std::array::from_fn(|byte| bytes[4 * word + byte]))
 }
 
 impl BankState {
-    /// The states in the bytes that a target saved; `None` when one is cut short.
+    /// Reads states from the bytes that a target saved; `None` if the last one is incomplete.
     pub fn from_bytes(tick: u32, states: &[u8]) -> Option<Self> {
         let (states, rest) = states.as_chunks::<STATE_BYTES>();
-        let places = states.iter().copied().map(PlaceState::from_bytes);
+        let slots = states.iter().copied().map(SlotState::from_bytes);
         rest.is_empty().then(|| Self {
             tick,
-            places: places.collect(),
+            slots: slots.collect(),
         })
     }
 
-    /// The states as a target takes them.
+    /// Returns the states as the bytes that a target restores.
     pub fn to_bytes(&self) -> Vec<u8> {
-        self.places.iter().flat_map(PlaceState::to_bytes).collect()
+        self.slots.iter().flat_map(SlotState::to_bytes).collect()
     }
 
-    /// The file's text.
+    /// Returns the text of the file.
     ///
     /// # Errors
-    /// None: every state can be written as TOML.
+    /// Every state can be written as TOML, so no error is expected.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         Ok(format!(
-            "# States of a bank of dampers, one [[places]] for each place from 0 on.\n\
-             # Written by `dashpot link save`, given back by `dashpot link restore`.\n{}",
+            "# Saved states of a bank of dampers: one [[places]] table per slot, starting at slot 0.\n{}",
             toml::to_string(self)?
         ))
     }
 
-    /// Reads the file at `path`, `-` being standard input.
+    /// Reads the file at `path` (`-` for standard input).
     ///
     /// # Errors
-    /// The file cannot be read, or its text is not that of a state file.
+    /// Returns an error if the file cannot be read or is not a valid state file.
     pub fn read(path: &Path) -> Result<Self, FileError> {
         toml::from_str(&input::read_text(path)?).map_err(|error| {
             // The parser's message ends with a line break.
@@ -111,7 +111,7 @@ impl BankState {
     }
 }
 
-/// A revision as other commands print it.
+/// Revisions as hexadecimal text, such as `0x0123abcd`.
 mod hexadecimal {
     use serde::de::Error;
     use serde::{Deserialize, Deserializer, Serializer};

@@ -1,9 +1,9 @@
-//! Latched status bits by their names.
+//! Latched status bits by name.
 
 use dashpot_core::Status;
 use serde::{Deserialize, Serialize};
 
-/// A status bit of a damper.
+/// Status bit of a damper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StatusBit {
@@ -21,7 +21,7 @@ pub enum StatusBit {
     Restarted,
 }
 
-/// Each bit, what the core calls it, and what a person reads.
+/// Each bit with the core's flag and its words in messages.
 const ALL: [(StatusBit, Status, &str); 6] = [
     (StatusBit::InputHeld, Status::INPUT_HELD, "input held"),
     (
@@ -39,21 +39,21 @@ const ALL: [(StatusBit, Status, &str); 6] = [
     (StatusBit::Restarted, Status::RESTARTED, "restarted"),
 ];
 
-/// The bits that are set in a status word.
-pub fn of_word(word: u16) -> Vec<StatusBit> {
+/// Returns the bits that are set in a status word; unknown bits are ignored.
+pub fn from_word(word: u16) -> Vec<StatusBit> {
     let status = Status::from_bits_truncate(word);
     let set = ALL.iter().filter(|(_, bit, _)| status.contains(*bit));
     set.map(|(name, ..)| *name).collect()
 }
 
-/// The status word with these bits set.
+/// Returns the status word with these bits set.
 pub fn to_word(names: &[StatusBit]) -> u16 {
     let set = ALL.iter().filter(|(name, ..)| names.contains(name));
     set.fold(0, |word, (_, bit, _)| word | bit.bits())
 }
 
-/// The bits in words, separated by commas; `none` without any.
-pub fn in_words(names: &[StatusBit]) -> String {
+/// Describes the bits in words, separated by commas; `none` for an empty list.
+pub fn describe(names: &[StatusBit]) -> String {
     let set = ALL.iter().filter(|(name, ..)| names.contains(name));
     let words: Vec<&str> = set.map(|(_, _, word)| *word).collect();
     if words.is_empty() {

@@ -1,5 +1,4 @@
-//! Files that are not whole yet: under a name of their own, deleted when their writing fails or the
-//! command is interrupted.
+//! Temporary files for incomplete output, deleted if writing fails or the program is interrupted.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -9,19 +8,19 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::{Builder, NamedTempFile};
 
-/// The temporary files. A thread that makes, renames or deletes one holds the lock while it does, so
-/// that an interruption finds each of them either in the list or gone.
+/// Paths of all temporary files. A thread holds the lock while it creates, renames or deletes one, so that on an
+/// interruption each file is either listed or already gone.
 static PATHS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 fn paths() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     PATHS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A temporary file, deleted when dropped.
+/// Temporary file, deleted on drop.
 pub(crate) struct Temporary(Option<NamedTempFile>);
 
 impl Temporary {
-    /// A new one in `folder`, for its owner only.
+    /// Creates a file in `folder` that only its owner can read.
     pub(crate) fn new(folder: &Path) -> io::Result<Self> {
         let mut paths = paths();
         let file = Builder::new().prefix(".dashpot-").tempfile_in(folder)?;
@@ -29,13 +28,13 @@ impl Temporary {
         Ok(Self(Some(file)))
     }
 
-    /// The open file.
+    /// Returns the open file.
     pub(crate) fn file(&self) -> io::Result<&File> {
         let file = self.0.as_ref().ok_or(io::ErrorKind::NotFound)?;
         Ok(file.as_file())
     }
 
-    /// Gives the file its name, in place of one already there.
+    /// Renames the file to `target`, replacing an existing file.
     pub(crate) fn rename(mut self, target: &Path) -> io::Result<()> {
         let mut paths = paths();
         let file = self.0.take().ok_or(io::ErrorKind::NotFound)?;
@@ -50,17 +49,17 @@ impl Drop for Temporary {
         if let Some(file) = self.0.take() {
             let mut paths = paths();
             paths.remove(file.path());
-            // There is no one to report an error to.
+            // `drop` cannot report an error.
             let _ = file.close();
         }
     }
 }
 
-/// Deletes all temporary files; no file can be made while the returned guard lives.
+/// Deletes all temporary files. No new one can be created while the returned guard is alive.
 pub fn delete_all() -> impl Drop {
     let paths = paths();
     for path in &*paths {
-        // Nothing more can be done for one that cannot be deleted.
+        // A file that cannot be deleted is left behind.
         let _ = std::fs::remove_file(path);
     }
     paths

@@ -12,7 +12,7 @@ fuzz_target!(|text: &str| {
     for test in &sheet.tests {
         assert!(test.motion.check().is_ok());
         for limit in &test.limits {
-            let end = limit.least.or(limit.most);
+            let end = limit.min.or(limit.max);
             assert!(end.is_some() && limit.is_kept(end));
         }
     }

@@ -18,7 +18,7 @@ fuzz_target!(|text: &str| {
     for figure in &study.figures {
         assert!(
             figure
-                .shown
+                .content
                 .sweeps()
                 .iter()
                 .all(|name| study.sweep(name).is_some())

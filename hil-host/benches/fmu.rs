@@ -9,7 +9,7 @@ use std::ptr;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
-use dashpot_export::fmu::{Fmu, Interface, Named, compile};
+use dashpot_export::fmu::{Fmu, Interface, NamedDamper, compile};
 use dashpot_files::damper;
 use libloading::{Library, Symbol};
 
@@ -69,7 +69,7 @@ fn fmu(criterion: &mut Criterion) {
         });
     });
 
-    let named = Named {
+    let named = NamedDamper {
         name: "in-service".into(),
         damper,
         clearance_m: parameters.mount.clearance_m,

@@ -28,8 +28,8 @@ pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement
         let parameters = DamperParameters::clone(&made.get().parameters);
         Ok(Replacement {
             dampers,
-            by: value.repr()?.to_string(),
-            made: Some(Box::new(parameters)),
+            damper: value.repr()?.to_string(),
+            parameters: Some(Box::new(parameters)),
         })
     };
     given.iter().map(one).collect()

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use dashpot_files::case::{CASES, Case, CaseOptions, CaseParts};
+use dashpot_files::case::{CASES, Case, CaseNumbers, CaseOptions, CaseParts};
 use dashpot_study::sweep::Shared;
 use dashpot_vehicle_run::Ending;
 use dashpot_vehicle_run::recorded::{Recorded, record};
@@ -134,7 +134,7 @@ pub fn vehicle(
         case: case.as_deref(),
         vehicle: vehicle.as_deref(),
         track: track.as_deref(),
-        numbers: [
+        numbers: CaseNumbers {
             speed_km_h,
             duration_s,
             start_m,
@@ -142,7 +142,7 @@ pub fn vehicle(
             normal_damping_s_per_m,
             step_us,
             push_m,
-        ],
+        },
     };
     let Some(mut options) = parts.options()? else {
         let names = CASES.map(|(name, _)| name).join(", ");

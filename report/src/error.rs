@@ -1,8 +1,8 @@
-//! Why there is no plot.
+//! Drawing errors.
 
 use std::error::Error;
 
-/// A plot that cannot be drawn or written, with the reason.
+/// Error from drawing or writing a plot.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot draw: {0}")]
 pub struct DrawError(#[source] pub(super) Box<dyn Error + Send + Sync>);

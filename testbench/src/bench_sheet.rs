@@ -62,7 +62,7 @@ pub fn run<'a>(
 ) -> Result<Vec<Tested<'a>>, SheetFileError> {
     let prepared = sheet.tests.iter().map(|test| {
         let damper = at_temperature(sheet, test, name, damper)?;
-        check_steps(&damper, test.motion, step_s).map_err(|error| sheet.wrong(test, error))?;
+        check_steps(&damper, test.motion, step_s).map_err(|error| sheet.test_error(test, error))?;
         Ok((test, damper))
     });
     let prepared = prepared.collect::<Result<Vec<_>, SheetFileError>>()?;
@@ -74,7 +74,7 @@ pub fn run<'a>(
                 Element::Physical(hydraulics) => Some(hydraulics.oil.temperature_c),
                 _ => None,
             },
-            cycle: cycle.map_err(|error| sheet.wrong(test, error))?,
+            cycle: cycle.map_err(|error| sheet.test_error(test, error))?,
         })
     })
 }
@@ -92,9 +92,9 @@ fn at_temperature(
         let message = format!(
             "temperature_c: the reduced damper {name} has no oil; allowed: a damper with [oil], or no temperature"
         );
-        return Err(sheet.wrong(test, message));
+        return Err(sheet.test_error(test, message));
     }
     let changed =
         Keyed::new(name, damper).and_then(|keyed| keyed.with(&[(TEMPERATURE, temperature_c)]));
-    changed.map_err(|error| sheet.wrong(test, format!("temperature_c: {error}")))
+    changed.map_err(|error| sheet.test_error(test, format!("temperature_c: {error}")))
 }

@@ -20,7 +20,7 @@ fn signals(fault: Option<&str>) -> (Vec<Signals>, dashpot_core::DamperParameters
     options.faults.extend(fault.map(|change| FaultOptions {
         time_s: 10.0,
         damper: WATCHED[0].into(),
-        by: None,
+        replacement: None,
         overrides: vec![change.into()],
     }));
     let case = options.case().unwrap();

@@ -1,7 +1,8 @@
-//! A vehicle whose dampers outside other FMUs are, as the model behind `model.h` (`export/src/fmu/sources`).
+//! Vehicle with externally computed dampers, as the model behind `model.h` (`export/src/fmu/sources`).
 //!
-//! What the C of an FMU promises in every function: a pointer to a model is of `model_new`, and not freed; other pointers are to one value of
-//! their type, or to as many bytes as the length says; no model is used by two threads at once. No panic leaves a function.
+//! The C code of an FMU guarantees the following for every function. A pointer to a model comes from `model_new` and is
+//! not freed. Other pointers are valid for one value of their type, or for the number of bytes given. No two threads
+//! use a model at the same time. In return, no panic leaves a function.
 
 mod model;
 mod result;
@@ -14,78 +15,78 @@ use model::Model;
 use result::ModelResult;
 
 unsafe extern "C" {
-    /// Digest of the case that the FMU was exported with.
+    /// Digest of the case with which the FMU was exported, ends in a zero.
     static model_case_digest: c_char;
 }
 
-/// What a call does with a model that no panic leaves; after one it has failed, and `or` is the answer.
-fn guarded<T>(this: &mut Model, or: T, act: impl FnOnce(&mut Model) -> T) -> T {
-    catch_unwind(AssertUnwindSafe(|| act(this))).unwrap_or_else(|_| {
-        this.fail(FAULT);
-        or
+/// Runs `action` on a model and catches panics. After a panic the model has failed, and `fallback` is returned.
+fn guarded<T>(this: &mut Model, fallback: T, action: impl FnOnce(&mut Model) -> T) -> T {
+    catch_unwind(AssertUnwindSafe(|| action(this))).unwrap_or_else(|_| {
+        this.fail(PANIC);
+        fallback
     })
 }
 
-const FAULT: &str = "a fault of the program";
+const PANIC: &str = "internal error of the model";
 
-/// A model of the files in the folder `resources`; null with a reason where they make none.
+/// Creates a model from the files in the folder `resources`; on failure returns null and writes the reason.
 ///
 /// # Safety
-/// As above; `resources` ends in a zero.
+/// See the module; `resources` ends in a zero.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_new(
     resources: *const c_char,
     reason: *mut c_char,
     reason_bytes: usize,
 ) -> *mut Model {
-    let made = catch_unwind(|| {
+    let model = catch_unwind(|| {
         if resources.is_null() {
-            return Err("no folder of resources".into());
+            return Err("no resources folder".into());
         }
-        // SAFETY: not null, ends in a zero.
+        // SAFETY: not null and ends in a zero.
         let folder = unsafe { CStr::from_ptr(resources) };
         let folder = folder
             .to_str()
-            .map_err(|error| format!("the folder of resources: {error}"))?;
+            .map_err(|error| format!("resources folder: {error}"))?;
         // SAFETY: a constant of the FMU that ends in a zero.
         let digest = unsafe { CStr::from_ptr(&raw const model_case_digest) };
         Model::new(Path::new(folder), &digest.to_string_lossy())
     });
-    match made.unwrap_or_else(|_| Err(FAULT.into())) {
+    match model.unwrap_or_else(|_| Err(PANIC.into())) {
         Ok(model) => Box::into_raw(Box::new(model)),
         Err(text) => {
-            // SAFETY: as many bytes as the length says.
+            // SAFETY: `reason` has room for `reason_bytes`.
             unsafe { put_text(&text, reason, reason_bytes) };
             std::ptr::null_mut()
         }
     }
 }
 
-/// Frees it; nothing of a null pointer.
+/// Frees a model; ignores a null pointer.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_free(this: *mut Model) {
     if !this.is_null() {
-        // SAFETY: of `model_new`.
+        // SAFETY: the pointer comes from `model_new`.
         drop(unsafe { Box::from_raw(this) });
     }
 }
 
-/// Start values again.
+/// Resets the model to its start values.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_reset(this: &mut Model) {
     guarded(this, (), Model::reset);
 }
 
-/// A number.
+/// Reads a real variable.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_get_real(
     this: &mut Model,
@@ -94,7 +95,7 @@ pub unsafe extern "C" fn model_get_real(
 ) -> ModelResult {
     match guarded(this, None, |this| this.number(variable)) {
         Some(number) => {
-            // SAFETY: to one value.
+            // SAFETY: valid for one value.
             unsafe { value.write(number) };
             ModelResult::Done
         }
@@ -102,37 +103,37 @@ pub unsafe extern "C" fn model_get_real(
     }
 }
 
-/// Whether it may be set.
+/// Checks whether a real variable may be set to a value.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_check_real(this: &Model, variable: u32, value: f64) -> ModelResult {
     this.check(variable, value)
 }
 
-/// Sets what may be set.
+/// Sets a real variable that may be set.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_set_real(this: &mut Model, variable: u32, value: f64) {
     guarded(this, (), |this| this.set(variable, value));
 }
 
-/// No input is interpolated.
+/// Refuses derivatives: inputs are not interpolated.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_set_derivative(_: &mut Model, _: u32, _: f64) -> ModelResult {
     ModelResult::NoVariable
 }
 
-/// How it ended.
+/// Reads an integer variable, which says how the run ended.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_get_integer(
     this: &Model,
@@ -141,7 +142,7 @@ pub unsafe extern "C" fn model_get_integer(
 ) -> ModelResult {
     match this.integer(variable) {
         Some(integer) => {
-            // SAFETY: to one value.
+            // SAFETY: valid for one value.
             unsafe { value.write(integer) };
             ModelResult::Done
         }
@@ -149,72 +150,72 @@ pub unsafe extern "C" fn model_get_integer(
     }
 }
 
-/// What is allowed for a variable, in words.
+/// Describes the allowed values of a variable.
 #[unsafe(no_mangle)]
 pub extern "C" fn model_allowed(_: u32) -> *const c_char {
     c"a force that is a finite number".as_ptr()
 }
 
-/// The vehicle stands as the case has it.
+/// Ends the initialization; the vehicle is already in the initial state of the case.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_start(_: &mut Model) {}
 
-/// Ticks, fewer where it ends: how many.
+/// Runs steps and returns their number, which is smaller if the run ends.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_step(this: &mut Model, steps: u64) -> u64 {
     guarded(this, 0, |this| this.step(steps))
 }
 
-/// Whether it has ended.
+/// True if the run has ended.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_has_ended(this: &Model) -> bool {
     this.has_ended()
 }
 
-/// Whether it has failed.
+/// True if the model has failed.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_has_failed(this: &Model) -> bool {
     this.has_failed()
 }
 
-/// What happened since it was last asked; null where nothing did.
+/// Returns the message about the last event since the previous call; null if there was none.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_notice(this: &mut Model) -> *const c_char {
     this.notice().map_or(std::ptr::null(), CStr::as_ptr)
 }
 
-/// Bytes of a state.
+/// Size of a saved state in bytes.
 ///
 /// # Safety
-/// As above.
+/// See the module.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_saved_bytes(this: &Model) -> usize {
     this.saved_bytes()
 }
 
-/// All that changes.
+/// Saves the state.
 ///
 /// # Safety
-/// As above; `bytes` has as many as [`model_saved_bytes`] says.
+/// See the module; `bytes` has the length [`model_saved_bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_save(this: &mut Model, bytes: *mut u8) {
     let count = this.saved_bytes();
-    // SAFETY: as many as the caller promises, written before they are read, and nobody else's.
+    // SAFETY: the caller provides `count` bytes for exclusive use; they are written before they are read.
     let bytes = unsafe {
         bytes.write_bytes(0, count);
         std::slice::from_raw_parts_mut(bytes, count)
@@ -222,18 +223,18 @@ pub unsafe extern "C" fn model_save(this: &mut Model, bytes: *mut u8) {
     guarded(this, (), |this| this.save(bytes));
 }
 
-/// Goes on from a state; refused, the model stays as it is.
+/// Restores a saved state; on failure the model is unchanged.
 ///
 /// # Safety
-/// As above; `bytes` has as many as [`model_saved_bytes`] says.
+/// See the module; `bytes` has the length [`model_saved_bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_restore(this: &mut Model, bytes: *const u8) -> ModelResult {
-    // SAFETY: as many as the caller promises.
+    // SAFETY: the caller provides this number of bytes.
     let bytes = unsafe { std::slice::from_raw_parts(bytes, this.saved_bytes()) };
     guarded(this, ModelResult::Other, |this| this.restore(bytes))
 }
 
-/// As much of a text as there is room for, and a zero.
+/// Writes a text, truncated to the room available, and a zero.
 ///
 /// # Safety
 /// `to` has room for `bytes`.
@@ -242,8 +243,8 @@ unsafe fn put_text(text: &str, to: *mut c_char, bytes: usize) {
         return;
     }
     let text = &text.as_bytes()[..text.floor_char_boundary(bytes - 1)];
-    for (place, byte) in text.iter().chain(&[0]).enumerate() {
-        // SAFETY: less than `bytes`.
-        unsafe { to.add(place).write(*byte as c_char) };
+    for (index, byte) in text.iter().chain(&[0]).enumerate() {
+        // SAFETY: the index is less than `bytes`.
+        unsafe { to.add(index).write(*byte as c_char) };
     }
 }

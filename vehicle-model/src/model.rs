@@ -1,4 +1,4 @@
-//! A coupled vehicle with its variables by number, and what it has to tell.
+//! Coupled vehicle with numbered variables and pending messages.
 
 use std::ffi::{CStr, CString};
 use std::path::Path;
@@ -7,32 +7,32 @@ use dashpot_vehicle_run::{Coupled, CoupledCase, Ending};
 
 use crate::result::ModelResult;
 
-/// A model of `model.h`.
+/// Model behind `model.h`.
 pub struct Model {
     vehicle: Coupled,
-    /// Room for a saved state: twice that of the start, which leaves every count its largest.
+    /// Fixed size of a saved state: twice the initial size, so that every counter has room to grow.
     saved_bytes: usize,
-    /// Whether it goes no further for a reason that is not of its case.
-    failure: bool,
-    /// To be told next.
+    /// True after an error that is not an ending of the case.
+    has_failed: bool,
+    /// Message not yet returned.
     notice: Option<CString>,
-    /// Told last, and read by others until the next.
-    told: Option<CString>,
+    /// Message returned last, which the caller may read until the next call.
+    last_notice: Option<CString>,
 }
 
 impl Model {
-    /// Of the case of this digest and the tables in a folder.
+    /// Reads the case, which must have this digest, and the contact tables from a folder.
     ///
     /// # Errors
-    /// A file that is not there or is none of this version, in words.
+    /// Returns a description of the problem if a file is missing or of another version.
     pub fn new(resources: &Path, digest: &str) -> Result<Self, String> {
         let path = resources.join(CoupledCase::FILE);
-        let told = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-        let text = std::fs::read(&path).map_err(|error| told(&error))?;
+        let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+        let text = std::fs::read(&path).map_err(|error| in_file(&error))?;
         if CoupledCase::digest(&text) != digest {
-            return Err(told(&"not the case that this FMU was exported with"));
+            return Err(in_file(&"not the case that this FMU was exported with"));
         }
-        let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| told(&error))?;
+        let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| in_file(&error))?;
         let contact = case.contact().map_err(|error| error.to_string())?;
         let tables = contact.tables_in(resources);
         let vehicle = tables.and_then(|tables| Coupled::new(&case, tables));
@@ -41,36 +41,36 @@ impl Model {
         Ok(Self {
             saved_bytes: size_of::<u64>() + 2 * saved.len(),
             vehicle,
-            failure: false,
+            has_failed: false,
             notice: None,
-            told: None,
+            last_notice: None,
         })
     }
 
     pub fn reset(&mut self) {
         self.vehicle.reset();
-        self.failure = false;
+        self.has_failed = false;
         self.notice = None;
     }
 
-    /// Place of a variable: they count from 1 on.
-    fn place(variable: u32) -> Option<usize> {
+    /// Index of a variable; variables count from 1.
+    fn index(variable: u32) -> Option<usize> {
         usize::try_from(variable).ok()?.checked_sub(1)
     }
 
     pub fn number(&self, variable: u32) -> Option<f64> {
-        self.vehicle.number(Self::place(variable)?)
+        self.vehicle.number(Self::index(variable)?)
     }
 
-    /// Behind the last number there is how it ended.
+    /// Reads an integer variable: the one after the last real variable says how the run ended.
     pub fn integer(&self, variable: u32) -> Option<i32> {
-        let is_ending = Self::place(variable)? == self.vehicle.variables().len();
+        let is_ending = Self::index(variable)? == self.vehicle.variables().len();
         is_ending.then(|| self.vehicle.ending_number())
     }
 
     pub fn check(&self, variable: u32, value: f64) -> ModelResult {
-        let place = Self::place(variable);
-        match place.and_then(|place| self.vehicle.variables().get(place)) {
+        let index = Self::index(variable);
+        match index.and_then(|index| self.vehicle.variables().get(index)) {
             None => ModelResult::NoVariable,
             Some(variable) if !variable.is_force() => ModelResult::ReadOnly,
             Some(_) if !value.is_finite() => ModelResult::OutOfRange,
@@ -79,22 +79,22 @@ impl Model {
     }
 
     pub fn set(&mut self, variable: u32, value: f64) {
-        if let Some(place) = Self::place(variable)
-            && let Err(error) = self.vehicle.set_force_n(place, value)
+        if let Some(index) = Self::index(variable)
+            && let Err(error) = self.vehicle.set_force_n(index, value)
         {
             self.fail(&error.to_string());
         }
     }
 
-    /// Ticks, fewer where it ends: how many.
+    /// Runs ticks and returns their number, which is smaller if the run ends.
     pub fn step(&mut self, ticks: u64) -> u64 {
-        if self.failure {
+        if self.has_failed {
             return 0;
         }
         let had_ended = self.vehicle.ending().is_some();
         match self.vehicle.step(ticks) {
             Ok(taken) => {
-                // That a case is over is no news.
+                // A completed case needs no message.
                 if let Some(ending) = self.vehicle.ending()
                     && !had_ended
                     && *ending != Ending::Completed
@@ -111,7 +111,8 @@ impl Model {
         self.saved_bytes
     }
 
-    /// How many bytes follow, then those, into zeros. Left as they are where there is no room, which is no state.
+    /// Writes the length and the bytes of the state into `to`, which contains zeros. Without enough room `to` stays
+    /// zero, which is not a valid state.
     pub fn save(&self, to: &mut [u8]) {
         let saved = self.vehicle.saved().unwrap_or_default();
         if let Some((count, content)) = to.split_first_chunk_mut()
@@ -129,7 +130,7 @@ impl Model {
         });
         match saved.map(|saved| self.vehicle.restore(saved)) {
             Some(Ok(())) => {
-                self.failure = false;
+                self.has_failed = false;
                 self.notice = None;
                 ModelResult::Done
             }
@@ -137,23 +138,23 @@ impl Model {
         }
     }
 
-    /// It goes no further, for this reason; no ticks.
+    /// Stops the model with a message; returns the number of ticks run, 0.
     pub fn fail(&mut self, reason: &str) -> u64 {
-        self.failure = true;
+        self.has_failed = true;
         self.notice = CString::new(reason).ok();
         0
     }
 
     pub fn has_ended(&self) -> bool {
-        self.failure || self.vehicle.ending().is_some()
+        self.has_failed || self.vehicle.ending().is_some()
     }
 
     pub fn has_failed(&self) -> bool {
-        self.failure
+        self.has_failed
     }
 
     pub fn notice(&mut self) -> Option<&CStr> {
-        self.told = self.notice.take();
-        self.told.as_deref()
+        self.last_notice = self.notice.take();
+        self.last_notice.as_deref()
     }
 }

@@ -1,6 +1,6 @@
-//! What a function of `model.h` answers.
+//! Result codes of `model.h`.
 
-/// `model_result`.
+/// The C enumeration `model_result`.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ModelResult {

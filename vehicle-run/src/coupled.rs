@@ -44,7 +44,7 @@ impl CoupledCase {
         Ok(Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             case: Case {
-                track: case.track.given()?,
+                track: case.track.resolved()?,
                 ..case.clone()
             },
             outside: outside.to_vec(),

@@ -1,7 +1,7 @@
 //! Dampers of a case whose force comes from elsewhere.
 
 use dashpot_files::case::Case;
-use dashpot_files::nearest;
+use dashpot_files::did_you_mean;
 
 /// Why a damper cannot be outside.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -46,7 +46,7 @@ pub fn number_outside(case: &Case, name: &str, others: &[usize]) -> Result<usize
         .position(|other| other == name)
         .ok_or_else(|| OutsideError::NoDamper {
             name: name.to_owned(),
-            near: nearest(name, names()),
+            near: did_you_mean(name, names()),
             allowed: names().collect::<Vec<_>>().join(", "),
         })?;
     if others.contains(&number) {

@@ -5,7 +5,7 @@ use dashpot_rail::vehicle::VehicleParameters;
 use super::signals::{self, Signal};
 use super::{Ending, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning};
 use dashpot_files::case::Case;
-use dashpot_files::nearest;
+use dashpot_files::did_you_mean;
 use dashpot_files::nearest_nanosecond;
 
 /// Ticks between two looks whether the run is still wanted.
@@ -47,7 +47,7 @@ pub fn record(
             Some(signal) => Ok(signal.clone()),
             None => Err(VehicleRunError::NoSignal {
                 name: name.clone(),
-                near: nearest(name, chosen.iter().map(Signal::name)),
+                near: did_you_mean(name, chosen.iter().map(Signal::name)),
             }),
         };
         chosen = names.iter().map(named).collect::<Result<_, _>>()?;

@@ -6,67 +6,70 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-/// Threads where none are asked for: one a core.
+/// Default number of threads: one per core.
 pub fn threads() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Has threads work on items, in their order, and takes each result with its item's number as soon as there is one. Once `take` returns an
-/// error, no other item is begun, and work that asks is told to end.
+/// Runs `work` on the items with a pool of threads, starting in order, and passes each result with its item's index to
+/// `on_result` on the calling thread as soon as it is complete.
+///
+/// After `on_result` returns an error, no further item is started, and the closure that `work` receives,
+/// `is_cancelled`, returns true.
 ///
 /// # Errors
-/// What `take` returns.
+/// Returns the first error of `on_result`.
 pub fn in_parallel<T: Sync, R: Send, E>(
     items: &[T],
     threads: usize,
     work: impl Fn(&T, &dyn Fn() -> bool) -> R + Sync,
-    mut take: impl FnMut(usize, R) -> Result<(), E>,
+    mut on_result: impl FnMut(usize, R) -> Result<(), E>,
 ) -> Result<(), E> {
-    let (next, ended) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let (next, cancelled) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (send, results) = mpsc::channel();
     thread::scope(|scope| {
         for started in 0..threads.clamp(1, items.len().max(1)) {
             let send = send.clone();
-            let (next, ended, work) = (&next, &ended, &work);
+            let (next, cancelled, work) = (&next, &cancelled, &work);
             let run = move || {
-                let is_ended = || ended.load(Ordering::Relaxed);
-                while !is_ended() {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(item) = items.get(number) else {
+                let is_cancelled = || cancelled.load(Ordering::Relaxed);
+                while !is_cancelled() {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(item) = items.get(index) else {
                         return;
                     };
-                    if send.send((number, work(item, &is_ended))).is_err() {
+                    if send.send((index, work(item, &is_cancelled))).is_err() {
                         return;
                     }
                 }
             };
-            // Where the system gives no more, those there are do the work; where it gives none, this one.
+            // If the system refuses more threads, the running ones do the work; if there are none, this thread does.
             if thread::Builder::new().spawn_scoped(scope, run).is_err() {
                 if started == 0 {
                     let mut items = items.iter().enumerate();
                     return items
-                        .try_for_each(|(number, item)| take(number, work(item, &|| false)));
+                        .try_for_each(|(index, item)| on_result(index, work(item, &|| false)));
                 }
                 break;
             }
         }
         drop(send);
-        let mut taken = Ok(());
-        for (number, result) in results {
-            // What comes after an error had been begun before.
-            if taken.is_ok() {
-                taken = take(number, result);
-                ended.store(taken.is_err(), Ordering::Relaxed);
+        let mut outcome = Ok(());
+        for (index, result) in results {
+            // Items that were already running when the error occurred are ignored.
+            if outcome.is_ok() {
+                outcome = on_result(index, result);
+                cancelled.store(outcome.is_err(), Ordering::Relaxed);
             }
         }
-        taken
+        outcome
     })
 }
 
-/// The result of each item, in their order.
+/// Runs `work` on all cores and returns the results in the order of the items.
 ///
 /// # Errors
-/// The first that there was.
+/// Returns the first error that occurred.
 pub fn map<T: Sync, R: Send, E: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<R, E> + Sync,
@@ -76,8 +79,8 @@ pub fn map<T: Sync, R: Send, E: Send>(
         items,
         threads(),
         |item, _| work(item),
-        |number, result| {
-            results[number] = Some(result?);
+        |index, result| {
+            results[index] = Some(result?);
             Ok(())
         },
     )?;
@@ -96,14 +99,14 @@ mod tests {
     }
 
     #[test]
-    fn an_error_ends_the_work() {
+    fn an_error_stops_further_items() {
         let items: Vec<u64> = (0..100_000).collect();
-        let mut taken = 0;
-        let take = |_, item: u64| {
-            taken += 1;
+        let mut results = 0;
+        let on_result = |_, item: u64| {
+            results += 1;
             if item < 10 { Ok(()) } else { Err(item) }
         };
-        let ended = in_parallel(&items, 1, |item, _| *item, take);
-        assert_eq!((ended, taken), (Err(10), 11));
+        let outcome = in_parallel(&items, 1, |item, _| *item, on_result);
+        assert_eq!((outcome, results), (Err(10), 11));
     }
 }

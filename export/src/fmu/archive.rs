@@ -1,4 +1,4 @@
-//! The file of an FMU: a zip archive.
+//! FMU file: a zip archive.
 
 use std::io::{Cursor, Write};
 
@@ -8,16 +8,16 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use super::{Binary, Fmu, Interface};
 
-/// Where FMI 3.0, 2.5.1.4, has the licence.
+/// Path (FMI 3.0, section 2.5.1.4) and text of the licence.
 const LICENCE: (&str, &str) = (
     "documentation/licenses/license.txt",
     include_str!("../../LICENSE-MIT"),
 );
 
-/// The FMU as bytes, the same for the same content; with a library where there is one.
+/// Packs the FMU, with a compiled library if given. Equal content gives equal bytes.
 ///
 /// # Errors
-/// A name of a file that no archive can have.
+/// Returns an error if a file name is not valid in an archive.
 pub fn archive(fmu: &Fmu, binary: Option<&Binary>) -> ZipResult<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
@@ -33,11 +33,11 @@ pub fn archive(fmu: &Fmu, binary: Option<&Binary>) -> ZipResult<Vec<u8>> {
     put(LICENCE.0, LICENCE.1.as_bytes(), false)?;
     if let Some(Binary {
         platform,
-        end,
+        extension,
         content,
     }) = binary
     {
-        let name = format!("binaries/{platform}/{}.{end}", fmu.identifier);
+        let name = format!("binaries/{platform}/{}.{extension}", fmu.identifier);
         put(&name, content, true)?;
     }
     for (name, content) in &fmu.resources {

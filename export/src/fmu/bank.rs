@@ -1,4 +1,4 @@
-//! A damper or a bank of them as an FMU, sources and all.
+//! FMU of a damper or a bank of dampers, with its sources.
 
 use std::fmt::Write;
 
@@ -13,36 +13,36 @@ use crate::standalone::{constants_of, header_of_step, source_of_step};
 use crate::{ExportError, Word};
 use dashpot_files::nearest_nanosecond;
 
-/// What every bank has.
+/// Sources of every bank.
 const SOURCES: [(&str, &str); 2] = [
     ("dampers.h", include_str!("sources/dampers.h")),
     ("model.c", include_str!("sources/model.c")),
 ];
 
-/// Where the dampers come from.
+/// Sources that provide the dampers: compiled in, or loaded from resources.
 const BUILT_IN: &str = include_str!("sources/built_in.c");
 const LOADED: &str = include_str!("sources/loaded.c");
 
-/// A damper and where it came from.
-pub struct Named<T> {
-    /// Preset or file.
+/// Damper with its name.
+pub struct NamedDamper<T> {
+    /// Preset or file of the damper.
     pub name: String,
-    /// As built.
+    /// The damper as built.
     pub damper: Damper<T>,
-    /// Clearance 2a as its file has it (m).
+    /// Clearance 2a in the damper file (m).
     pub clearance_m: f64,
 }
 
 impl Fmu {
-    /// Of dampers, all built for the step `step_s` (s); its functions begin with `identifier`, of ASCII letters, digits and `_`.
-    /// `is_loaded`: the constants are images in the folder of resources, which may be replaced.
+    /// FMU of dampers, all built for the step `step_s` (s). Its functions start with `identifier`, made of ASCII
+    /// letters, digits and `_`. With `is_loaded`, the constants are replaceable images in the resources folder.
     ///
     /// # Errors
-    /// The identifier in capitals is no name of a constant of C.
+    /// Returns an error if the identifier in capitals is not a valid C constant name.
     pub fn of_dampers<T: Word>(
         interface: Interface,
         identifier: &str,
-        dampers: &[Named<T>],
+        dampers: &[NamedDamper<T>],
         step_s: f64,
         is_loaded: bool,
     ) -> Result<Self, ExportError> {
@@ -85,7 +85,7 @@ impl Fmu {
                 T::NAME
             ),
             step_s,
-            // Steps of this size end there.
+            // The end of the last whole step.
             stop_s: nearest_nanosecond((1.0 / step_s).round() * step_s),
             variables: all_variables(dampers),
             has_input_derivatives: true,
@@ -98,29 +98,29 @@ impl Fmu {
     }
 }
 
-/// Those of all dampers, by their numbers where there are several.
-fn all_variables<T>(dampers: &[Named<T>]) -> Vec<Variable> {
-    let of = |(number, named): (usize, &Named<T>)| match dampers.len() {
+/// Variables of all dampers; with several dampers the names contain the damper's number.
+fn all_variables<T>(dampers: &[NamedDamper<T>]) -> Vec<Variable> {
+    let of_damper = |(number, named): (usize, &NamedDamper<T>)| match dampers.len() {
         1 => variables("", named.clearance_m),
         _ => variables(&format!("damper[{number}]."), named.clearance_m),
     };
-    (1..).zip(dampers).flat_map(of).collect()
+    (1..).zip(dampers).flat_map(of_damper).collect()
 }
 
-/// Variables of a damper, in the order of `model.c`; their names begin with `prefix`.
+/// Variables of a damper, in the order of `model.c`; their names start with `prefix`.
 fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
     let prefixed = |name: &str| format!("{prefix}{name}");
     [
         Variable {
             name: prefixed("displacement_m"),
             unit: "m",
-            description: "Displacement of the seats at the communication point, positive in extension",
+            description: "Displacement of the damper's ends at the communication point, positive in extension",
             kind: Kind::Input,
         },
         Variable {
             name: prefixed("velocity_m_per_s"),
             unit: "m/s",
-            description: "Its rate over the communication step to come; with it the force is not late",
+            description: "Rate of displacement over the next communication step; with it the force has no delay",
             kind: Kind::Input,
         },
         Variable {
@@ -135,28 +135,33 @@ fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
             description: "Clearance 2a, the whole play",
             kind: Kind::Tunable {
                 start: clearance_m,
-                greatest: MAX_CLEARANCE_M,
+                max: MAX_CLEARANCE_M,
             },
         },
         Variable {
             name: prefixed("status"),
             unit: "",
-            description: "Bits latched: 1 input held, 2 input limited, 4 saturated, 8 damper swapped, 16 corrupted",
+            description: "Latched bits: 1 input held, 2 input limited, 4 saturated, 8 damper swapped, 16 corrupted",
             kind: Kind::Counter,
         },
         Variable {
             name: prefixed("rejected_inputs"),
             unit: "",
-            description: "Steps whose displacement was held or limited, up to 65535",
+            description: "Number of steps with a held or limited displacement, up to 65535",
             kind: Kind::Counter,
         },
     ]
 }
 
-/// The step and the constants of all dampers.
-fn source<T: Word>(dampers: &[Named<T>], step_s: f64, token: &str, is_loaded: bool) -> String {
+/// Source with the step and the constants of all dampers.
+fn source<T: Word>(
+    dampers: &[NamedDamper<T>],
+    step_s: f64,
+    token: &str,
+    is_loaded: bool,
+) -> String {
     let mut text = String::from(
-        "/* The step of a damper, and the constants of those of this FMU. */\n\n#include \"damper.h\"\n\n",
+        "/* The step of a damper, and the constants of the dampers of this FMU. */\n\n#include \"damper.h\"\n\n",
     );
     text += &source_of_step::<T>("DAMPER");
     let mut names = Vec::new();
@@ -182,24 +187,25 @@ fn source<T: Word>(dampers: &[Named<T>], step_s: f64, token: &str, is_loaded: bo
 fn about<T: Word>(step_s: f64, is_loaded: bool) -> Markup {
     html! {
     p {
-        "Displacement in, force out; the force resists extension when it is positive. The same bits as "
-        code { "dashpot replay --scalar " (T::NAME) }
-        ", where the communication step is the internal step and no velocity is given."
+        "Input: displacement. Output: force, positive when it resists extension. If the communication step equals the \
+         internal step and no velocity is given, the forces equal those of a Dashpot replay in "
+        (T::NAME) " bit for bit."
     }
     p {
-        "A communication step of h from t ends at displacement_m + h velocity_m_per_s and goes there in a straight \
-         line from where the last one ended. Without velocity the force at t + h is thus that of the displacement at \
-         t: one communication step late. With it, it is that of t + h."
+        "A communication step of size h from time t ends at displacement_m + h velocity_m_per_s and moves there in a \
+         straight line from the end of the last step. Without the velocity, the force at t + h is that of the \
+         displacement at t: one communication step late. With the velocity, it is that of t + h."
     }
     p {
-        "h is a multiple of " (step_s) " s, or the step is refused and nothing changes. A displacement that is not \
-         finite is held, one faster than the damper allows is limited: a warning once, and a bit of status. \
-         clearance_m may be changed between steps."
+        "h must be a multiple of " (step_s) " s; otherwise the step is refused and nothing changes. A displacement \
+         that is not finite is held, and one that moves faster than the damper allows is limited; each sets a \
+         bit of status and gives one warning. clearance_m may be changed between steps."
     }
     @if is_loaded {
         p {
-            "The constants are images in the folder resources (dashpot export --lang bin), for this step and scalar; \
-             another image under the same name is another damper."
+            "The constants are images in the folder resources, as Dashpot exports them, for this step and scalar. An \
+             image of another damper may be put in place of each."
         }
-    }    }
+    }
+    }
 }

@@ -1,4 +1,4 @@
-//! The library of an FMU for the platform it is exported on, by the C compiler that is there.
+//! Compiles the library of an FMU for this platform with an installed C compiler.
 
 use std::env;
 use std::io;
@@ -7,88 +7,105 @@ use std::process::{Command, Stdio};
 
 use super::{Fmu, Interface, Machine};
 
-/// A compiled FMU.
+/// Compiled library of an FMU.
 #[derive(Debug)]
 pub struct Binary {
-    /// Folder of the platform.
+    /// Name of the platform's folder.
     pub platform: String,
-    /// End of the library's name.
-    pub end: &'static str,
-    /// The library.
+    /// Extension of the library's file name.
+    pub extension: &'static str,
+    /// Content of the library.
     pub content: Vec<u8>,
 }
 
-/// Why there is no library.
+/// Ways to avoid a [`CompileError`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// Use another C compiler: [`compile`] reads the environment variable `CC`.
+    OtherCompiler,
+    /// Export sources only, without a library for this platform.
+    SourcesOnly,
+    /// Use FMI 3, which has a folder for every platform.
+    Fmi3,
+    /// Use a vehicle library that was built for this platform.
+    OtherLibrary,
+}
+
+/// Error from compiling an FMU; [`CompileError::remedies`] lists ways to avoid it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CompileError {
-    /// The compiler is not there.
-    #[error(
-        "the C compiler {compiler} cannot be started ({source}); allowed: another one by the variable CC, or no library for this platform with --sources-only"
-    )]
+    /// Cannot start the compiler.
+    #[error("the C compiler {compiler} cannot be started ({source})")]
     Missing {
-        /// Its name.
+        /// Name of the compiler.
         compiler: String,
-        /// Why.
+        /// Error from the operating system.
         source: io::Error,
     },
-    /// The compiler refuses the sources.
-    #[error(
-        "the C compiler {compiler} failed: {message}\nallowed: another one by the variable CC, or no library for this platform with --sources-only"
-    )]
+    /// The compiler failed.
+    #[error("the C compiler {compiler} failed: {message}")]
     Failed {
-        /// Its name.
+        /// Name of the compiler.
         compiler: String,
-        /// What it said.
+        /// Exit status and messages of the compiler.
         message: String,
     },
-    /// A platform that this version of the interface has no name for.
-    #[error("FMI 2 has no folder for a library of {platform}, allowed: --fmi 3, or --sources-only")]
+    /// FMI 2 has no folder for this platform.
+    #[error("FMI 2 has no folder for a library of {platform}")]
     Platform {
-        /// The platform.
+        /// Name of the platform.
         platform: String,
     },
     /// The compiler built a library for another platform.
-    #[error(
-        "the C compiler {compiler} built {}, needed for {platform}: {needed}; allowed: a compiler for this platform \
-         by the variable CC, or no library with --sources-only",
-        described(.found.as_ref())
-    )]
+    #[error("the C compiler {compiler} built {}, needed for {platform}: {needed}", described(.found.as_ref()))]
     OtherMachine {
-        /// Its name.
+        /// Name of the compiler.
         compiler: String,
-        /// What it built; `None` where the file has no header of a library.
+        /// Type of the built file; `None` if it has no known header.
         found: Option<Machine>,
-        /// Folder of the platform.
+        /// Name of the platform's folder.
         platform: String,
-        /// What that platform loads.
+        /// Type of library that the platform loads.
         needed: Machine,
     },
-    /// The library of vehicles is of another platform.
+    /// The vehicle library is for another platform.
     #[error(
-        "{}: the library of vehicles holds object files of another kind ({found}), needed for {platform}: {needed}; \
-         allowed: --library FILE with one built for this platform",
+        "{}: the vehicle library contains object files of another type ({found}), needed for {platform}: {needed}",
         library.display()
     )]
     OtherLibrary {
         /// The library.
         library: PathBuf,
-        /// What its object files are.
+        /// Type of its object files.
         found: Machine,
-        /// Folder of the platform.
+        /// Name of the platform's folder.
         platform: String,
-        /// What that platform loads.
+        /// Type of library that the platform loads.
         needed: Machine,
     },
-    /// No place for what the compiler reads and writes.
-    #[error("a temporary folder: {0}")]
-    Folder(#[from] io::Error),
+    /// Cannot read the vehicle library, or cannot use a temporary folder for the compiler's files.
+    #[error("cannot prepare the compilation: {0}")]
+    Files(#[from] io::Error),
 }
 
-/// What a library of Rust is linked with; only the functions of the interface are seen from outside, and nothing is left that they do not
-/// use.
+impl CompileError {
+    /// Ways to avoid the error, best first.
+    pub fn remedies(&self) -> &'static [Remedy] {
+        match self {
+            Self::Missing { .. } | Self::Failed { .. } | Self::OtherMachine { .. } => {
+                &[Remedy::OtherCompiler, Remedy::SourcesOnly]
+            }
+            Self::Platform { .. } => &[Remedy::Fmi3, Remedy::SourcesOnly],
+            Self::OtherLibrary { .. } => &[Remedy::OtherLibrary],
+            Self::Files(_) => &[],
+        }
+    }
+}
+
+/// Linker options for a Rust library. Only the functions of the interface stay visible, and unused code is removed.
 #[cfg(target_os = "linux")]
-const BESIDE_A_LIBRARY: [&str; 6] = [
+const RUST_LIBRARY_OPTIONS: [&str; 6] = [
     "-Wl,--exclude-libs,ALL",
     "-Wl,--gc-sections",
     "-Wl,--strip-all",
@@ -97,26 +114,26 @@ const BESIDE_A_LIBRARY: [&str; 6] = [
     "-ldl",
 ];
 #[cfg(not(target_os = "linux"))]
-const BESIDE_A_LIBRARY: [&str; 0] = [];
+const RUST_LIBRARY_OPTIONS: [&str; 0] = [];
 
-/// What a file holds.
+/// Describes the type of a file.
 fn described(found: Option<&Machine>) -> String {
     found.map_or_else(
-        || "no library of a known form".into(),
-        |machine| format!("a file of another kind ({machine})"),
+        || "a file of unknown type".into(),
+        |machine| format!("a file of another type ({machine})"),
     )
 }
 
-/// Compiles an FMU for this platform, with the compiler that the variable `CC` names, or `cc`.
+/// Compiles an FMU for this platform with the compiler in the environment variable `CC`, or else `cc`.
 ///
 /// # Errors
-/// There is no compiler, it fails, it builds for another platform, or the platform has no name.
+/// Returns an error if the compiler is missing, fails or builds for another platform, or if the platform has no folder.
 pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
     let platform = platform(fmu.interface)?;
     let needed = Machine::here();
     if let Some(library) = &fmu.library {
         let found = Machine::of_archive(&std::fs::read(library)?);
-        // What is no archive of a known form is left to the linker.
+        // An archive of unknown type is left to the linker.
         if let Some(found) = found.filter(|found| !found.links_into(&needed)) {
             let library = library.clone();
             return Err(CompileError::OtherLibrary {
@@ -127,7 +144,7 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
             });
         }
     }
-    let end = env::consts::DLL_EXTENSION;
+    let extension = env::consts::DLL_EXTENSION;
     let folder = tempfile::tempdir()?;
     for (name, text) in &fmu.sources {
         std::fs::write(folder.path().join(name), text)?;
@@ -136,7 +153,7 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
         std::fs::write(folder.path().join(name), text)?;
     }
     let (compiler, options) = compiler(&env::var("CC").unwrap_or_default());
-    let library = folder.path().join(format!("library.{end}"));
+    let library = folder.path().join(format!("library.{extension}"));
     let mut command = Command::new(&compiler);
     command
         .args(options)
@@ -154,7 +171,7 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
         .args(fmu.compiled());
     if let Some(library) = &fmu.library {
         command.arg(std::path::absolute(library)?);
-        command.args(BESIDE_A_LIBRARY);
+        command.args(RUST_LIBRARY_OPTIONS);
     }
     command
         .arg("-lm")
@@ -181,22 +198,22 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
     }
     Ok(Binary {
         platform,
-        end,
+        extension,
         content,
     })
 }
 
-/// A compiler and options of it, as the variable `CC` names them: a path may have spaces.
-fn compiler(named: &str) -> (String, Vec<String>) {
-    let mut words = named.split_whitespace().map(str::to_owned);
+/// Splits the value of `CC` into compiler and options. A path to an existing file may contain spaces.
+fn compiler(cc: &str) -> (String, Vec<String>) {
+    let mut words = cc.split_whitespace().map(str::to_owned);
     match words.next() {
         None => ("cc".to_owned(), Vec::new()),
-        Some(_) if Path::new(named).is_file() => (named.to_owned(), Vec::new()),
+        Some(_) if Path::new(cc).is_file() => (cc.to_owned(), Vec::new()),
         Some(first) => (first, words.collect()),
     }
 }
 
-/// The folder of this platform's libraries, FMI 3.0, 2.5.1.4.1 and FMI 2.0.4, 2.3.
+/// Folder for this platform's libraries (FMI 3.0, section 2.5.1.4.1; FMI 2.0.4, section 2.3).
 fn platform(interface: Interface) -> Result<String, CompileError> {
     let (processor, system) = (env::consts::ARCH, env::consts::OS);
     let processor = if processor == "arm" {

@@ -1,4 +1,4 @@
-//! The description of an FMU: `modelDescription.xml`, and of FMI 3 `buildDescription.xml`.
+//! Description of an FMU: `modelDescription.xml`, and `buildDescription.xml` of FMI 3.
 
 use std::fmt::Write;
 
@@ -7,15 +7,15 @@ use maud::Escaper;
 use super::variable::{Kind, UNITS, Variable};
 use super::{Fmu, Interface};
 
-/// Outputs at a communication point change by a step alone, by no input there: no loop of connected FMUs is an algebraic one.
-const NOTHING: (&str, &str) = ("dependencies", "");
+/// Outputs depend on no input at the same communication point, so a loop of connected FMUs is never an algebraic loop.
+const NO_DEPENDENCIES: (&str, &str) = ("dependencies", "");
 
 const CATEGORIES: [(&str, &str); 3] = [
     (
         "logStatusWarning",
-        "Input that was held or limited, or the end of the run",
+        "Held or limited input, or the end of the run",
     ),
-    ("logStatusDiscard", "Calls that were refused"),
+    ("logStatusDiscard", "Refused calls"),
     (
         "logStatusError",
         "Calls after which the instance must be reset",
@@ -23,11 +23,11 @@ const CATEGORIES: [(&str, &str); 3] = [
 ];
 
 impl Fmu {
-    /// `modelDescription.xml`.
+    /// Text of `modelDescription.xml`.
     pub(super) fn description(&self) -> String {
         let mut xml = Xml::new();
         let version = concat!("Dashpot ", env!("CARGO_PKG_VERSION"));
-        // Bodies and dampers of a vehicle are called as their file has it.
+        // The names of a vehicle's bodies and dampers come from its file.
         let naming = if self.may_end { "flat" } else { "structured" };
         let (number, token, state) = match self.interface {
             Interface::Two => ("2.0", "guid", "FMUstate"),
@@ -103,7 +103,7 @@ impl Fmu {
         xml.text
     }
 
-    /// `buildDescription.xml` of FMI 3.
+    /// Text of `buildDescription.xml` (FMI 3).
     pub(super) fn build_description(&self) -> String {
         let mut xml = Xml::new();
         xml.open("fmiBuildDescription", &[("fmiVersion", "3.0")]);
@@ -115,7 +115,7 @@ impl Fmu {
         for name in self.compiled() {
             xml.empty("SourceFile", &[("name", name)]);
         }
-        // Of a shared library; linked statically, functions have the prefix.
+        // For a shared library; in a static library the functions have the prefix.
         let definition = [("name", "FMI3_OVERRIDE_FUNCTION_PREFIX"), ("value", "1")];
         xml.empty("PreprocessorDefinition", &definition);
         xml.close("SourceFileSet");
@@ -141,9 +141,9 @@ impl Fmu {
                 for list in ["Outputs", "InitialUnknowns"] {
                     xml.open(list, &[]);
                     for reference in &outputs {
-                        // By place in the list, which begins with the time as number 1.
+                        // Position in the list, where time is number 1.
                         let index = (reference + 1).to_string();
-                        xml.empty("Unknown", &[("index", &index), NOTHING]);
+                        xml.empty("Unknown", &[("index", &index), NO_DEPENDENCIES]);
                     }
                     xml.close(list);
                 }
@@ -152,7 +152,7 @@ impl Fmu {
                 for element in ["Output", "InitialUnknown"] {
                     for reference in &outputs {
                         let reference = reference.to_string();
-                        xml.empty(element, &[("valueReference", &reference), NOTHING]);
+                        xml.empty(element, &[("valueReference", &reference), NO_DEPENDENCIES]);
                     }
                 }
             }
@@ -160,13 +160,13 @@ impl Fmu {
         xml.close("ModelStructure");
     }
 
-    /// One variable; `None` is the time.
+    /// Writes one variable; `None` is the time.
     fn variable(&self, xml: &mut Xml, reference: usize, variable: Option<&Variable>) {
         let reference = reference.to_string();
         let name = variable.map_or("time", |variable| &variable.name);
         let mut head = vec![("name", name), ("valueReference", &reference)];
         let mut own = Vec::new();
-        let (start, most);
+        let (start, max);
         match variable.map(|variable| variable.kind) {
             None => head.extend([("causality", "independent"), ("variability", "continuous")]),
             Some(Kind::Input) => {
@@ -180,15 +180,15 @@ impl Fmu {
             ]),
             Some(Kind::Tunable {
                 start: value,
-                greatest,
+                max: bound,
             }) => {
                 head.extend([
                     ("causality", "parameter"),
                     ("variability", "tunable"),
                     ("initial", "exact"),
                 ]);
-                (start, most) = (value.to_string(), greatest.to_string());
-                own.extend([("min", "0"), ("max", &*most), ("start", &start)]);
+                (start, max) = (value.to_string(), bound.to_string());
+                own.extend([("min", "0"), ("max", &*max), ("start", &start)]);
             }
             Some(Kind::Counter) => head.extend([
                 ("causality", "output"),
@@ -220,7 +220,7 @@ impl Fmu {
     }
 }
 
-/// Lines of XML.
+/// XML document under construction.
 struct Xml {
     text: String,
     depth: usize,
@@ -258,7 +258,7 @@ fn with_values(attributes: &[(&str, &str)]) -> String {
     let mut text = String::new();
     for (name, value) in attributes {
         let _ = write!(text, " {name}=\"");
-        // XML has no control characters; a file's name may.
+        // File names may contain control characters, XML must not.
         let value = value.replace(char::is_control, " ");
         let _ = Escaper::new(&mut text).write_str(&value);
         text.push('"');

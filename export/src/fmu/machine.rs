@@ -1,23 +1,23 @@
-//! The processor and the form of a library, read from its header: what a compiler built, whatever its name promised.
+//! Processor and file format of a library, read from its header, to check what a compiler really built.
 
 use std::env;
 use std::fmt;
 
-/// What the header of a library, an object file or an archive of them states.
+/// Type of a library or object file, as stated in its header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Machine {
-    form: Form,
-    /// Bits of an address.
+    format: Format,
+    /// Address size in bits.
     bits: u8,
-    /// The processor as `std::env::consts::ARCH` names it, or the number in the header.
+    /// Processor.
     processor: Processor,
-    /// Whether a program can load it: a shared object, no object file and no program.
+    /// True for a shared library, which a program can load; false for object files and programs.
     is_shared: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
-    /// ELF: Linux and most systems but Windows and macOS.
+enum Format {
+    /// ELF: Linux and most systems other than Windows and macOS.
     Elf,
     /// PE and COFF: Windows.
     Pe,
@@ -25,24 +25,27 @@ enum Form {
     MachO,
 }
 
-impl Form {
+impl Format {
+    /// Numbers and names of the processors known for this format.
     fn names(self) -> &'static [(u32, &'static str)] {
         match self {
-            Self::Elf => &OF_ELF,
-            Self::Pe => &OF_PE,
-            Self::MachO => &OF_MACH_O,
+            Self::Elf => &ELF_PROCESSORS,
+            Self::Pe => &PE_PROCESSORS,
+            Self::MachO => &MACH_O_PROCESSORS,
         }
     }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Processor {
+    /// Name as in `std::env::consts::ARCH`.
     Known(&'static str),
+    /// Unknown number in the header.
     Number(u32),
 }
 
-/// ELF, `e_machine` (System V ABI and its supplements).
-const OF_ELF: [(u32, &str); 7] = [
+/// ELF `e_machine` (System V ABI and its supplements).
+const ELF_PROCESSORS: [(u32, &str); 7] = [
     (3, "x86"),
     (21, "powerpc64"),
     (22, "s390x"),
@@ -51,48 +54,48 @@ const OF_ELF: [(u32, &str); 7] = [
     (183, "aarch64"),
     (243, "riscv64"),
 ];
-/// PE, `Machine` (Microsoft, PE Format).
-const OF_PE: [(u32, &str); 4] = [
+/// PE `Machine` (Microsoft, PE Format).
+const PE_PROCESSORS: [(u32, &str); 4] = [
     (0x14c, "x86"),
     (0x1c4, "arm"),
     (0x8664, "x86_64"),
     (0xaa64, "aarch64"),
 ];
-/// Mach-O, `cputype` (Apple, mach/machine.h).
-const OF_MACH_O: [(u32, &str); 4] = [
+/// Mach-O `cputype` (Apple, mach/machine.h).
+const MACH_O_PROCESSORS: [(u32, &str); 4] = [
     (7, "x86"),
     (12, "arm"),
     (0x0100_0007, "x86_64"),
     (0x0100_000c, "aarch64"),
 ];
 
-/// Length of a member's header in an archive, and where the size of the member is in it (System V, ar.h).
+/// Length of a member's header in an archive, and the position of the member's size in it (System V, ar.h).
 const MEMBER_HEADER: usize = 60;
 const MEMBER_SIZE: std::ops::Range<usize> = 48..58;
 
 impl Machine {
-    /// Of this process, a shared library that it could load.
+    /// Type of shared library that this process can load.
     pub fn here() -> Self {
-        let form = match env::consts::OS {
-            "windows" => Form::Pe,
-            "macos" | "ios" => Form::MachO,
-            _ => Form::Elf,
+        let format = match env::consts::OS {
+            "windows" => Format::Pe,
+            "macos" | "ios" => Format::MachO,
+            _ => Format::Elf,
         };
         Self {
-            form,
+            format,
             bits: usize::BITS as u8,
             processor: Processor::Known(env::consts::ARCH),
             is_shared: true,
         }
     }
 
-    /// What the bytes of a file state; `None` where they have no header of a library.
+    /// Reads the type from the bytes of a file; `None` if the header is unknown or incomplete.
     pub fn of(bytes: &[u8]) -> Option<Self> {
-        let one = || elf(bytes).or_else(|| pe(bytes)).or_else(|| mach_o(bytes));
-        one().or_else(|| universal(bytes))
+        let single = || elf(bytes).or_else(|| pe(bytes)).or_else(|| mach_o(bytes));
+        single().or_else(|| universal(bytes))
     }
 
-    /// Of the first object file in the bytes of an archive (`.a`).
+    /// Reads the type of the first object file in the bytes of an archive (`.a`).
     pub fn of_archive(bytes: &[u8]) -> Option<Self> {
         let mut rest = bytes.strip_prefix(b"!<arch>\n")?;
         loop {
@@ -100,30 +103,30 @@ impl Machine {
             let size = std::str::from_utf8(&header[MEMBER_SIZE]).ok()?;
             let size: usize = size.trim().parse().ok()?;
             let (member, behind) = behind.split_at_checked(size)?;
-            // BSD and macOS write a long name before the content, and its length as the name.
+            // BSD and macOS write a long name before the content, and its length in place of the name.
             let name = std::str::from_utf8(&header[..16]).ok()?;
             let long = name.strip_prefix("#1/").map(|length| length.trim().parse());
             let skipped = long.and_then(Result::ok).unwrap_or(0);
             if let Some(machine) = member.get(skipped..).and_then(Self::of) {
                 return Some(machine);
             }
-            // Members begin at even places.
+            // Members start at even offsets.
             rest = behind.get(size % 2..)?;
         }
     }
 
-    /// Whether a linker can put this object file into a library for `platform`. A processor that the tables above
-    /// lack is not compared.
+    /// True if a linker can put this object file into a library for `platform`. A processor that is missing in the
+    /// tables above is not compared.
     pub fn links_into(&self, platform: &Self) -> bool {
         let has_name = |processor| match processor {
-            Processor::Known(name) => platform.form.names().iter().any(|known| known.1 == name),
+            Processor::Known(name) => platform.format.names().iter().any(|known| known.1 == name),
             Processor::Number(_) => false,
         };
-        (self.form, self.bits) == (platform.form, platform.bits)
+        (self.format, self.bits) == (platform.format, platform.bits)
             && (self.processor == platform.processor || !has_name(platform.processor))
     }
 
-    /// Whether a program of `platform` can load this library.
+    /// True if a program of `platform` can load this library.
     pub fn loads_on(&self, platform: &Self) -> bool {
         self.is_shared && self.links_into(platform)
     }
@@ -132,25 +135,25 @@ impl Machine {
 impl fmt::Display for Machine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
-            form,
+            format,
             bits,
             processor,
             is_shared,
         } = self;
-        let form = match form {
-            Form::Elf => "ELF",
-            Form::Pe => "PE",
-            Form::MachO => "Mach-O",
+        let format = match format {
+            Format::Elf => "ELF",
+            Format::Pe => "PE",
+            Format::MachO => "Mach-O",
         };
         let kind = if *is_shared {
             "a shared library"
         } else {
-            "no shared library"
+            "not a shared library"
         };
         match processor {
-            Processor::Known(name) => write!(f, "{form}, {bits} bit, {name}, {kind}"),
+            Processor::Known(name) => write!(f, "{format}, {bits} bit, {name}, {kind}"),
             Processor::Number(number) => {
-                write!(f, "{form}, {bits} bit, processor {number}, {kind}")
+                write!(f, "{format}, {bits} bit, processor {number}, {kind}")
             }
         }
     }
@@ -177,15 +180,15 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
     Some(u32::from_le_bytes(bytes))
 }
 
-/// Identification, then `e_type` at 16 (3: shared object) and `e_machine` at 18.
+/// Reads an ELF header: identification, `e_type` at offset 16 (3: shared object), `e_machine` at offset 18.
 fn elf(bytes: &[u8]) -> Option<Machine> {
     let (class, order) = match bytes.get(..6)? {
         [0x7f, b'E', b'L', b'F', class, order] => (*class, *order),
         _ => return None,
     };
     let is_little = order == 1;
-    let processor = named(&OF_ELF, half_word(bytes, 18, is_little)?);
-    // The one number for both orders of bytes and both widths of these.
+    let processor = named(&ELF_PROCESSORS, half_word(bytes, 18, is_little)?);
+    // These processors share one number for both byte orders and both widths.
     let processor = match (processor, class, is_little) {
         (Processor::Known("riscv64"), 1, _) => Processor::Known("riscv32"),
         (Processor::Known("aarch64" | "arm" | "x86_64" | "x86" | "riscv64"), _, false) => {
@@ -194,14 +197,15 @@ fn elf(bytes: &[u8]) -> Option<Machine> {
         (other, _, _) => other,
     };
     Some(Machine {
-        form: Form::Elf,
+        format: Format::Elf,
         bits: if class == 2 { 64 } else { 32 },
         processor,
         is_shared: half_word(bytes, 16, is_little)? == 3,
     })
 }
 
-/// The offset of the header `PE\0\0` at 0x3c; behind it `Machine`, and `Characteristics` (0x2000: a DLL).
+/// Reads a PE header: at 0x3c is the offset of `PE\0\0`, which is followed by `Machine` and `Characteristics` (0x2000:
+/// a DLL).
 fn pe(bytes: &[u8]) -> Option<Machine> {
     if bytes.get(..2)? != b"MZ" {
         return None;
@@ -210,10 +214,10 @@ fn pe(bytes: &[u8]) -> Option<Machine> {
     if bytes.get(at..at.checked_add(4)?)? != b"PE\0\0" {
         return None;
     }
-    let processor = named(&OF_PE, half_word(bytes, at + 4, true)?);
+    let processor = named(&PE_PROCESSORS, half_word(bytes, at + 4, true)?);
     Some(Machine {
-        form: Form::Pe,
-        // The optional header: 0x20b with addresses of 64 bits.
+        format: Format::Pe,
+        // Optional header: 0x20b for 64-bit addresses.
         bits: if half_word(bytes, at + 24, true)? == 0x20b {
             64
         } else {
@@ -224,7 +228,7 @@ fn pe(bytes: &[u8]) -> Option<Machine> {
     })
 }
 
-/// The magic number, `cputype`, `cpusubtype`, `filetype` (6: a shared library, 8: a bundle).
+/// Reads a Mach-O header: magic number, `cputype`, `cpusubtype`, `filetype` (6: a shared library, 8: a bundle).
 fn mach_o(bytes: &[u8]) -> Option<Machine> {
     let bits = match word(bytes, 0)? {
         0xfeed_face => 32,
@@ -232,22 +236,22 @@ fn mach_o(bytes: &[u8]) -> Option<Machine> {
         _ => return None,
     };
     Some(Machine {
-        form: Form::MachO,
+        format: Format::MachO,
         bits,
-        processor: named(&OF_MACH_O, word(bytes, 4)?),
+        processor: named(&MACH_O_PROCESSORS, word(bytes, 4)?),
         is_shared: matches!(word(bytes, 12)?, 6 | 8),
     })
 }
 
-/// A Mach-O file of several processors: that of this one, else the first. Big-endian: the magic number, how many
-/// there are, and for each five words, of which the third is the offset.
+/// Reads a universal Mach-O file and returns the slice for this machine, or else the first one. The header is
+/// big-endian: magic number, number of slices, and five words per slice, the third of which is the offset.
 fn universal(bytes: &[u8]) -> Option<Machine> {
-    let big = |at| word(bytes, at).map(u32::swap_bytes);
-    if big(0)? != 0xcafe_babe {
+    let big_endian = |at| word(bytes, at).map(u32::swap_bytes);
+    if big_endian(0)? != 0xcafe_babe {
         return None;
     }
-    let slices = (0..big(4)?.min(64) as usize).filter_map(|slice| {
-        let offset = big(8 + 20 * slice + 8)? as usize;
+    let slices = (0..big_endian(4)?.min(64) as usize).filter_map(|slice| {
+        let offset = big_endian(8 + 20 * slice + 8)? as usize;
         mach_o(bytes.get(offset..)?)
     });
     let all: Vec<Machine> = slices.collect();
@@ -259,16 +263,16 @@ fn universal(bytes: &[u8]) -> Option<Machine> {
 mod tests {
     use super::Machine;
 
-    /// This program: what the system loads is what the constants of the compiler name.
+    /// The system loaded this program, so its header must agree with the compiler's constants.
     #[test]
-    fn this_program_is_of_this_machine() {
+    fn the_test_program_is_recognised_as_this_machine() {
         let program = std::fs::read(std::env::current_exe().expect("a program")).expect("it");
         let machine = Machine::of(&program).expect("a header");
         assert!(machine.links_into(&Machine::here()), "{machine}");
     }
 
     #[test]
-    fn each_form_is_read_and_what_is_cut_off_is_none() {
+    fn each_format_is_read_and_truncated_files_are_unknown() {
         let mut elf = b"\x7fELF\x02\x01\x01".to_vec();
         elf.resize(16, 0);
         elf.extend([3, 0, 183, 0]);
@@ -299,7 +303,7 @@ mod tests {
             .collect();
         universal.extend(&mach_o);
         assert_eq!(Machine::of(&universal), Machine::of(&mach_o));
-        // An archive: its table of symbols first, then an object at an even place.
+        // An archive: symbol table first, then an object file at an even offset.
         let member = |name: &str, content: &[u8]| {
             let mut member = format!("{name:<48}{:<10}`\n", content.len()).into_bytes();
             member.extend(content);

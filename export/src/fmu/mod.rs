@@ -1,7 +1,8 @@
-//! FMUs: a damper, a bank of them, or a vehicle around dampers behind the Functional Mock-up Interface 2.0 or 3.0, for co-simulation.
+//! FMUs for co-simulation (Functional Mock-up Interface 2.0 or 3.0): a damper, a bank of dampers, or a vehicle.
 //!
-//! `sources/` is the interface in C, over the step of `standalone/` or over a library; `headers/` are the official headers of the
-//! interface (Modelica Association, BSD 2-Clause). Constants are compiled in, or lie as images in the folder of resources.
+//! `sources/` implements the interface in C, on top of the step of `standalone/` or of a library. `headers/` contains
+//! the official headers (Modelica Association, BSD 2-Clause). Constants are compiled in, or are images in the resources
+//! folder.
 
 mod archive;
 mod bank;
@@ -19,15 +20,15 @@ use maud::Markup;
 use sha2::{Digest, Sha256};
 
 pub use archive::archive;
-pub use bank::Named;
-pub use binary::{Binary, CompileError, compile};
+pub use bank::NamedDamper;
+pub use binary::{Binary, CompileError, Remedy, compile};
 pub use machine::Machine;
 
 use super::{ExportError, name};
 use sources::Source;
 use variable::Variable;
 
-/// Version of the interface.
+/// Version of the FMI standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interface {
     /// FMI 2.0.
@@ -37,7 +38,7 @@ pub enum Interface {
 }
 
 impl Interface {
-    /// Its number.
+    /// Version number.
     pub fn number(self) -> &'static str {
         match self {
             Self::Two => "2.0",
@@ -46,57 +47,57 @@ impl Interface {
     }
 }
 
-/// What an FMU is made of.
+/// Content of an FMU.
 pub struct Fmu {
     interface: Interface,
     identifier: String,
     token: String,
-    /// What it is, in a line.
+    /// One-line description.
     title: String,
     step_s: f64,
     stop_s: f64,
     variables: Vec<Variable>,
-    /// Whether derivatives of inputs are taken.
+    /// True if the FMU accepts derivatives of inputs.
     has_input_derivatives: bool,
-    /// Whether a run may end within a step.
+    /// True if a run may end within a communication step.
     may_end: bool,
-    /// Paragraphs of its page.
+    /// Paragraphs of the documentation page.
     about: Markup,
-    /// Files in the folder of resources.
+    /// Name and content of the files in the resources folder.
     resources: Vec<(String, Vec<u8>)>,
     sources: Vec<Source>,
-    /// What the sources are linked with. An importer has no use for sources that need more than themselves.
+    /// Library to link the sources with. Such an FMU contains no sources, because an importer lacks the library.
     library: Option<PathBuf>,
 }
 
 impl Fmu {
-    /// Tells this FMU from others, as a UUID is written.
+    /// Unique identifier of this FMU's content, in the form of a UUID.
     pub fn token(&self) -> &str {
         &self.token
     }
 
-    /// What its functions begin with.
+    /// Prefix of its functions.
     pub fn identifier(&self) -> &str {
         &self.identifier
     }
 
-    /// Version of the interface.
+    /// Version of the FMI standard.
     pub fn interface(&self) -> Interface {
         self.interface
     }
 
-    /// Internal step, s.
+    /// Internal step (s).
     pub fn step_s(&self) -> f64 {
         self.step_s
     }
 
-    /// Whether an importer may compile its sources.
+    /// True if the FMU contains sources that an importer can compile.
     pub fn has_sources(&self) -> bool {
         self.library.is_none()
     }
 }
 
-/// Functions that begin with `identifier` need one of ASCII letters, digits and `_`.
+/// Checks that `identifier`, the prefix of C functions, consists of ASCII letters, digits and `_`.
 fn check(identifier: &str) -> Result<(), ExportError> {
     name::check_c(&identifier.to_ascii_uppercase())
 }
@@ -105,7 +106,7 @@ fn hexadecimal(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The hash of what an FMU is made of, as a UUID is written.
+/// Hash of an FMU's content, in the form of a UUID.
 fn token_of<'a>(
     identifier: &str,
     interface: Interface,

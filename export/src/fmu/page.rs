@@ -1,10 +1,11 @@
-//! The page of documentation within an FMU.
+//! Documentation page inside an FMU.
 
 use maud::{DOCTYPE, html};
 
 use super::Fmu;
+
 impl Fmu {
-    /// `documentation/index.html`.
+    /// Text of `documentation/index.html`.
     pub(super) fn page(&self) -> String {
         let page = html! {
             (DOCTYPE)

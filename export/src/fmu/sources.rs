@@ -1,11 +1,11 @@
-//! The sources of an FMU.
+//! C sources of an FMU.
 
 use super::{Fmu, Interface};
 
-/// Name of a file and its text.
+/// Name and text of a source file.
 pub(super) type Source = (&'static str, String);
 
-/// Headers of the interface, which need no compiling.
+/// Official headers of the interface.
 const HEADERS_2: [(&str, &str); 3] = [
     (
         "fmi2FunctionTypes.h",
@@ -29,7 +29,7 @@ const HEADERS_3: [(&str, &str); 3] = [
     ),
 ];
 
-/// What every FMU has.
+/// Sources of every FMU.
 const COMMON: [(&str, &str); 4] = [
     ("bytes.c", include_str!("sources/bytes.c")),
     ("component.c", include_str!("sources/component.c")),
@@ -40,16 +40,16 @@ const COMMON: [(&str, &str); 4] = [
 const FMI_2: (&str, &str) = ("fmi2.c", include_str!("sources/fmi2.c"));
 const FMI_3: (&str, &str) = ("fmi3.c", include_str!("sources/fmi3.c"));
 
-/// How names begin that several FMUs in one program must not share.
-const SHARED: [&str; 4] = ["component_", "damper_", "dampers_", "model_"];
+/// Prefixes of names that must differ between FMUs in one program.
+const SHARED_PREFIXES: [&str; 4] = ["component_", "damper_", "dampers_", "model_"];
 
-/// Files as they are.
+/// Copies of unchanged files.
 pub(super) fn fixed(files: &[(&'static str, &str)]) -> Vec<Source> {
     let owned = |(name, text): &(&'static str, &str)| (*name, (*text).to_owned());
     files.iter().map(owned).collect()
 }
 
-/// The interface over `model.h`.
+/// Sources of the interface on top of `model.h`.
 pub(super) fn of_interface(interface: Interface) -> Vec<Source> {
     let functions = match interface {
         Interface::Two => FMI_2,
@@ -60,21 +60,24 @@ pub(super) fn of_interface(interface: Interface) -> Vec<Source> {
     sources
 }
 
-/// A text whose shared names begin with the identifier.
+/// Prepends the identifier to all shared names in a text.
 pub(super) fn with_own_names(identifier: &str, text: &str) -> String {
-    let is_of_name = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    let is_name_char = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
     let mut own = String::with_capacity(2 * text.len());
     let mut rest = text;
-    while let Some(start) = rest.find(is_of_name) {
+    while let Some(start) = rest.find(is_name_char) {
         let (between, from) = rest.split_at(start);
-        let end = from.find(|letter| !is_of_name(letter));
+        let end = from.find(|letter| !is_name_char(letter));
         let (word, after) = from.split_at(end.unwrap_or(from.len()));
         own += between;
         if word == "MODEL_IDENTIFIER_" {
             own += identifier;
             own.push('_');
         } else {
-            if SHARED.iter().any(|begin| word.starts_with(begin)) {
+            if SHARED_PREFIXES
+                .iter()
+                .any(|prefix| word.starts_with(prefix))
+            {
                 own += identifier;
                 own.push('_');
             }
@@ -86,7 +89,7 @@ pub(super) fn with_own_names(identifier: &str, text: &str) -> String {
 }
 
 impl Fmu {
-    /// The headers of the interface, which are the importer's and in no FMU.
+    /// Headers of the interface; the importer has its own, so they are not part of the FMU.
     pub(super) fn headers(&self) -> [(&'static str, &'static str); 3] {
         match self.interface {
             Interface::Two => HEADERS_2,
@@ -94,7 +97,7 @@ impl Fmu {
         }
     }
 
-    /// Names of the files that are compiled.
+    /// Names of the source files to compile.
     pub(super) fn compiled(&self) -> Vec<&'static str> {
         let names = self.sources.iter().map(|(name, _)| *name);
         let mut compiled: Vec<_> = names.filter(|name| name.ends_with(".c")).collect();

@@ -1,24 +1,24 @@
 //! Variables of an FMU.
 
-/// A variable; value references count from 1 on in the order of the list, 0 is the time.
+/// Variable of an FMU. Value references count from 1 in the order of the list; 0 is the time.
 pub(super) struct Variable {
     pub name: String,
-    /// One of [`UNITS`]; empty where it has none.
+    /// One of [`UNITS`]; empty if dimensionless.
     pub unit: &'static str,
     pub description: &'static str,
     pub kind: Kind,
 }
 
-/// Causality, variability and how a variable begins.
+/// Causality and variability of a variable, with its start value.
 #[derive(Clone, Copy)]
 pub(super) enum Kind {
     Input,
     Output,
-    Tunable { start: f64, greatest: f64 },
+    Tunable { start: f64, max: f64 },
     Counter,
 }
 
-/// Units in words of SI.
+/// Units with their SI base units.
 pub(super) const UNITS: [(&str, &str); 5] = [
     ("m", r#"m="1""#),
     ("m/s", r#"m="1" s="-1""#),

@@ -1,4 +1,4 @@
-//! A vehicle whose dampers outside other FMUs are: the interface in C over a library of Rust.
+//! Vehicle FMU with externally computed dampers: the C interface on top of a Rust library.
 
 use std::fs;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use crate::ExportError;
 use dashpot_files::nearest_nanosecond;
 use dashpot_vehicle_run::{Coupled, CoupledCase, CoupledVariable};
 
-/// Units by the ends of names, longest first.
+/// Units by the suffix of a variable's name, longest first.
 const UNITS: [(&str, &str); 5] = [
     ("_m_per_s2", "m/s2"),
     ("_m_per_s", "m/s"),
@@ -22,35 +22,41 @@ const UNITS: [(&str, &str); 5] = [
 ];
 
 impl Fmu {
-    /// Of a vehicle that has the variables of `coupled`; its functions begin with `identifier`, of ASCII letters, digits and `_`. `library`
-    /// is that of `dashpot-vehicle-model`, `tables` name and content of the contact's tables.
+    /// FMU of a vehicle with the variables of `coupled`. Its functions start with `identifier`, made of ASCII letters,
+    /// digits and `_`. `library` is the static library of `dashpot-vehicle-model`; `tables` is name and content of the
+    /// file with the contact tables.
     ///
     /// # Errors
-    /// The identifier in capitals is no name of a constant of C; a case that cannot be written; a library that cannot be read.
+    /// Returns an error if the identifier in capitals is not a valid C constant name, if the case cannot be written, or
+    /// if the library cannot be read.
     pub fn of_vehicle(
         interface: Interface,
         identifier: &str,
-        of: &CoupledCase,
+        case: &CoupledCase,
         coupled: &Coupled,
         tables: (String, Vec<u8>),
         library: PathBuf,
     ) -> Result<Self, ExportError> {
         check(identifier)?;
-        let case = serde_json::to_vec(of).map_err(|error| ExportError::Case(error.to_string()))?;
-        let bytes = fs::read(&library)
-            .map_err(|error| ExportError::Library(format!("{}: {error}", library.display())))?;
-        let token = token_of(identifier, interface, [case.as_slice(), bytes.as_slice()]);
+        let json =
+            serde_json::to_vec(case).map_err(|error| ExportError::Case(error.to_string()))?;
+        let bytes = fs::read(&library).map_err(|error| ExportError::Library {
+            path: library.clone(),
+            reason: error.to_string(),
+        })?;
+        let token = token_of(identifier, interface, [json.as_slice(), bytes.as_slice()]);
         let step_s = coupled.step_s();
         let mut sources = of_interface(interface);
         sources.push((
             "constants.c",
-            constants(step_s, &token, &CoupledCase::digest(&case)),
+            constants(step_s, &token, &CoupledCase::digest(&json)),
         ));
         let mut variables: Vec<Variable> = coupled.variables().iter().map(variable).collect();
         variables.push(Variable {
             name: "ending".into(),
             unit: "",
-            description: "0 on its way, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged, 5 beyond the model, 6 overturned",
+            description: "0 running, 1 completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5 beyond the \
+                          model, 6 overturned",
             kind: Kind::Counter,
         });
         Ok(Self {
@@ -59,32 +65,34 @@ impl Fmu {
             token,
             title: format!(
                 "{}, internal step {step_s} s, outside: {}",
-                of.case.name,
-                of.outside.join(", ")
+                case.case.name,
+                case.outside.join(", ")
             ),
             step_s,
             stop_s: nearest_nanosecond(coupled.duration_s()),
             variables,
             has_input_derivatives: false,
             may_end: true,
-            about: about(of),
-            resources: vec![(CoupledCase::FILE.into(), case), tables],
+            about: about(case),
+            resources: vec![(CoupledCase::FILE.into(), json), tables],
             sources,
             library: Some(library),
         })
     }
 }
 
-fn variable(of: &CoupledVariable) -> Variable {
-    let unit = UNITS.iter().find(|(end, _)| of.name.ends_with(end));
+fn variable(variable: &CoupledVariable) -> Variable {
+    let unit = UNITS
+        .iter()
+        .find(|(suffix, _)| variable.name.ends_with(suffix));
     Variable {
-        name: of.name.clone(),
+        name: variable.name.clone(),
         unit: unit.map_or("", |(_, unit)| unit),
-        description: match of.is_force() {
-            true => "Force of the damper outside, positive when it resists extension",
+        description: match variable.is_force() {
+            true => "Force of the external damper, positive when it resists extension",
             false => "",
         },
-        kind: match of.is_force() {
+        kind: match variable.is_force() {
             true => Kind::Input,
             false => Kind::Output,
         },
@@ -93,22 +101,26 @@ fn variable(of: &CoupledVariable) -> Variable {
 
 fn constants(step_s: f64, token: &str, digest: &str) -> String {
     format!(
-        "/* What this FMU is. */\n\n#include \"model.h\"\n\n\
+        "/* Identity of this FMU. */\n\n#include \"model.h\"\n\n\
          const double model_step_s = {step_s:e};\nconst char model_token[] = \"{token}\";\n\n\
-         /* Of the case in the resources, for the library. */\nconst char model_case_digest[] = \"{digest}\";\n"
+         /* Digest of the case in the resources folder, which the library checks. */\n\
+         const char model_case_digest[] = \"{digest}\";\n"
     )
 }
 
-fn about(of: &CoupledCase) -> Markup {
+fn about(case: &CoupledCase) -> Markup {
     html! {
         p {
-            "The vehicle of the case " (of.case.name) " on its track, without the force of " (of.outside.join(", ")) ": that is an \
-             input. Outputs are the columns of history.csv of " code { "dashpot vehicle" } ", and the rate of each damper outside over the \
-             last internal step."
+            "The vehicle of the case " (case.case.name) " on its track. The force of " (case.outside.join(", "))
+            " is an input. Outputs are the signals of a Dashpot vehicle history, and the rate of each external damper \
+             over the last internal step."
         }
         p {
-            "A force that is set at t acts at the end of the internal step from t, and stays until another is set. A simulation ends with the \
-             case, or when the vehicle derails, overturns or goes beyond the model: " code { "ending" } " tells why."
+            "A force that is set at time t acts at the end of the internal step that starts at t, and stays until \
+             another is set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond the \
+             model; "
+            code { "ending" }
+            " gives the reason."
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The constants of a damper in C: its numbers, its pieces and the bins that find them.
+//! Constants of a damper in C: scalars, pieces of its table, and the bins for finding a piece.
 
 use std::fmt::Write;
 
@@ -8,43 +8,44 @@ use super::digest::digest;
 use super::number::hexadecimal;
 use crate::Word;
 
-/// Scalars of a damper, and two revisions after them, before the pieces.
+/// A damper's words are its scalars, its revisions, then its pieces.
 const SCALARS: usize = 11;
 const REVISIONS: usize = 2;
 
-/// The scalar that is half the force limit, which C has whole.
+/// Index of the scalar that is half the force limit; C stores the whole limit.
 const HALF_FORCE_LIMIT: usize = 7;
 
-/// The scalars that are compared by their bits, which C has as bits: bounds of move, displacement and stretch.
-const BOUNDS: [usize; 3] = [0, 9, 10];
+/// Indices of the scalars that are compared by their bits and stored as bits in C: bounds of move, displacement and
+/// stretch.
+const BIT_BOUNDS: [usize; 3] = [0, 9, 10];
 
-/// Words of a piece: three cubics and its knot.
-const PIECE: usize = 13;
+/// Words per piece: three cubics and the knot.
+const PIECE_WORDS: usize = 13;
 
-/// Pieces of a side.
+/// Pieces per side (extension, compression).
 const PIECES: usize = 64;
 
-/// Numbers of a piece in C.
-const NUMBERS: usize = 16;
+/// Numbers per piece in C.
+const PIECE_NUMBERS: usize = 16;
 
-/// Bytes of the constants but for the damper's own numbers.
+/// Size of the table in bytes, without the damper's scalars.
 pub(super) fn bytes<T: Word>(damper: &Damper<T>) -> usize {
-    2 * PIECES * NUMBERS * size_of::<T>() + size_of_val(damper.bins())
+    2 * PIECES * PIECE_NUMBERS * size_of::<T>() + size_of_val(damper.bins())
 }
 
-/// What the header says of them.
+/// Returns the declarations for the header.
 pub(super) fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> String {
     let name = constant.to_lowercase();
     format!(
         "/* The damper as built: step with it, or copy it to change the clearance of the copy. */\n\
          extern const {name}_damper {name}_as_built;\n\n\
-         /* What {name}_digest(&{name}_as_built) returns where the forces are those of the model in Rust. */\n\
+         /* Value of {name}_digest(&{name}_as_built) if the forces equal those of the Rust model. */\n\
          #define {constant}_DIGEST UINT32_C({:#010x})\n",
         digest(damper)
     )
 }
 
-/// The constants themselves, their names beginning with `name`, of the step whose names begin with `prefix`.
+/// Returns the definitions. Their names start with `name`; the names of the step they belong to start with `prefix`.
 pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>) -> String {
     let words = T::words(damper);
     let (scalars, rest) = words.split_at(SCALARS);
@@ -53,13 +54,13 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
         "\nstatic const {prefix}_piece {name}_pieces[{}] = {{\n",
         2 * PIECES
     );
-    for side in pieces.chunks(PIECES * PIECE) {
-        let pieces: Vec<&[u64]> = side.chunks(PIECE).collect();
+    for side in pieces.chunks(PIECES * PIECE_WORDS) {
+        let pieces: Vec<&[u64]> = side.chunks(PIECE_WORDS).collect();
         let knot = |piece: usize| match pieces.get(piece).and_then(|piece| piece.last()) {
             Some(&word) => hexadecimal(T::from_word(word)),
             None => hexadecimal(T::MAX),
         };
-        for (place, piece) in pieces.iter().enumerate() {
+        for (index, piece) in pieces.iter().enumerate() {
             let cubics = piece
                 .chunks_exact(4)
                 .map(|cubic| format!("{{{}}}", list::<T>(cubic)));
@@ -68,9 +69,9 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
                 text,
                 "    {{{},\n     {}, {{{}, {}}}, 0}},",
                 cubics.collect::<Vec<_>>().join(",\n     "),
-                knot(place),
-                knot(place + 1),
-                knot(place + 2),
+                knot(index),
+                knot(index + 1),
+                knot(index + 2),
             );
         }
     }
@@ -89,13 +90,13 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
     }
     let _ = write!(text, "}};\n\nconst {prefix}_damper {name}_as_built = {{\n");
     let bits = 8 * size_of::<T>();
-    for (place, word) in scalars.iter().enumerate() {
-        if BOUNDS.contains(&place) {
+    for (index, word) in scalars.iter().enumerate() {
+        if BIT_BOUNDS.contains(&index) {
             let _ = writeln!(text, "    UINT{bits}_C({word:#x}),");
             continue;
         }
         let mut number = T::from_word(*word);
-        if place == HALF_FORCE_LIMIT {
+        if index == HALF_FORCE_LIMIT {
             number = number + number;
         }
         let _ = writeln!(text, "    {},", hexadecimal(number));

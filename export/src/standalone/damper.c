@@ -1,8 +1,9 @@
 #include <float.h>
 #include <stdbool.h>
 
-/* The bits of a force are those of the model in Rust only where a compiler computes what is written: every operation
- * rounded once, in its own type, none fused or reordered. Fusing is turned off below; the rest must not be asked for. */
+/* The forces equal those of the Rust model bit for bit only if the compiler rounds every operation once, in its own
+ * type, and neither fuses nor reorders operations. Fusing is turned off below; do not request the other
+ * optimisations. */
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST) \
     || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
 #error "the forces would not be those of the model: compile without -ffast-math and its parts (/fp:fast)"
@@ -51,7 +52,7 @@
 #define PREFIX_COLD static
 #endif
 
-/* Registers of numbers, where GCC and clang are told of them. */
+/* Floating-point registers in inline assembly of GCC and clang. */
 #if defined(__GNUC__) && defined(__SSE2__)
 #define PREFIX_REGISTER "+x"
 #elif defined(__GNUC__) && defined(__aarch64__)
@@ -60,22 +61,22 @@
 #define PREFIX_REGISTER "+t"
 #endif
 
-/* Keeps a product from being fused: clang may be told to do so against the source's own word. */
+/* Keeps a product from being fused; an option of clang can override the pragma. */
 #if defined(__clang__) && defined(PREFIX_REGISTER)
 #define PREFIX_ROUND(product) __asm__("" : PREFIX_REGISTER(product))
 #else
 #define PREFIX_ROUND(product) (void)0
 #endif
 
-/* Keeps a number computed at every step, whether the step takes it or not: one cost. */
+/* Forces the computation of a number in every step, used or not, so that each step has the same cost. */
 #ifdef PREFIX_REGISTER
 #define PREFIX_ALWAYS(number) __asm__ volatile("" : PREFIX_REGISTER(number))
 #else
 #define PREFIX_ALWAYS(number) (void)0
 #endif
 
-/* Whether larger and smaller of two numbers are one instruction: Armv8-M and Armv8-A with single precision, and what
- * a compiler says of a Cortex-M7. */
+/* True if maximum and minimum are single instructions: Armv8-M and Armv8-A in single precision, and Cortex-M7 if the
+ * compiler reports it. */
 #if SCALAR_BITS == 32 && defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__) \
     && ((defined(__ARM_ARCH) && __ARM_ARCH >= 8) || defined(__ARM_FPV5__))
 #define PREFIX_HAS_MAXIMUM 1
@@ -83,36 +84,37 @@
 #define PREFIX_HAS_MAXIMUM 0
 #endif
 
-/* gamma of both stages, 1 - 1/sqrt 2, and the rest to 1. */
+/* gamma of both stages, 1 - 1/sqrt 2, and 1 - gamma. */
 #define PREFIX_GAMMA ((prefix_real)0x1.2bec333018866p-2)
 #define PREFIX_REST_OF_GAMMA ((prefix_real)0x1.6a09e667f3bcdp-1)
-/* Largest correction over the change of the stretch in the step, so that it never undoes the damping. */
+/* Maximum correction relative to the change of the stretch in the step, so that it never cancels the damping. */
 #define PREFIX_LARGEST_CORRECTION ((prefix_real)0.125)
-/* Largest force limit (N) and largest clearance (m) that any damper can have. */
+/* Maximum force limit (N) and maximum clearance (m) of any damper. */
 #define PREFIX_LARGEST_FORCE_N ((prefix_real)1e7)
 #define PREFIX_LARGEST_CLEARANCE_M ((prefix_real)0.1)
-/* No damper's input moves and no damper is stretched farther (m). */
+/* Bound on the displacement and the stretch of any damper (m). */
 #define PREFIX_LARGEST_BOUND_M ((prefix_real)1.45)
-/* How far a damper may be behind its input: as far as it follows at its largest rate in this time (s), in which the force
- * falls to zero when the input is farther away; and the least share of its limit that the force falls by in a step. */
+/* Maximum lag behind the input: the travel at the largest rate in this time (s). If the input is farther away, the
+ * force falls to zero in this time. The second number is the minimum decrease per step as a fraction of the force
+ * limit. */
 #define PREFIX_CATCH_UP_S ((prefix_real)0.01)
 #define PREFIX_LEAST_FALL ((prefix_real)1e-4)
 
-/* Upper bits of a state's status word: they tell a state from memory that was never written. */
+/* Upper bits of a state's status word; they distinguish a state from memory that was never written. */
 #define PREFIX_MARK 0x3940U
 #define PREFIX_MARK_BITS 0xffc0U
 
-/* Hash of nothing, and its factor: FNV-1a (Fowler, Noll, Vo; 32 bit). */
+/* Initial value and factor of the hash FNV-1a (Fowler, Noll, Vo; 32 bit). */
 #define PREFIX_HASH_START UINT32_C(0x811c9dc5)
 #define PREFIX_HASH_FACTOR UINT32_C(0x01000193)
 
 enum {
-    /* Pieces and bins a side. */
+    /* Pieces and bins per side. */
     PREFIX_PIECES = 64,
     PREFIX_BINS = 2048,
-    /* Leading bits of a number's fraction that take part in the number of a bin. */
+    /* Leading bits of a number's fraction that contribute to the index of a bin. */
     PREFIX_BIN_FRACTION_BITS = 7,
-    /* Bits of a number, of its fraction, and those below the ones that number a bin. */
+    /* Bits of a number, of its fraction, and below those that give the index of a bin. */
     PREFIX_REAL_BYTES = sizeof(prefix_real),
     PREFIX_REAL_BITS = 8 * PREFIX_REAL_BYTES,
     PREFIX_FRACTION_BITS = (PREFIX_REAL_BYTES == 4 ? FLT_MANT_DIG : DBL_MANT_DIG) - 1,
@@ -132,7 +134,7 @@ struct prefix_piece {
     prefix_real stiffness[4];   /* force over stretch beyond the clearance (N/m) */
     prefix_real knot;           /* where the piece begins (m) */
     prefix_real next_knots[2];  /* where the next pieces begin (m) */
-    prefix_real padding;        /* sixteen numbers: the address of a piece takes one shift */
+    prefix_real padding;        /* makes sixteen numbers, so that one shift computes the address of a piece */
 };
 
 PREFIX_INLINE prefix_bits prefix_bits_of(prefix_real value)
@@ -162,7 +164,7 @@ PREFIX_INLINE prefix_real prefix_magnitude(prefix_real value)
 #endif
 }
 
-/* The larger and the smaller of two numbers; of NaN the other, which is not NaN. */
+/* Maximum and minimum; if one number is NaN, the other one. */
 PREFIX_INLINE prefix_real prefix_larger(prefix_real value, prefix_real other)
 {
 #if PREFIX_HAS_MAXIMUM
@@ -181,7 +183,7 @@ PREFIX_INLINE prefix_real prefix_smaller(prefix_real value, prefix_real other)
 #endif
 }
 
-/* Whether a number is neither NaN nor infinite. */
+/* True if a number is neither NaN nor infinite. */
 PREFIX_INLINE bool prefix_is_finite(prefix_real value)
 {
     const prefix_bits exponent = ((prefix_bits)-1 >> 1) >> PREFIX_FRACTION_BITS << PREFIX_FRACTION_BITS;
@@ -189,14 +191,14 @@ PREFIX_INLINE bool prefix_is_finite(prefix_real value)
     return (prefix_bits_of(value) & exponent) != exponent;
 }
 
-/* Whether the magnitude of a number is at most the one whose bits are given doubled; false for NaN, whose bits are
- * beyond those of every number. */
+/* True if the magnitude of a number is at most that of the bound, given as doubled bits. False for NaN, whose bits
+ * exceed those of every number. */
 PREFIX_INLINE bool prefix_is_within(prefix_real value, prefix_bits bound)
 {
     return bound >= (prefix_bits)(prefix_bits_of(value) << 1);
 }
 
-/* a b, rounded whatever is done with it. */
+/* a b, always rounded. */
 PREFIX_INLINE prefix_real prefix_product(prefix_real a, prefix_real b)
 {
     prefix_real product = a * b;
@@ -209,7 +211,7 @@ PREFIX_INLINE prefix_real prefix_product(prefix_real a, prefix_real b)
 PREFIX_INLINE prefix_real prefix_add_product(prefix_real sum, prefix_real a, prefix_real b)
 {
 #if SCALAR_BITS == 32 && defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__)
-    /* One instruction, in which the product is rounded too; GCC would take two. */
+    /* One instruction that rounds the product too; GCC would use two. */
     __asm__("vmla.f32 %0, %1, %2" : "+t"(sum) : "t"(a), "t"(b));
     return sum;
 #else
@@ -227,7 +229,7 @@ PREFIX_INLINE prefix_real prefix_subtract_product(prefix_real sum, prefix_real a
 #endif
 }
 
-/* c0 + c1 z + c2 z^2 + c3 z^3, in pairs: a shorter chain than Horner's for one product more. */
+/* c0 + c1 z + c2 z^2 + c3 z^3, evaluated in pairs: a shorter dependency chain than Horner's for one more product. */
 PREFIX_INLINE prefix_real prefix_cubic(const prefix_real c[4], prefix_real z)
 {
     const prefix_real low = prefix_add_product(c[0], c[1], z);
@@ -236,14 +238,14 @@ PREFIX_INLINE prefix_real prefix_cubic(const prefix_real c[4], prefix_real z)
     return prefix_add_product(low, high, z * z);
 }
 
-/* A solved implicit stage. */
+/* Solution of an implicit stage. */
 typedef struct prefix_stage {
     prefix_real flow_m;  /* times the step */
     const prefix_piece *piece;
     prefix_real z_m;     /* in the piece */
 } prefix_stage;
 
-/* 1 where a positive number has reached a knot. Positive numbers are in the order of their bits. */
+/* 1 if a positive number has reached a knot, else 0. Positive numbers have the same order as their bits. */
 PREFIX_INLINE prefix_bits prefix_passed(prefix_bits reach, prefix_real knot)
 {
     return (prefix_bits)(prefix_bits_of(knot) - reach) >> (PREFIX_REAL_BITS - 1);
@@ -253,7 +255,7 @@ PREFIX_INLINE prefix_bits prefix_passed(prefix_bits reach, prefix_real knot)
  * the offset, names the piece at its lower border; at most two knots lie within it. Any number is safe to look up. */
 PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, prefix_stage *stage)
 {
-    /* The larger of sums is the sum of the larger, and takes no zero. */
+    /* The maximum of the sums equals the sum of the maximum and needs no zero. */
     const prefix_real knot = damper->first_knot_m;
     const prefix_real place = prefix_larger(prefix_magnitude(reach) - damper->offset_m + knot, knot);
     const prefix_bits bits = prefix_bits_of(place);
@@ -324,7 +326,7 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
         status_word |= PREFIX_SATURATED;
     }
     state->status_word = (uint16_t)status_word;
-    /* Only damaged constants make it negative, NaN or larger than any limit: in the order of bits all are beyond. */
+    /* Only damaged constants make it negative, NaN or larger than any limit; the bits of all these exceed the bound. */
     if (prefix_bits_of(limited) > prefix_bits_of(PREFIX_LARGEST_FORCE_N)) {
         limited = prefix_larger(prefix_smaller(limited, PREFIX_LARGEST_FORCE_N), 0);
     }
@@ -368,15 +370,15 @@ static prefix_real prefix_largest_reach_beyond_offset(const prefix_damper *dampe
     return (prefix_real)(1U << (PREFIX_BINS >> PREFIX_BIN_FRACTION_BITS)) * damper->first_knot_m;
 }
 
-/* Whether every number of a state is finite. */
+/* True if all numbers of a state are finite. */
 static bool prefix_is_finite_state(const prefix_state *state)
 {
     return prefix_is_finite(state->displacement_m) && prefix_is_finite(state->stretch_m)
            && prefix_is_finite(state->potential_m2) && prefix_is_finite(state->force_n);
 }
 
-/* Whether a step of the damper could leave the numbers of a state behind. Rounding to the grid of positions may pass the
- * range of displacement, by less than a thousandth of it. */
+/* True if a step of the damper could produce the numbers of a state. Rounding to the grid of positions may exceed the
+ * range of displacement by less than a thousandth. */
 static bool prefix_could_leave(const prefix_damper *damper, const prefix_state *state)
 {
     const prefix_real most = prefix_product((prefix_real)1.001, prefix_largest_displacement_m(damper));
@@ -406,7 +408,7 @@ static prefix_real prefix_hold(prefix_state *state)
     return 0;
 }
 
-/* Puts a state at rest at a displacement (m); what it had latched and counted stays. */
+/* Puts a state at rest at a displacement (m); keeps its latched bits and its counter. */
 static void prefix_restart(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m,
                            unsigned because)
 {
@@ -415,16 +417,17 @@ static void prefix_restart(const prefix_damper *damper, prefix_state *state, pre
     const uint16_t count = marked ? state->rejected_inputs : 0;
 
     prefix_at_rest(damper, state, displacement_m);
-    state->rejected_inputs = count; /* a displacement that is held is counted where it is held */
+    state->rejected_inputs = count; /* held displacements are counted elsewhere */
     prefix_latch(state, status | because);
 }
 
 static void prefix_take_force(const prefix_damper *damper, prefix_state *state, prefix_real force);
 
-/* The travel (m) to a displacement (m), after the state was made one that the damper can step. A state that no step
- * leaves behind starts over at rest; one that another damper stepped is adopted. A displacement that is not finite or out
- * of range is held; one too fast is followed at the largest rate while it is near enough; one farther away is held while
- * the force falls to zero, and then the damper restarts at rest there. Each is latched, the last three are counted. */
+/* Returns the travel (m) to a displacement (m), after making the state valid for the damper. A state that no step could
+ * produce restarts at rest; a state of another damper is adopted. A displacement that is not finite or out of range is
+ * held. One that is too fast is followed at the largest rate while it is near enough. If it is farther away, it is held
+ * while the force falls to zero, and then the damper restarts at rest there. Each event is latched, and the last three
+ * are counted. */
 static prefix_real prefix_travel(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
 {
     const prefix_real most = prefix_largest_move_m(damper);
@@ -507,8 +510,8 @@ static void prefix_take_force(const prefix_damper *damper, prefix_state *state, 
     }
 }
 
-/* Displacement and force stay, within the limits of the damper, the stretch becomes the one the damper has under that
- * force; without force it stays within the clearance. */
+/* Keeps displacement and force within the limits of the damper, and sets the stretch to that of the damper under this
+ * force; without force the stretch stays within the clearance. */
 void prefix_adopt(const prefix_damper *damper, prefix_state *state)
 {
     const prefix_real limit = prefix_force_limit_n(damper);
@@ -535,7 +538,7 @@ static uint32_t prefix_hash_byte(uint32_t hash, unsigned byte)
     return ((hash ^ byte) * PREFIX_HASH_FACTOR) & UINT32_MAX;
 }
 
-/* Hash continued over the bits of a number, zero-extended to 64, from the lowest byte. */
+/* Continues the hash over the bits of a number, zero-extended to 64 bits, lowest byte first. */
 static uint32_t prefix_hash_bits(uint32_t hash, uint64_t bits)
 {
     unsigned shift;
@@ -551,8 +554,8 @@ static uint32_t prefix_hash_real(uint32_t hash, prefix_real value)
     return prefix_hash_bits(hash, prefix_bits_of(value));
 }
 
-/* The largest stretch that a step leaves behind, its bits doubled. From a stretch u beyond the offset the stages look at
- * most sqrt(2) u and 1.12 moves far, which must be in the table. */
+/* Doubled bits of the largest stretch after a step. From a stretch u beyond the offset, the stages look up at most
+ * sqrt(2) u and 1.12 moves, which must be in the table. */
 static prefix_bits prefix_stretch_bound(const prefix_damper *damper)
 {
     const prefix_real end = prefix_largest_reach_beyond_offset(damper);
@@ -603,7 +606,7 @@ prefix_real prefix_clearance_m(const prefix_damper *damper)
     return damper->half_clearance_m + damper->half_clearance_m;
 }
 
-/* Of damaged constants too. */
+/* Also valid for damaged constants. */
 prefix_real prefix_force_limit_n(const prefix_damper *damper)
 {
     const prefix_real limit = damper->force_limit_n;
@@ -665,7 +668,7 @@ prefix_result prefix_restore(const prefix_damper *damper, prefix_state *state,
     if (!prefix_could_leave(damper, &saved)) {
         return PREFIX_IMPOSSIBLE_VALUES;
     }
-    /* Member by member: of a whole structure a compiler may make a call of memcpy. */
+    /* Member by member, because compilers may turn the copy of a structure into a call of memcpy. */
     state->displacement_m = saved.displacement_m;
     state->stretch_m = saved.stretch_m;
     state->potential_m2 = saved.potential_m2;
@@ -695,8 +698,8 @@ static void prefix_copy(prefix_damper *to, const prefix_damper *from)
     to->bins = from->bins;
 }
 
-/* Displacements by a linear congruential generator (Numerical Recipes), about zero, their moves halved every 128
- * steps from the largest credible one down, and again; on the way a reading that failed, a jump, another clearance. */
+/* Displacements about zero from a linear congruential generator (Numerical Recipes). The moves start at the largest
+ * credible one and are halved every 128 steps, repeatedly; with a failed reading, a jump and a change of clearance. */
 uint32_t prefix_digest(const prefix_damper *damper)
 {
     prefix_damper copy;

@@ -16,8 +16,8 @@ enum {
     PREFIX_INPUT_HELD = 1,      /* a displacement was not finite, out of range, or too far to catch up with; held */
     PREFIX_INPUT_LIMITED = 2,   /* a displacement moved faster than the largest rate; followed at that rate */
     PREFIX_SATURATED = 4,       /* the element yielded: saturation force or force limit reached */
-    PREFIX_DAMPER_SWAPPED = 8,  /* another damper than before stepped the state; the force was carried over */
-    PREFIX_CORRUPTED = 16,      /* memory was damaged: a state that no step leaves behind started over at rest */
+    PREFIX_DAMPER_SWAPPED = 8,  /* a different damper stepped the state; the force was carried over */
+    PREFIX_CORRUPTED = 16,      /* memory was damaged: a state that no step could produce restarted at rest */
     PREFIX_RESTARTED = 32       /* a displacement was too far to catch up with: restarted at rest there */
 };
 
@@ -29,7 +29,7 @@ typedef enum prefix_result {
     PREFIX_IMPOSSIBLE_VALUES = 3   /* saved bytes with numbers that no step of this damper leaves behind */
 } prefix_result;
 
-/* Cubics of a piece of the table, in flash. */
+/* Piece of the table, in flash. */
 typedef struct prefix_piece prefix_piece;
 
 /* A damper for one step size, shared by any number of states. Its numbers change with the clearance only. */
@@ -45,7 +45,7 @@ typedef struct prefix_damper {
     prefix_real held_m;              /* stretch of the mount under seal friction */
     prefix_bits displacement_bound;  /* largest displacement from zero: its bits (m), doubled */
     prefix_bits stretch_bound;       /* largest stretch that a step leaves behind: its bits (m), doubled */
-    uint32_t revision;               /* tells dampers apart */
+    uint32_t revision;               /* identifies the damper */
     uint32_t table_revision;
     const prefix_piece *pieces;      /* of extension, then of compression */
     const uint8_t (*bins)[2];        /* the piece at a bin's lower border, of either side */
@@ -53,12 +53,12 @@ typedef struct prefix_damper {
 
 /* State of one damper: plain data, saved and restored by copying. Read it, but let functions write it. */
 typedef struct prefix_state {
-    prefix_real displacement_m;      /* used last, positive in extension */
+    prefix_real displacement_m;      /* last displacement, positive in extension */
     prefix_real stretch_m;           /* of clearance and series springs; displacement less stretch is the piston's */
     prefix_real potential_m2;        /* flow potential at the stretch, times the step */
-    prefix_real force_n;             /* returned last, positive when it resists extension */
+    prefix_real force_n;             /* last force, positive when it resists extension */
     uint32_t revision;               /* of the damper that stepped last */
-    uint16_t status_word;            /* a mark and the status; see prefix_status */
+    uint16_t status_word;            /* marker and status; see prefix_status */
     uint16_t rejected_inputs;        /* ticks held, limited or restarted, up to 65535 */
 } prefix_state;
 

@@ -1,19 +1,19 @@
-//! What `prefix_digest` of `damper.c` must return, from the core.
+//! Expected result of `prefix_digest` in `damper.c`, computed with the core.
 
 use dashpot_core::Damper;
 
 use crate::Word;
 
-/// Steps of the motion.
+/// Number of steps of the motion.
 const STEPS: u32 = 2048;
 
-/// Hash (FNV-1a, 32 bit) of a damper's states over the motion that `damper.c` makes: about zero by a linear
-/// congruential generator (Numerical Recipes), its moves halved every 128 steps from the largest credible one, with
-/// failed readings, a jump and another clearance on the way.
+/// Hash (FNV-1a, 32 bit) of a damper's states over the motion generated in `damper.c`: random moves about zero from a
+/// linear congruential generator (Numerical Recipes), halved every 128 steps from the largest credible move, with
+/// failed readings, a jump and a change of clearance.
 pub(super) fn digest<T: Word>(damper: &Damper<T>) -> u32 {
     let mut damper = *damper;
     let mut state = damper.at_rest(T::ZERO);
-    // The first word has the bits of the largest move, doubled.
+    // The first word holds the bits of the largest move, doubled.
     let largest_move = T::from_word(T::words(&damper).first().copied().unwrap_or_default() >> 1);
     let number = T::from_f64;
     let (mut hash, mut random) = (0x811c_9dc5_u32, 1_u32);
@@ -33,7 +33,7 @@ pub(super) fn digest<T: Word>(damper: &Damper<T>) -> u32 {
             displacement = displacement + number(1.0);
         }
         if step == 1500 {
-            // Within its range, so it is not refused.
+            // In range, so it cannot fail.
             let _ = damper.set_clearance_m(number(1.0 / 1024.0));
         }
         let failed = step % 512 == 300;

@@ -1,8 +1,8 @@
-//! A damper in C99 without a library: step and constants as one header and one source.
+//! A damper in C99 without a library: step and constants in one header and one source.
 //!
-//! `damper.h` and `damper.c` are the step, the transcription of docs/numerics.md beside `core/src/step.rs`. Their
-//! names begin with `prefix_` and `PREFIX_`, which become the constant's, so that several dampers link into one
-//! program. The step reads any damper of its scalar: constants stand apart from it.
+//! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. Names that start
+//! with `prefix_` or `PREFIX_` get the prefix of the constant, so that several dampers link into one program. The step
+//! works with any damper of its scalar: the constants are separate.
 
 mod constants;
 mod digest;
@@ -16,13 +16,13 @@ use dashpot_files::Scalar;
 const HEADER: &str = include_str!("damper.h");
 const SOURCE: &str = include_str!("damper.c");
 
-/// End of the header, which has begun a block of C++ and a guard.
+/// End of the header; closes the C++ block and the include guard.
 const END_OF_HEADER: &str = "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
 
-/// C header of [`standalone_source`]: types, functions and the damper as built; C++ too.
+/// Returns the C and C++ header of [`standalone_source`]: types, functions and the damper as built.
 ///
 /// # Errors
-/// `constant` is no name of a constant, or one that headers may define.
+/// Returns an error if `constant` is not a valid constant name or reserved by C headers.
 pub fn standalone_header<T: Word>(
     constant: &str,
     damper: &Damper<T>,
@@ -31,11 +31,11 @@ pub fn standalone_header<T: Word>(
     Ok(comment(constant, damper, provenance)? + &declarations(constant, damper))
 }
 
-/// C source of a damper: its step and its constants, C99 without a library. `header` is the name of the file of
-/// [`standalone_header`], which it includes; without one the declarations stand in the source.
+/// Returns C99 source of a damper: step and constants, without a library. The source includes `header`, the file name
+/// of [`standalone_header`]; with `None` the source contains the declarations itself.
 ///
 /// # Errors
-/// Those of [`standalone_header`]; `header` cannot stand between quotation marks.
+/// Same as [`standalone_header`]; also if `header` is not valid between quotation marks.
 pub fn standalone_source<T: Word>(
     constant: &str,
     damper: &Damper<T>,
@@ -54,22 +54,22 @@ pub fn standalone_source<T: Word>(
         + &constants)
 }
 
-/// The header of the step alone, names beginning with `constant`.
+/// Header of the step alone; its names start with `constant`.
 pub(super) fn header_of_step<T: Word>(constant: &str) -> String {
     rendered::<T>(HEADER, constant) + END_OF_HEADER
 }
 
-/// The step alone.
+/// Source of the step alone; its names start with `constant`.
 pub(super) fn source_of_step<T: Word>(constant: &str) -> String {
     rendered::<T>(SOURCE, constant)
 }
 
-/// The constants of a damper, called `name`, for the step whose names begin with `prefix`.
+/// Constants of a damper; their names start with `name`, those of the step with `prefix`.
 pub(super) fn constants_of<T: Word>(prefix: &str, name: &str, damper: &Damper<T>) -> String {
     constants::definitions(prefix, name, damper)
 }
 
-/// Bytes of a damper's table as constants of C.
+/// Size in bytes of a damper's table as C constants.
 pub fn standalone_table_bytes<T: Word>(damper: &Damper<T>) -> usize {
     constants::bytes(damper)
 }
@@ -86,17 +86,17 @@ fn comment<T: Word>(
 ) -> Result<String, ExportError> {
     name::check_c(constant)?;
     let stored = format!("{} bytes of constants", standalone_table_bytes(damper));
-    let comment = provenance.comment(damper, &stored, "a compiler of C99 and nothing else");
+    let comment = provenance.comment(damper, &stored, "a C99 compiler and nothing else");
     Ok(comment + "\n")
 }
 
-/// A text of the step for a scalar, its names beginning with the constant's.
+/// Fills in the scalar type and the constant's prefix in a source text of the step.
 fn rendered<T: Word>(text: &str, constant: &str) -> String {
     let (float, word, bits) = match Scalar::of::<T>() {
         Scalar::F32 => ("float", "uint32_t", "32"),
         Scalar::F64 => ("double", "uint64_t", "64"),
     };
-    // The name comes last: it may have any of these words in it.
+    // The name comes last because it may contain any of these words.
     text.replace("SCALAR_TYPE", float)
         .replace("SCALAR_WORD", word)
         .replace("SCALAR_BITS", bits)

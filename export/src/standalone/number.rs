@@ -1,16 +1,16 @@
-//! Numbers as C writes them to the bit.
+//! Exact numbers in C.
 
 use std::fmt::Write;
 
 use crate::Word;
 use dashpot_files::Scalar;
 
-/// Bits of a double's fraction.
+/// Fraction bits of a double.
 const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
-/// What is added to its exponent.
+/// Exponent bias of a double.
 const BIAS: i32 = f64::MAX_EXP - 1;
 
-/// A finite number as a hexadecimal constant of C99, which no compiler rounds: `0x1.8p-3f` is 0.1875 in `f32`.
+/// Formats a finite number as a hexadecimal C99 constant, which no compiler rounds: `0x1.8p-3f` is 0.1875 in `f32`.
 pub(super) fn hexadecimal<T: Word>(value: T) -> String {
     let end = match Scalar::of::<T>() {
         Scalar::F32 => "f",
@@ -39,7 +39,7 @@ mod tests {
     use super::hexadecimal;
 
     #[test]
-    fn numbers_are_those_of_the_standard() {
+    fn constants_have_the_exact_value() {
         assert_eq!(hexadecimal(0.1875_f32), "0x1.8p-3f");
         assert_eq!(hexadecimal(0.1_f32), "0x1.99999ap-4f");
         assert_eq!(hexadecimal(0.1_f64), "0x1.999999999999ap-4");

@@ -1,14 +1,14 @@
-//! Bounds of the numbers of a case.
+//! Bounds of a case's numbers.
 
 use dashpot_rail::contact::MAX_NORMAL_DAMPING_S_PER_M;
 use dashpot_rail::vehicle::{SPEED_M_PER_S, STEP_S};
 
 use super::{CaseError, CaseOptions};
 
-/// Greatest push, m: the flange is some 6 mm away.
-const PUSH_M: f64 = 0.02;
+/// Maximum initial lateral offset, m; flange contact begins at about 6 mm.
+const MAX_PUSH_M: f64 = 0.02;
 
-/// Checks every number.
+/// Checks all numbers.
 pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
     let steps_us = STEP_S.map(|step_s| (step_s * 1e6).round());
     let numbers = [
@@ -26,22 +26,23 @@ pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
             [0.0, MAX_NORMAL_DAMPING_S_PER_M],
         ),
         ("step_us", options.step_us, steps_us),
-        ("push_m", options.push_m, [-PUSH_M, PUSH_M]),
+        ("push_m", options.push_m, [-MAX_PUSH_M, MAX_PUSH_M]),
     ];
     for (key, value, allowed) in numbers {
-        within(key, value, allowed)?;
+        check_bounds(key, value, allowed)?;
     }
     Ok(())
 }
 
-/// Checks one number; NaN is not within.
-fn within(key: &'static str, value: f64, allowed: [f64; 2]) -> Result<(), CaseError> {
-    if (allowed[0]..=allowed[1]).contains(&value) {
+/// Checks one number; NaN is out of bounds.
+fn check_bounds(key: &'static str, value: f64, [min, max]: [f64; 2]) -> Result<(), CaseError> {
+    if (min..=max).contains(&value) {
         return Ok(());
     }
     Err(CaseError::OutOfBounds {
         key,
         value,
-        allowed,
+        min,
+        max,
     })
 }

@@ -1,4 +1,4 @@
-//! Why there is no case, and where in its file.
+//! Case errors and their positions in the file.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -9,65 +9,67 @@ use crate::track::TrackFileError;
 use crate::vehicle::VehicleFileError;
 use crate::{FileError, UnknownName};
 
-/// Why a name, a file or options are no case.
+/// Error from loading a case.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CaseError {
-    /// The name is neither a shipped case's nor a file's.
+    /// The name is neither a built-in case nor a file.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// The file cannot be read, or a line of it is not as it must be.
+    /// Cannot read the file, or a line of it is invalid.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is no TOML, or has unknown or missing keys; with line, column and the nearest key.
+    /// The text is not TOML, or has unknown or missing keys.
     #[error("{name}: {message}")]
     Text {
-        /// The file or case.
+        /// Name of the file or case.
         name: String,
-        /// What is wrong, and where.
+        /// The problem with line and column, and a similar key if there is one.
         message: String,
     },
     /// A number is out of bounds.
-    #[error("{key} {value}, allowed: {} to {}", .allowed[0], .allowed[1])]
+    #[error("{key} {value}, allowed: {min} to {max}")]
     OutOfBounds {
-        /// Its key.
+        /// Key of the number.
         key: &'static str,
-        /// Its value.
+        /// The value.
         value: f64,
-        /// Smallest and greatest allowed value.
-        allowed: [f64; 2],
+        /// Minimum allowed value.
+        min: f64,
+        /// Maximum allowed value.
+        max: f64,
     },
-    /// There is no such vehicle.
+    /// Invalid vehicle.
     #[error(transparent)]
     Vehicle(#[from] VehicleFileError),
-    /// There is no such track.
+    /// Invalid track.
     #[error(transparent)]
     Track(#[from] TrackFileError),
-    /// Rails cannot give way as they shall.
+    /// Invalid rail support.
     #[error(transparent)]
     Rails(VehicleError),
-    /// A fault cannot be.
+    /// Invalid fault entry.
     #[error("fault {number}: {reason}")]
     Fault {
-        /// Its number, from 1.
+        /// Number of the entry in the file, from 1.
         number: usize,
-        /// What is wrong with it, and what is allowed.
+        /// The problem, and the allowed values.
         reason: String,
     },
 }
 
-/// Where in its file each value of a case stands.
+/// Positions of a case's values in its file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Origin {
     pub file: PathBuf,
-    /// Lines of the keys, of the dampers replaced (`dampers=damper`), and of the overrides by their texts.
+    /// Lines by key, by replacement (`dampers=damper`) and by override text.
     pub lines: BTreeMap<String, u64>,
-    /// Lines of the faults.
+    /// Line of each fault.
     pub faults: Vec<u64>,
 }
 
 impl Origin {
-    /// The error with file and line, if what is wrong is from the file.
+    /// Adds file and line to an error whose cause is in the file.
     pub fn locate(&self, error: CaseError) -> CaseError {
         let key = match &error {
             CaseError::OutOfBounds { key, .. } => (*key).to_owned(),

@@ -1,4 +1,4 @@
-//! Cases of a vehicle on a track: from a file in TOML, or in the words of a command line.
+//! Cases: a vehicle on a track at a speed, from a TOML file or from separate options.
 
 mod bounds;
 mod error;
@@ -11,7 +11,7 @@ use dashpot_rail::vehicle::{Law, RailSupport, VehicleParameters};
 pub use error::CaseError;
 use error::Origin;
 pub use fault::{Fault, FaultOptions};
-pub use parts::CaseParts;
+pub use parts::{CaseNumbers, CaseParts};
 use tables::CaseTables;
 
 use crate::overrides::explain;
@@ -19,7 +19,7 @@ use crate::shipped::{Found, Shipped};
 use crate::track::{self, TrackParameters};
 use crate::vehicle::{self, Replacement};
 
-/// Cases that ship with the program: name and file.
+/// Built-in cases: name and text.
 pub const CASES: [(&str, &str); 4] = [
     (
         "straight-180",
@@ -40,48 +40,48 @@ pub const CASES: [(&str, &str); 4] = [
 ];
 
 const SHIPPED: Shipped = Shipped {
-    what: "case",
-    one: "case",
+    kind: "case",
+    built_in: "case",
     texts: &CASES,
 };
 
-/// Normal damping of a case that gives none, s/m: without any, impacts of the flange are chaotic, and in a curve it never comes to rest.
+/// Default normal damping, s/m. Without damping, flange impacts are chaotic and the vehicle never settles in a curve.
 pub const NORMAL_DAMPING_S_PER_M: f64 = 5.0;
 
-/// A vehicle on a track at a speed.
+/// A vehicle on a track at a constant speed.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Case {
     /// Name.
     pub name: String,
-    /// The vehicle, its dampers replaced and its values overridden.
+    /// The vehicle after replacements and overrides.
     pub vehicle: VehicleParameters,
-    /// The track; [`TrackParameters::build`] makes it.
+    /// The track; call [`TrackParameters::build`] to generate it.
     pub track: TrackParameters,
     /// Speed, m/s.
     pub speed_m_per_s: f64,
-    /// Time that is computed, s.
+    /// Simulated time, s.
     pub duration_s: f64,
-    /// Distance of the vehicle's middle along the track at the start, m.
+    /// Initial distance of the vehicle's centre along the track, m.
     pub start_m: f64,
-    /// Static friction coefficient of wheel and rail.
+    /// Static friction coefficient between wheel and rail.
     pub friction: f64,
-    /// Normal damping of wheel on rail over the normal force, s/m.
+    /// Normal contact damping divided by the normal force, s/m.
     pub normal_damping_s_per_m: f64,
-    /// Step, s.
+    /// Time step, s.
     pub step_s: f64,
-    /// By how much all bodies but the first stand to the right at the start, m.
+    /// Initial lateral offset of all bodies except the first, m; positive to the right.
     pub push_m: f64,
-    /// What carries the rails; they do not give way where there is none.
+    /// Support of the rails; `None` for rigid rails.
     pub rails: Option<RailSupport>,
-    /// Changes of dampers on the way, by rising time.
+    /// Damper changes during the run, sorted by time.
     pub faults: Vec<Fault>,
 }
 
 impl Case {
-    /// The case called `name`: a shipped one, or the TOML file at that path, `-` being standard input.
+    /// Loads the case called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
     ///
     /// # Errors
-    /// As [`CaseOptions::load`] and [`CaseOptions::case`].
+    /// Same as [`CaseOptions::load`] and [`CaseOptions::case`].
     ///
     /// ```
     /// let case = dashpot_files::case::Case::load("curve-r200")?;
@@ -93,7 +93,7 @@ impl Case {
         CaseOptions::load(name)?.case()
     }
 
-    /// The parameters of one of the vehicle's dampers, by its name and number.
+    /// Returns the parameters of a damper by its name and number, such as `lateral damper 1`.
     pub fn damper(&self, name: &str) -> Option<&DamperParameters> {
         let mut dampers = self.vehicle.dampers();
         match &dampers.find(|element| element.name == name)?.law {
@@ -102,13 +102,13 @@ impl Case {
         }
     }
 
-    /// Distance of the vehicle's middle along the track at the end, m.
+    /// Final distance of the vehicle's centre along the track, m.
     pub fn end_m(&self) -> f64 {
         self.start_m + self.speed_m_per_s * self.duration_s
     }
 }
 
-/// A case in names, as a file or a command line gives it.
+/// Unresolved case, with vehicle, track and dampers given by name.
 ///
 /// ```
 /// use dashpot_files::case::CaseOptions;
@@ -123,40 +123,41 @@ impl Case {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseOptions {
-    /// Name; of vehicle, track and speed when there is none.
+    /// Name; `None` derives one from vehicle, track and speed.
     pub name: Option<String>,
-    /// A shipped vehicle or a file.
+    /// Built-in vehicle or file.
     pub vehicle: String,
-    /// A shipped track or a file.
+    /// Built-in track or file.
     pub track: String,
-    /// Dampers replaced before the overrides are applied.
+    /// Damper replacements, applied before the overrides.
     pub dampers: Vec<Replacement>,
-    /// Overrides `part.key=value` of the vehicle.
+    /// Vehicle overrides `part.key=value`.
     pub overrides: Vec<String>,
     /// Speed, km/h.
     pub speed_km_h: f64,
-    /// Time that is computed, s.
+    /// Simulated time, s.
     pub duration_s: f64,
-    /// Distance of the vehicle's middle along the track at the start, m.
+    /// Initial distance of the vehicle's centre along the track, m.
     pub start_m: f64,
-    /// Static friction coefficient of wheel and rail.
+    /// Static friction coefficient between wheel and rail.
     pub friction: f64,
-    /// Normal damping of wheel on rail over the normal force, s/m.
+    /// Normal contact damping divided by the normal force, s/m.
     pub normal_damping_s_per_m: f64,
-    /// Step, us.
+    /// Time step, us.
     pub step_us: f64,
-    /// By how much all bodies but the first stand to the right at the start, m.
+    /// Initial lateral offset of all bodies except the first, m; positive to the right.
     pub push_m: f64,
-    /// What carries the rails.
+    /// Support of the rails; `None` for rigid rails.
     pub rails: Option<RailSupport>,
-    /// Changes of dampers on the way.
+    /// Damper changes during the run.
     pub faults: Vec<FaultOptions>,
-    /// The file that this is from.
+    /// Positions in the case file; `None` if the options are not from a file.
     origin: Option<Origin>,
 }
 
 impl CaseOptions {
-    /// A vehicle on a track at a speed for 10 s from the distance 0 on, friction 0.4, normal damping 5 s/m, a step of 1 ms.
+    /// A vehicle on a track at a speed (km/h) with defaults: 10 s from distance 0, friction 0.4, normal damping 5 s/m,
+    /// time step 1 ms.
     pub fn new(vehicle: &str, track: &str, speed_km_h: f64) -> Self {
         Self {
             name: None,
@@ -177,20 +178,23 @@ impl CaseOptions {
         }
     }
 
-    /// The case called `name`: a shipped one, or the TOML file at that path, `-` being standard input. Names of files in it count
-    /// from the case file, those within its `set` from the working folder.
+    /// Loads the case called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
+    ///
+    /// File names in it are relative to the case file; file names within its `set` are relative to the working
+    /// directory.
     ///
     /// # Errors
-    /// Neither case nor readable file; text that is no TOML; unknown or missing keys.
+    /// Returns an error if there is no such case or readable file, if the text is not TOML, or for unknown or missing
+    /// keys.
     pub fn load(name: &str) -> Result<Self, CaseError> {
         let found = SHIPPED.find::<CaseError>(name)?;
         Self::parse_in(&found)
     }
 
-    /// The case written in `text`; `name` stands for it in errors.
+    /// Parses the case in `text`; error messages call it `name`.
     ///
     /// # Errors
-    /// As [`Self::load`].
+    /// Same as [`Self::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         Self::parse_in(&Found {
             name: name.to_owned(),
@@ -207,7 +211,7 @@ impl CaseOptions {
         Ok(tables.options(found))
     }
 
-    /// Keys of the numbers of a case.
+    /// Keys of a case's numbers.
     pub const NUMBERS: [&str; 7] = [
         "speed_km_h",
         "duration_s",
@@ -218,7 +222,7 @@ impl CaseOptions {
         "push_m",
     ];
 
-    /// Another number for one of [`Self::NUMBERS`]; nothing for any other key.
+    /// Sets one of [`Self::NUMBERS`]; ignores any other key.
     pub fn set_number(&mut self, key: &str, value: f64) {
         let number = match key {
             "speed_km_h" => &mut self.speed_km_h,
@@ -237,48 +241,48 @@ impl CaseOptions {
         self.forget_line(key);
     }
 
-    /// Another vehicle.
+    /// Replaces the vehicle.
     pub fn set_vehicle(&mut self, name: &str) {
         name.clone_into(&mut self.vehicle);
         self.name = None;
         self.forget_line("vehicle");
     }
 
-    /// Another track.
+    /// Replaces the track.
     pub fn set_track(&mut self, name: &str) {
         name.clone_into(&mut self.track);
         self.name = None;
         self.forget_line("track");
     }
 
-    /// The value of `key` is no longer the file's: what is wrong with it is not told with the file's line.
+    /// Forgets the line of `key`, whose value no longer comes from the file.
     fn forget_line(&mut self, key: &str) {
         if let Some(origin) = &mut self.origin {
             origin.lines.remove(key);
         }
     }
 
-    /// The case, its vehicle and its track read and every number checked.
+    /// Resolves the case: loads vehicle and track and checks all numbers.
     ///
     /// # Errors
-    /// A number out of its bounds, a vehicle or track that there is not or that is wrong, a fault of a damper that there is not; where they are from
-    /// a case file, with its line.
+    /// Returns an error for a number out of bounds, an unknown or invalid vehicle or track, or a fault of an unknown
+    /// damper; with file and line if the value comes from a case file.
     pub fn case(&self) -> Result<Case, CaseError> {
-        self.read().map_err(|error| match &self.origin {
+        self.resolve().map_err(|error| match &self.origin {
             Some(origin) => origin.locate(error),
             None => error,
         })
     }
 
-    fn read(&self) -> Result<Case, CaseError> {
+    fn resolve(&self) -> Result<Case, CaseError> {
         bounds::check(self)?;
         if let Some(rails) = &self.rails {
             rails.check().map_err(CaseError::Rails)?;
         }
         let vehicle = vehicle::load_with(&self.vehicle, &self.dampers, &self.overrides)?;
         let track = track::load(&self.track)?;
-        let faults = fault::read(&self.faults, &vehicle, self.duration_s)?;
-        let made_name = || {
+        let faults = fault::resolve(&self.faults, &vehicle, self.duration_s)?;
+        let default_name = || {
             let Self {
                 vehicle,
                 track,
@@ -288,7 +292,7 @@ impl CaseOptions {
             format!("{vehicle} on {track} at {speed_km_h} km/h")
         };
         Ok(Case {
-            name: self.name.clone().unwrap_or_else(made_name),
+            name: self.name.clone().unwrap_or_else(default_name),
             vehicle,
             track,
             speed_m_per_s: self.speed_km_h / 3.6,

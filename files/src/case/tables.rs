@@ -1,4 +1,4 @@
-//! The tables of a case file.
+//! Tables of a case file.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::error::Origin;
 use super::{CaseOptions, FaultOptions};
 use crate::lines::line_at;
-use crate::shipped::{Found, named_in};
+use crate::shipped::{Found, resolve_name};
 use crate::vehicle::Replacement;
 
 #[derive(Deserialize)]
@@ -29,14 +29,14 @@ pub(super) struct CaseTables {
     rails: Option<Spanned<RailsTable>>,
     #[serde(default)]
     set: Vec<Spanned<String>>,
-    /// Which, and what they become.
+    /// Replacements by direction or damper name.
     #[serde(default)]
     dampers: BTreeMap<String, Spanned<String>>,
     #[serde(default)]
     fault: Vec<Spanned<FaultTable>>,
 }
 
-/// Rails that give way.
+/// Elastic rail support.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RailsTable {
@@ -76,23 +76,23 @@ impl FaultTable {
         FaultOptions {
             time_s: self.time_s,
             damper: self.damper,
-            by: self.damper_file.map(|name| named_in(folder, &name)),
+            replacement: self.damper_file.map(|name| resolve_name(folder, &name)),
             overrides: self.set,
         }
     }
 }
 
 impl CaseTables {
-    /// The options in the file that was found.
+    /// Converts the tables to options with their positions in the file.
     pub fn options(self, found: &Found) -> CaseOptions {
         let Found { name, text, folder } = found;
         let mut lines = BTreeMap::new();
         let mut at = |key: &str, start: usize| {
             lines.insert(key.to_owned(), line_at(text, start));
         };
-        let new = CaseOptions::new(
-            &named_in(folder, self.vehicle.get_ref()),
-            &named_in(folder, self.track.get_ref()),
+        let defaults = CaseOptions::new(
+            &resolve_name(folder, self.vehicle.get_ref()),
+            &resolve_name(folder, self.track.get_ref()),
             *self.speed_km_h.get_ref(),
         );
         at("vehicle", self.vehicle.span().start);
@@ -104,25 +104,25 @@ impl CaseTables {
                 value.into_inner()
             })
         };
-        let duration_s = number("duration_s", self.duration_s, new.duration_s);
-        let start_m = number("start_m", self.start_m, new.start_m);
-        let friction = number("friction", self.friction, new.friction);
+        let duration_s = number("duration_s", self.duration_s, defaults.duration_s);
+        let start_m = number("start_m", self.start_m, defaults.start_m);
+        let friction = number("friction", self.friction, defaults.friction);
         let normal_damping_s_per_m = number(
             "normal_damping_s_per_m",
             self.normal_damping_s_per_m,
-            new.normal_damping_s_per_m,
+            defaults.normal_damping_s_per_m,
         );
-        let step_us = number("step_us", self.step_us, new.step_us);
-        let push_m = number("push_m", self.push_m, new.push_m);
+        let step_us = number("step_us", self.step_us, defaults.step_us);
+        let push_m = number("push_m", self.push_m, defaults.push_m);
         let rails = self.rails.map(|rails| {
             at("rails", rails.span().start);
             rails.into_inner().into()
         });
         let mut dampers = Vec::new();
-        for (which, by) in self.dampers {
-            let start = by.span().start;
-            let by = named_in(folder, by.get_ref());
-            let replacement = Replacement::named(which, by);
+        for (which, damper) in self.dampers {
+            let start = damper.span().start;
+            let damper = resolve_name(folder, damper.get_ref());
+            let replacement = Replacement::named(which, damper);
             at(&replacement.to_string(), start);
             dampers.push(replacement);
         }
@@ -153,7 +153,7 @@ impl CaseTables {
             rails,
             faults: faults.collect(),
             origin: Some(origin),
-            ..new
+            ..defaults
         }
     }
 }

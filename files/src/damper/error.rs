@@ -1,77 +1,77 @@
-//! Why there is no damper.
+//! Damper errors.
 
 use dashpot_core::BuildError;
 
 use crate::{FileError, UnknownName};
 
-/// Why a name, a file and its overrides are no damper.
+/// Error from loading a damper.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DamperError {
-    /// The name is neither a preset's nor a file's.
+    /// The name is neither a preset nor a file.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// The file cannot be read.
+    /// Cannot read the file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// An override is not of the form `table.key=value`.
+    /// Invalid override; the form is `table.key=value`.
     #[error("override {assignment}: {reason}; the form is {FORM}")]
     Override {
         /// The override.
         assignment: String,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
-    /// A key that has no number in this damper.
-    #[error("{name}: no number at `{key}`{near}")]
+    /// The damper has no number at this key.
+    #[error("{name}: no number at `{key}`{hint}")]
     NoNumber {
-        /// The file or preset.
+        /// Name of the file or preset.
         name: String,
         /// The key.
         key: String,
-        /// The nearest key, in words.
-        near: String,
+        /// Suggestion of a similar key; empty if none is similar.
+        hint: String,
     },
-    /// The file is not as it must be, whatever is overridden.
+    /// Invalid file content, independent of the overrides.
     #[error("{name}: {source}")]
     Content {
-        /// The file or preset.
+        /// Name of the file or preset.
         name: String,
-        /// What is wrong with it.
+        /// The problem.
         source: ContentError,
     },
-    /// The file is good, but not with the overrides.
+    /// Valid file content that the overrides make invalid.
     #[error("{name}: {source}")]
     Overridden {
-        /// The file or preset.
+        /// Name of the file or preset.
         name: String,
-        /// What is wrong with both together.
+        /// The problem.
         source: ContentError,
     },
 }
 
-/// The form of an override.
+/// Form of an override, for error messages.
 pub const FORM: &str = "table.key=value with a TOML value, such as mount.clearance_m=1e-3";
 
-/// What is wrong with the tables of a damper.
+/// Error in the tables of a damper file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContentError {
-    /// The text is no TOML, or has unknown or missing keys; with line, column and the nearest key.
+    /// The text is not TOML, or has unknown or missing keys; the message has line, column and a similar key.
     #[error("{0}")]
     Text(String),
-    /// With the overrides there are unknown or missing keys.
+    /// The overrides lead to unknown or missing keys.
     #[error("with the overrides: {0}")]
     Tables(String),
-    /// A table that only a physical damper has.
+    /// A reduced damper has a table that only a physical damper may have.
     #[error(
-        "[{table}] beside [reduced]: a reduced damper has [reduced], [mount] and [limits] only"
+        "[{table}] together with [reduced]: a reduced damper has [reduced], [mount] and [limits] only"
     )]
     BesideReduced {
         /// The table.
         table: &'static str,
     },
-    /// A table that a physical damper needs.
+    /// A physical damper lacks a required table.
     #[error(
         "table [{table}] is missing: a physical damper needs [geometry], [orifice], [valves.*], [oil] and \
          [mount]; a reduced one [reduced] and [mount]"
@@ -80,7 +80,7 @@ pub enum ContentError {
         /// The table.
         table: &'static str,
     },
-    /// A value outside its range.
+    /// Value out of range.
     #[error(transparent)]
     Value(#[from] BuildError),
 }

@@ -1,12 +1,12 @@
-//! The numbers of a damper by their keys.
+//! Damper parameters addressed by key.
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::parameters::{self, DamperParameters, Range};
 
 use super::{ContentError, DamperError, DamperFile, from_file};
-use crate::overrides::{explain, nearest};
+use crate::overrides::{did_you_mean, explain};
 
-/// A damper whose numbers are read and set by their keys, `table.key`.
+/// A damper whose numbers are read and set by key, `table.key`.
 ///
 /// ```
 /// use dashpot_files::damper::{Keyed, load};
@@ -23,12 +23,12 @@ pub struct Keyed {
 }
 
 impl Keyed {
-    /// The numbers of `damper`; `name` stands for it in errors.
+    /// Wraps `damper`; error messages call it `name`.
     ///
     /// # Errors
-    /// The damper cannot be written as a file.
+    /// Returns an error if the damper cannot be written as a file.
     pub fn new(name: &str, damper: &DamperParameters) -> Result<Self, DamperError> {
-        let tree = toml::Table::try_from(DamperFile::of(damper.clone()));
+        let tree = toml::Table::try_from(DamperFile::new(damper.clone()));
         let name = name.to_owned();
         match tree {
             Ok(tree) => Ok(Self { name, tree }),
@@ -39,39 +39,39 @@ impl Keyed {
         }
     }
 
-    /// The name that stands for the damper in errors.
+    /// Name of the damper in error messages.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The number at `key`, in the key's unit.
+    /// Returns the number at `key`, in the unit of the key.
     ///
     /// # Errors
-    /// This damper has no number there.
+    /// Returns an error if this damper has no number at `key`.
     pub fn number(&self, key: &str) -> Result<f64, DamperError> {
         let value = find(&self.tree, key).and_then(toml::Value::as_float);
         value.ok_or_else(|| {
             let keys = self.keys();
-            let near = nearest(key, keys.iter().map(String::as_str));
+            let hint = did_you_mean(key, keys.iter().map(String::as_str));
             DamperError::NoNumber {
                 name: self.name.clone(),
                 key: key.into(),
-                near,
+                hint,
             }
         })
     }
 
-    /// The keys of all numbers, in order.
+    /// Returns the keys of all numbers, in order.
     pub fn keys(&self) -> Vec<String> {
         let mut keys = Vec::new();
-        collect(&self.tree, "", &mut keys);
+        collect_keys(&self.tree, "", &mut keys);
         keys
     }
 
-    /// The damper with these numbers at their keys.
+    /// Returns the damper with these numbers changed.
     ///
     /// # Errors
-    /// A key without a number, or a number that is not allowed there.
+    /// Returns an error for a key without a number or a number out of range.
     pub fn with(&self, numbers: &[(&str, f64)]) -> Result<CheckedParameters, DamperError> {
         let mut tree = self.tree.clone();
         for (key, number) in numbers {
@@ -90,10 +90,10 @@ impl Keyed {
     }
 }
 
-/// A damper as the text of a damper file.
+/// Writes a damper as the text of a damper file.
 ///
 /// # Errors
-/// The damper cannot be written.
+/// Returns an error if the damper cannot be written as TOML.
 ///
 /// ```
 /// use dashpot_files::damper::{load, parse, text};
@@ -102,7 +102,7 @@ impl Keyed {
 /// # Ok::<(), dashpot_files::damper::DamperError>(())
 /// ```
 pub fn text(damper: &DamperParameters) -> Result<String, DamperError> {
-    let written = toml::to_string(&DamperFile::of(damper.clone()));
+    let written = toml::to_string(&DamperFile::new(damper.clone()));
     let written = written.map_err(|error| DamperError::Overridden {
         name: "damper".into(),
         source: ContentError::Tables(error.to_string()),
@@ -111,7 +111,7 @@ pub fn text(damper: &DamperParameters) -> Result<String, DamperError> {
     Ok(lines.collect())
 }
 
-/// A line of TOML whose number, where it is very small or large, has an exponent; the same number.
+/// Rewrites a TOML line so that a very small or large number has an exponent; the value stays the same.
 fn with_exponent(line: &str) -> String {
     let number = line
         .split_once(" = ")
@@ -124,7 +124,7 @@ fn with_exponent(line: &str) -> String {
     }
 }
 
-/// The range of the number at `key` of a damper file.
+/// Returns the allowed range of the number at `key`; `None` for an unknown key.
 pub fn range(key: &str) -> Option<Range> {
     let (table, key) = key.rsplit_once('.')?;
     let table = match table.split_once('.') {
@@ -150,11 +150,12 @@ fn find_mut<'a>(tree: &'a mut toml::Table, key: &str) -> Option<&'a mut toml::Va
     }
 }
 
-fn collect(tree: &toml::Table, before: &str, keys: &mut Vec<String>) {
+/// Collects the keys of all numbers; `prefix` is the path of `tree`.
+fn collect_keys(tree: &toml::Table, prefix: &str, keys: &mut Vec<String>) {
     for (key, value) in tree {
-        let key = format!("{before}{key}");
+        let key = format!("{prefix}{key}");
         match value {
-            toml::Value::Table(table) => collect(table, &format!("{key}."), keys),
+            toml::Value::Table(table) => collect_keys(table, &format!("{key}."), keys),
             toml::Value::Float(_) => keys.push(key),
             _ => {}
         }

@@ -1,4 +1,4 @@
-//! Damper files and presets: TOML in SI units, unknown keys refused with the nearest one.
+//! Damper files and presets: TOML in SI units; unknown keys are errors that suggest a similar key.
 
 mod error;
 mod keyed;
@@ -13,10 +13,10 @@ pub use error::{ContentError, DamperError};
 pub use keyed::{Keyed, range, text};
 use serde::{Deserialize, Serialize};
 
-use crate::overrides::{self, explain};
+use crate::overrides::{self, Override, explain};
 use crate::shipped::{Found, Shipped};
 
-/// Presets that ship with the program: name and file.
+/// Built-in presets: name and text.
 pub const PRESETS: [(&str, &str); 5] = [
     ("paper", include_str!("../../data/dampers/paper.toml")),
     (
@@ -37,8 +37,7 @@ pub const PRESETS: [(&str, &str); 5] = [
     ),
 ];
 
-/// The tables of a damper file. One with `[reduced]` has `[mount]` and `[limits]` beside it, one
-/// without has the hydraulics.
+/// Tables of a damper file: either `[reduced]` or the hydraulic tables, both with `[mount]` and `[limits]`.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct DamperFile {
@@ -57,12 +56,12 @@ struct DamperFile {
     limits: Limits,
 }
 
-/// The damper called `name`: a preset, or the TOML file at that path, `-` being standard input; then
-/// each `table.key=value` of `overrides` in order.
+/// Loads the damper called `name`: a preset, or the TOML file at that path (`-` for standard input). Then applies each
+/// override `table.key=value` in order.
 ///
 /// # Errors
-/// Neither preset nor readable file; text that is no TOML; unknown, missing or misplaced keys; a value
-/// outside its range; an override without which the damper is good.
+/// Returns an error if there is no such preset or readable file, if the text is not TOML, for unknown, missing or
+/// misplaced keys, for a value out of range, and for an invalid override.
 ///
 /// ```
 /// let damper = dashpot_files::damper::load("paper", &["mount.clearance_m=1e-3".into()])?;
@@ -75,22 +74,22 @@ pub fn load(name: &str, overrides: &[String]) -> Result<CheckedParameters, Dampe
 }
 
 const SHIPPED: Shipped = Shipped {
-    what: "damper",
-    one: "preset",
+    kind: "damper",
+    built_in: "preset",
     texts: &PRESETS,
 };
 
-/// The damper written in `text`; `name` stands for it in errors.
+/// Parses the damper in `text`; error messages call it `name`.
 ///
 /// # Errors
-/// As [`load`].
+/// Same as [`load`].
 pub fn parse(
     name: &str,
     text: &str,
     overrides: &[String],
 ) -> Result<CheckedParameters, DamperError> {
     let (name, in_text) = (name.to_owned(), |error| ContentError::Text(explain(&error)));
-    // Once as typed data for errors that name line and column, once as a tree to override.
+    // Parsed twice: as a tree to apply overrides to, and as typed data for errors with line and column.
     let mut tree: toml::Table = match toml::from_str(text) {
         Ok(tree) => tree,
         Err(error) => {
@@ -110,15 +109,15 @@ pub fn parse(
         .and_then(from_file)
         .map_err(|source| match plain {
             Ok(_) => DamperError::Overridden { name, source },
-            // The overrides may complete a file; they are not to blame for what it lacks.
+            // The file itself is incomplete: overrides may complete it, but are not the cause of the error.
             Err(_) => DamperError::Content { name, source },
         })
 }
 
-/// A damper with each `table.key=value` of `overrides` applied; `name` stands for it in errors.
+/// Applies each override `table.key=value` to a damper; error messages call it `name`.
 ///
 /// # Errors
-/// An override that is not of that form, of a key that there is not, or of a value outside its range.
+/// Returns an error for an invalid override, an unknown key or a value out of range.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -136,7 +135,7 @@ pub fn change(
         name: name.to_owned(),
         source,
     };
-    let mut tree = toml::Table::try_from(DamperFile::of(damper.clone()))
+    let mut tree = toml::Table::try_from(DamperFile::new(damper.clone()))
         .map_err(|error| in_tables(ContentError::Tables(error.to_string())))?;
     for assignment in overrides {
         set(&mut tree, assignment)?;
@@ -147,27 +146,27 @@ pub fn change(
         .map_err(in_tables)
 }
 
-/// Applies `table.key=value`, the value written as in TOML.
+/// Applies one override `table.key=value` with a TOML value.
 fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), DamperError> {
-    let wrong = |reason: String| DamperError::Override {
+    let invalid = |reason: String| DamperError::Override {
         assignment: assignment.to_owned(),
         reason,
     };
-    let (keys, last, value) = overrides::parse(assignment).map_err(wrong)?;
+    let Override { path, key, value } = overrides::parse(assignment).map_err(invalid)?;
     let mut table = tree;
-    for key in keys {
+    for key in path {
         table = table
             .entry(key)
             .or_insert_with(|| toml::Value::Table(toml::Table::new()))
             .as_table_mut()
-            .ok_or_else(|| wrong(format!("`{key}` is not a table")))?;
+            .ok_or_else(|| invalid(format!("`{key}` is not a table")))?;
     }
-    table.insert(last.to_owned(), value);
+    table.insert(key.to_owned(), value);
     Ok(())
 }
 
 impl DamperFile {
-    fn of(damper: DamperParameters) -> Self {
+    fn new(damper: DamperParameters) -> Self {
         let empty = Self {
             geometry: None,
             orifice: None,
@@ -199,7 +198,7 @@ impl DamperFile {
                 oil: Some(hydraulics.oil),
                 ..empty
             },
-            // Reading the file back reports the missing tables.
+            // An unknown kind of damper: reading the file back reports the missing tables.
             _ => empty,
         }
     }

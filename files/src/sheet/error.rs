@@ -1,33 +1,33 @@
-//! Why there is no sheet.
+//! Sheet errors.
 
 use crate::{FileError, UnknownName};
 
-/// Why a name or a file is no sheet, or a test of it cannot be made.
+/// Error from loading a sheet or from running one of its tests.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SheetFileError {
-    /// The name is neither a shipped sheet's nor a file's.
+    /// The name is neither a built-in sheet nor a file.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// The file cannot be read.
+    /// Cannot read the file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is no TOML, or has unknown or missing keys; with line, column and the nearest key.
+    /// The text is not TOML, or has unknown or missing keys.
     #[error("{name}: {message}")]
     Text {
-        /// The file or sheet.
+        /// Name of the file or sheet.
         name: String,
-        /// What is wrong, and where.
+        /// The problem with line and column, and a similar key if there is one.
         message: String,
     },
-    /// Something in it is not as it must be.
+    /// Invalid entry.
     #[error("{name}:{line}: {message}")]
     Line {
-        /// The file or sheet.
+        /// Name of the file or sheet.
         name: String,
-        /// Line, from 1.
+        /// Line of the entry, from 1.
         line: u64,
-        /// What is wrong, and what is allowed.
+        /// The problem, and the allowed values.
         message: String,
     },
 }

@@ -1,35 +1,44 @@
-//! The indices of a bench test by their names: what a sheet tells and limits.
+//! Indices of a bench test that a sheet reports and limits.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// An index of a periodic cycle.
+/// Index of a periodic cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Index {
-    /// Largest force in extension (N).
+    /// Maximum force in extension (N).
     MaxExtensionForceN,
-    /// Largest force in compression (N), as a magnitude.
+    /// Maximum magnitude of the force in compression (N).
     MaxCompressionForceN,
-    /// Force in extension at the peak velocity, midway of the stroke (N).
+    /// Force in extension at the peak velocity, at mid-stroke (N).
     ExtensionForceAtPeakVelocityN,
-    /// Force in compression at the peak velocity, midway of the stroke (N), as a magnitude.
+    /// Magnitude of the force in compression at the peak velocity, at mid-stroke (N).
     CompressionForceAtPeakVelocityN,
-    /// Difference of the largest forces over their sum (1); there is none without force.
+    /// Difference of the maximum forces divided by their sum (1); undefined without force.
     AsymmetryRate,
-    /// Energy taken from the motion in a cycle (J).
+    /// Energy dissipated per cycle (J).
     EnergyPerCycleJ,
-    /// Mean of both largest forces over the peak velocity (N s/m).
+    /// Mean of both maximum forces divided by the peak velocity (N s/m).
     DampingCoefficientNSPerM,
-    /// First harmonic of the force over the amplitude (N/m).
+    /// First harmonic of the force divided by the amplitude (N/m).
     DynamicStiffnessNPerM,
-    /// Phase by which the first harmonic of the force leads the displacement (degrees); there is none without force.
+    /// Phase lead of the first harmonic of the force over the displacement (degrees); undefined without force.
     LossAngleDeg,
 }
 
+/// Unit in which an index is displayed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplayUnit {
+    /// Symbol of the unit.
+    pub symbol: &'static str,
+    /// Size of the unit in units of the index's key, such as 1000 for kN.
+    pub size: f64,
+}
+
 impl Index {
-    /// All of them, in the order of a sheet.
+    /// All indices, in the order of a sheet.
     pub const ALL: [Self; 9] = [
         Self::MaxExtensionForceN,
         Self::MaxCompressionForceN,
@@ -42,7 +51,7 @@ impl Index {
         Self::LossAngleDeg,
     ];
 
-    /// Its key in a sheet file.
+    /// Key in a sheet file.
     pub fn key(self) -> &'static str {
         match self {
             Self::MaxExtensionForceN => "max_extension_force_n",
@@ -57,7 +66,7 @@ impl Index {
         }
     }
 
-    /// What it is, in words.
+    /// Name in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::MaxExtensionForceN => "largest force, extension",
@@ -72,9 +81,14 @@ impl Index {
         }
     }
 
-    /// The unit it is told in, and that unit over the one of its key.
-    pub fn told_in(self) -> (&'static str, f64) {
-        match self {
+    /// Returns the unit in which the index is displayed.
+    ///
+    /// ```
+    /// use dashpot_files::sheet::Index;
+    /// assert_eq!(Index::DynamicStiffnessNPerM.display_unit().size, 1e6);
+    /// ```
+    pub fn display_unit(self) -> DisplayUnit {
+        let (symbol, size) = match self {
             Self::MaxExtensionForceN
             | Self::MaxCompressionForceN
             | Self::ExtensionForceAtPeakVelocityN
@@ -84,7 +98,8 @@ impl Index {
             Self::DampingCoefficientNSPerM => ("kN s/m", 1e3),
             Self::DynamicStiffnessNPerM => ("MN/m", 1e6),
             Self::LossAngleDeg => ("°", 1.0),
-        }
+        };
+        DisplayUnit { symbol, size }
     }
 }
 
@@ -99,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_key_reads_as_its_index() {
+    fn each_key_deserializes_to_its_index() {
         for index in Index::ALL {
             let key = format!("\"{index}\"");
             assert_eq!(serde_json::from_str::<Index>(&key).unwrap(), index);

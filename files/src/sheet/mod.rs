@@ -1,85 +1,93 @@
-//! Sheet files: the tests of a bench, in order, and the limits that each index must keep.
+//! Acceptance sheets: the tests of a bench, in order, with limits for their indices.
 //!
-//! Limits are those of whoever writes the file, with the clause that they cite; the program has none of its own.
+//! All limits, and the clauses they cite, come from the file; Dashpot itself defines none.
 
 mod error;
 mod index;
 mod tables;
 
 pub use error::SheetFileError;
-pub use index::Index;
+pub use index::{DisplayUnit, Index};
 use tables::SheetTables;
 
 use crate::harmonic::Harmonic;
 use crate::overrides::explain;
 use crate::shipped::{Found, Shipped};
 
-/// Sheets that ship with the program: name and file.
+/// Built-in sheets: name and text.
 pub const SHEETS: [(&str, &str); 1] = [("example", include_str!("../../data/sheets/example.toml"))];
 
 const SHIPPED: Shipped = Shipped {
-    what: "sheet",
-    one: "sheet",
+    kind: "sheet",
+    built_in: "sheet",
     texts: &SHEETS,
 };
 
-/// A sheet as its file gives it.
+/// Acceptance sheet as read from its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetParameters {
-    /// What the sheet is called.
+    /// Title of the sheet.
     pub title: String,
-    /// What stands in its head, name and text, in order.
-    pub fields: Vec<(String, String)>,
+    /// Fields of the header, in order.
+    pub fields: Vec<Field>,
     /// The tests, in order.
     pub tests: Vec<Test>,
-    /// What stands for the file in errors.
+    /// Name of the file in error messages.
     pub file: String,
 }
 
-/// A test.
+/// Field in the header of a sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Field {
+    /// Name.
+    pub name: String,
+    /// Text.
+    pub text: String,
+}
+
+/// Bench test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Test {
-    /// Name, which no other test of the sheet has.
+    /// Name, unique in the sheet.
     pub name: String,
     /// The motion.
     pub motion: Harmonic,
-    /// Temperature of the oil (degC); the damper's own where there is none.
+    /// Oil temperature (degC); `None` uses the damper's own.
     pub temperature_c: Option<f64>,
-    /// What indices must keep.
+    /// Limits of the indices.
     pub limits: Vec<Limit>,
     /// Line in the file.
     pub line: u64,
 }
 
-/// What an index must keep.
+/// Allowed interval of an index.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Limit {
     /// The index.
     pub index: Index,
-    /// The least that it may be, in the unit of its key.
-    pub least: Option<f64>,
-    /// The most that it may be.
-    pub most: Option<f64>,
-    /// Where the limit is from.
+    /// Minimum, in the unit of the index's key; `None` if unlimited.
+    pub min: Option<f64>,
+    /// Maximum, in the unit of the index's key; `None` if unlimited.
+    pub max: Option<f64>,
+    /// Clause of the standard or contract that sets the limit.
     pub clause: Option<String>,
 }
 
 impl Limit {
-    /// Whether a value is within; one that there is not is none.
+    /// True if the value is within the limit; false for `None`.
     pub fn is_kept(&self, value: Option<f64>) -> bool {
         value.is_some_and(|value| {
-            self.least.is_none_or(|least| value >= least)
-                && self.most.is_none_or(|most| value <= most)
+            self.min.is_none_or(|min| value >= min) && self.max.is_none_or(|max| value <= max)
         })
     }
 }
 
 impl SheetParameters {
-    /// The sheet called `name`: a shipped one, or the TOML file at that path, `-` being standard input.
+    /// Loads the sheet called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
     ///
     /// # Errors
-    /// Neither sheet nor readable file; text that is no TOML; unknown or missing keys; a motion outside the bench's range, limits that
-    /// nothing keeps, names that there are twice; with file and line.
+    /// Returns an error with file and line if there is no such sheet or readable file, if the text is not TOML, for
+    /// unknown or missing keys, a motion out of range, contradictory limits, or a duplicate name.
     ///
     /// ```
     /// let sheet = dashpot_files::sheet::SheetParameters::load("example")?;
@@ -90,10 +98,10 @@ impl SheetParameters {
         Self::parse_in(&SHIPPED.find::<SheetFileError>(name)?)
     }
 
-    /// The sheet written in `text`; `name` stands for it in errors.
+    /// Parses the sheet in `text`; error messages call it `name`.
     ///
     /// # Errors
-    /// As [`Self::load`].
+    /// Same as [`Self::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, SheetFileError> {
         Self::parse_in(&Found {
             name: name.to_owned(),
@@ -111,8 +119,8 @@ impl SheetParameters {
         tables.parameters(found)
     }
 
-    /// The error `message` of a test, with its place.
-    pub fn wrong(&self, test: &Test, message: impl std::fmt::Display) -> SheetFileError {
+    /// Error about a test, with the position of the test in the file.
+    pub fn test_error(&self, test: &Test, message: impl std::fmt::Display) -> SheetFileError {
         SheetFileError::Line {
             name: self.file.clone(),
             line: test.line,

@@ -1,4 +1,4 @@
-//! The tables of a sheet file.
+//! Tables of a sheet file.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Index, Limit, SheetFileError, SheetParameters, Test};
+use super::{Field, Index, Limit, SheetFileError, SheetParameters, Test};
 use crate::harmonic::Harmonic;
 use crate::lines::line_at;
 use crate::shipped::Found;
@@ -43,21 +43,23 @@ struct TestTable {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LimitTable {
-    least: Option<f64>,
-    most: Option<f64>,
+    #[serde(rename = "least")]
+    min: Option<f64>,
+    #[serde(rename = "most")]
+    max: Option<f64>,
     clause: Option<String>,
 }
 
 impl SheetTables {
-    /// The sheet in the file that was found.
+    /// Converts the tables to a sheet.
     pub fn parameters(self, found: &Found) -> Result<SheetParameters, SheetFileError> {
-        let wrong_at = |start: usize, message: String| SheetFileError::Line {
+        let error_at = |start: usize, message: String| SheetFileError::Line {
             name: found.name.clone(),
             line: line_at(&found.text, start),
             message,
         };
         if self.test.is_empty() {
-            return Err(wrong_at(0, "test: allowed: one or more".into()));
+            return Err(error_at(0, "no tests, allowed: one or more".into()));
         }
         let mut tests = Vec::new();
         let mut names = BTreeSet::new();
@@ -65,21 +67,24 @@ impl SheetTables {
             let start = table.span().start;
             let table = table.into_inner();
             if table.name.is_empty() || table.name.contains(char::is_control) {
-                let message = "name of a test: allowed: one line that is not empty";
-                return Err(wrong_at(start, message.into()));
+                let message = "empty or multi-line name of a test, allowed: one line of text";
+                return Err(error_at(start, message.into()));
             }
             if !names.insert(table.name.clone()) {
-                return Err(wrong_at(start, format!("a second test `{}`", table.name)));
+                return Err(error_at(
+                    start,
+                    format!("duplicate test name `{}`", table.name),
+                ));
             }
             let in_test = |message| format!("test `{}`: {message}", table.name);
             let motion = table.motion();
-            let motion = motion.map_err(|message| wrong_at(start, in_test(message)))?;
+            let motion = motion.map_err(|message| error_at(start, in_test(message)))?;
             let limits = table.limits.iter().map(|(index, limit)| {
-                let refused = |message| {
+                let invalid = |message| {
                     let message = in_test(format!("{index}: {message}"));
-                    wrong_at(limit.span().start, message)
+                    error_at(limit.span().start, message)
                 };
-                limit.get_ref().limit(*index).map_err(refused)
+                limit.get_ref().limit(*index).map_err(invalid)
             });
             tests.push(Test {
                 motion,
@@ -89,10 +94,13 @@ impl SheetTables {
                 name: table.name,
             });
         }
-        let fields = self.field.into_iter();
+        let fields = self
+            .field
+            .into_iter()
+            .map(|FieldTable { name, text }| Field { name, text });
         Ok(SheetParameters {
             title: self.title,
-            fields: fields.map(|field| (field.name, field.text)).collect(),
+            fields: fields.collect(),
             tests,
             file: found.name.clone(),
         })
@@ -100,7 +108,7 @@ impl SheetTables {
 }
 
 impl TestTable {
-    /// The motion, two of whose three numbers are given.
+    /// Computes the motion from the two numbers given of amplitude, frequency and peak velocity.
     fn motion(&self) -> Result<Harmonic, String> {
         let velocity = self.velocity_m_per_s;
         if let Some(velocity) = velocity.filter(|velocity| velocity.is_nan() || *velocity <= 0.0) {
@@ -112,7 +120,7 @@ impl TestTable {
             (None, Some(frequency), Some(velocity)) => (velocity / (TAU * frequency), frequency),
             _ => {
                 return Err(
-                    "allowed: two of `amplitude_m`, `frequency_hz` and `velocity_m_per_s` (the peak)"
+                    "give exactly two of `amplitude_m`, `frequency_hz` and `velocity_m_per_s` (the peak)"
                         .into(),
                 );
             }
@@ -129,19 +137,19 @@ impl TestTable {
 impl LimitTable {
     fn limit(&self, index: Index) -> Result<Limit, String> {
         let is_finite = |end: Option<f64>| end.is_none_or(f64::is_finite);
-        let (least, most) = (self.least, self.most);
-        if !is_finite(least) || !is_finite(most) {
-            return Err("allowed: finite numbers".into());
+        let (min, max) = (self.min, self.max);
+        if !is_finite(min) || !is_finite(max) {
+            return Err("not finite, allowed: finite numbers".into());
         }
-        match (least, most) {
-            (None, None) => Err("allowed: `least`, `most` or both".into()),
-            (Some(least), Some(most)) if least > most => Err(format!(
-                "least {least} above most {most}, allowed: at most that"
-            )),
+        match (min, max) {
+            (None, None) => Err("give `least`, `most` or both".into()),
+            (Some(min), Some(max)) if min > max => {
+                Err(format!("`least` {min} is greater than `most` {max}"))
+            }
             _ => Ok(Limit {
                 index,
-                least,
-                most,
+                min,
+                max,
                 clause: self.clause.clone(),
             }),
         }

@@ -1,14 +1,14 @@
-//! What varies in a sweep.
+//! Axes of a sweep: parameters and their values.
 
 use std::fmt;
 use std::path::Path;
 
 use crate::case::CaseOptions;
-use crate::overrides::nearest;
-use crate::shipped::named_in;
+use crate::overrides::did_you_mean;
+use crate::shipped::resolve_name;
 use crate::vehicle::Replacement;
 
-/// A value of a parameter.
+/// Value of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// A number.
@@ -18,11 +18,11 @@ pub enum Value {
 }
 
 impl Value {
-    /// Of a value in TOML.
+    /// Converts a TOML value.
     ///
     /// # Errors
-    /// Neither number nor name; in words.
-    pub(super) fn of(value: toml::Value) -> Result<Self, String> {
+    /// Returns a description of the problem if the value is neither a number nor a name.
+    pub(super) fn from_toml(value: toml::Value) -> Result<Self, String> {
         match value {
             toml::Value::Integer(number) => Ok(Self::Number(number as f64)),
             toml::Value::Float(number) => Ok(Self::Number(number)),
@@ -31,17 +31,17 @@ impl Value {
         }
     }
 
-    /// A name as it stands in a file of `folder`.
-    pub(super) fn named_in(self, folder: &Path) -> Self {
+    /// Resolves a name written in a file of `folder`.
+    pub(super) fn resolve_name(self, folder: &Path) -> Self {
         match self {
-            Self::Word(word) => Self::Word(named_in(folder, &word)),
+            Self::Word(word) => Self::Word(resolve_name(folder, &word)),
             number => number,
         }
     }
 }
 
-/// Whether the values of a parameter may be names of files.
-pub(super) fn names_files(parameter: &str) -> bool {
+/// True if the values of a parameter may be file names.
+pub(super) fn may_name_files(parameter: &str) -> bool {
     let is_number = CaseOptions::NUMBERS.contains(&parameter);
     !is_number && parameter != WORN_DAMPER && !parameter.contains('.')
 }
@@ -55,8 +55,13 @@ impl fmt::Display for Value {
     }
 }
 
-/// A number as it is shown: without the last digits that a factor leaves.
-pub fn shown(number: f64) -> String {
+/// Formats a number with at most six decimals, which hides the rounding errors of a factor. Smaller numbers have an
+/// exponent.
+///
+/// ```
+/// assert_eq!(dashpot_files::study::format_number(0.1 + 0.2), "0.3");
+/// ```
+pub fn format_number(number: f64) -> String {
     let text = format!("{number:.6}");
     match text.trim_end_matches('0').trim_end_matches('.') {
         "0" | "-0" if number != 0.0 => format!("{number:e}"),
@@ -64,35 +69,36 @@ pub fn shown(number: f64) -> String {
     }
 }
 
-/// A parameter and its values.
+/// Parameter and its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// A number of the case (`speed_km_h`), `vehicle` or `track`; `dampers.table.key` or `part.key` as an override of the vehicle has
-    /// them; dampers that another takes the place of (`vertical`); or `worn_damper`.
+    /// One of: a number of the case (`speed_km_h`); `vehicle` or `track`; `dampers.table.key` or `part.key` as in an
+    /// override of the vehicle; dampers to replace (`vertical`); or `worn_damper`.
     pub parameter: String,
-    /// Its values, in the order of the cases.
+    /// Values, in the order of the cases.
     pub values: Vec<Value>,
-    /// Overrides `table.key=value` of the worn damper.
+    /// Overrides `table.key=value` of a worn damper.
     pub set: Vec<String>,
-    /// What it is called on a figure.
+    /// Label of the axis in figures.
     pub label: String,
-    /// The number on a figure over that in the file.
+    /// Factor from the number in the file to the number in figures.
     pub factor: f64,
 }
 
-/// The parameter whose values are dampers, of which one after the other is changed; [`NONE`] stands for none.
+/// Parameter whose values name the damper that is worn; [`NO_DAMPER`] leaves all as new.
 pub const WORN_DAMPER: &str = "worn_damper";
-/// No damper.
-pub const NONE: &str = "none";
+/// Value of [`WORN_DAMPER`] for no worn damper.
+pub const NO_DAMPER: &str = "none";
 
-/// Most values of an axis.
-pub(super) const MOST_VALUES: usize = 10_000;
+/// Maximum number of values of an axis.
+pub(super) const MAX_VALUES: usize = 10_000;
 
 impl Axis {
-    /// Changes a case to a value.
+    /// Sets the parameter of a case to a value.
     ///
     /// # Errors
-    /// A number where a name must be or the other way round, or a parameter that there is not; in words.
+    /// Returns a description of the problem for an unknown parameter, or for a number where a name is needed and vice
+    /// versa.
     pub fn apply(&self, case: &mut CaseOptions, value: &Value) -> Result<(), String> {
         let parameter = self.parameter.as_str();
         let is_number = CaseOptions::NUMBERS.contains(&parameter);
@@ -101,9 +107,9 @@ impl Axis {
             ("vehicle", Value::Word(name)) => case.set_vehicle(name),
             ("track", Value::Word(name)) => case.set_track(name),
             (WORN_DAMPER, Value::Word(damper)) => {
-                let of_damper = |change: &String| format!("{damper}.{change}");
-                if damper != NONE {
-                    case.overrides.extend(self.set.iter().map(of_damper));
+                let full_path = |change: &String| format!("{damper}.{change}");
+                if damper != NO_DAMPER {
+                    case.overrides.extend(self.set.iter().map(full_path));
                 }
             }
             (path, value) if path.contains('.') => {
@@ -113,9 +119,9 @@ impl Axis {
                 };
                 case.overrides.push(format!("{path}={value}"));
             }
-            (dampers, Value::Word(by)) if !is_number => case
+            (dampers, Value::Word(damper)) if !is_number => case
                 .dampers
-                .push(Replacement::named(dampers.to_owned(), by.clone())),
+                .push(Replacement::named(dampers.to_owned(), damper.clone())),
             (_, Value::Word(word)) => return Err(format!("\"{word}\", allowed: a number")),
             ("vehicle" | "track" | WORN_DAMPER, Value::Number(number)) => {
                 return Err(format!("{number}, allowed: a name in quotes"));
@@ -124,9 +130,9 @@ impl Axis {
                 let words = ["vehicle", "track", WORN_DAMPER];
                 let known = CaseOptions::NUMBERS.into_iter().chain(words);
                 return Err(format!(
-                    "no such parameter with numbers, allowed: {}, or a path such as vertical.mount.clearance_m{}",
+                    "no such numeric parameter, allowed: {}, or a path such as vertical.mount.clearance_m{}",
                     CaseOptions::NUMBERS.join(", "),
-                    nearest(unknown, known)
+                    did_you_mean(unknown, known)
                 ));
             }
         }
@@ -134,7 +140,7 @@ impl Axis {
     }
 }
 
-/// `count` numbers from one to another, with equal differences, or equal ratios where `geometric`.
+/// Returns `count` numbers with equal differences, or with equal ratios if `geometric`; both ends are included.
 pub(super) fn range(from: f64, to: f64, count: usize, geometric: bool) -> Vec<Value> {
     let share = |i: usize| i as f64 / (count.max(2) - 1) as f64;
     let at = |i: usize| match i {
@@ -146,7 +152,7 @@ pub(super) fn range(from: f64, to: f64, count: usize, geometric: bool) -> Vec<Va
     (0..count).map(|i| Value::Number(rounded(at(i)))).collect()
 }
 
-/// To twelve digits, so that 0.1 + 0.2 is 0.3.
+/// Rounds to twelve digits, so that 0.1 + 0.2 is 0.3.
 fn rounded(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }

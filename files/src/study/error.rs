@@ -1,48 +1,48 @@
-//! Why there is no study.
+//! Errors from loading a study file.
 
 use crate::case::CaseError;
 use crate::{FileError, UnknownName};
 
-/// Why a name or a file is no study.
+/// Error from loading a study.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyFileError {
-    /// The name is neither a shipped study's nor a file's.
+    /// The name is neither a built-in study nor a file.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// The file cannot be read.
+    /// Cannot read the file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is no TOML, or has unknown or missing keys; with line, column and the nearest key.
+    /// The text is not TOML, or has unknown or missing keys.
     #[error("{name}: {message}")]
     Text {
-        /// The file or study.
+        /// Name of the file or study.
         name: String,
-        /// What is wrong, and where.
+        /// The problem with line and column, and a similar key if there is one.
         message: String,
     },
-    /// Something in it is not as it must be.
+    /// Invalid entry.
     #[error("{name}:{line}: {message}")]
     Line {
-        /// The file or study.
+        /// Name of the file or study.
         name: String,
-        /// Line, from 1.
+        /// Line of the entry, from 1.
         line: u64,
-        /// What is wrong, and what is allowed.
+        /// The problem, and the allowed values.
         message: String,
     },
-    /// A case of a sweep is refused.
+    /// Invalid case of a sweep.
     #[error("{name}:{line}: sweep {sweep}{at}: {source}")]
     Case {
-        /// The file or study.
+        /// Name of the file or study.
         name: String,
         /// Line of the sweep.
         line: u64,
-        /// The sweep.
+        /// Name of the sweep.
         sweep: String,
-        /// The values of the case, in words.
+        /// Description of the case's values.
         at: String,
-        /// What is wrong with it.
+        /// The problem.
         source: Box<CaseError>,
     },
 }

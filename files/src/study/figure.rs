@@ -4,63 +4,63 @@ use serde::Deserialize;
 
 use super::axis::Value;
 
-/// Greatest amplitude of a damper's displacement, m.
-const MOST_AMPLITUDE_M: f64 = 1.0;
+/// Maximum amplitude of a damper's displacement, m.
+const MAX_AMPLITUDE_M: f64 = 1.0;
 
-/// A figure.
+/// Figure of a study's page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// Heading.
     pub title: String,
-    /// What is told under it.
+    /// Caption below the figure.
     pub caption: String,
-    /// What is drawn.
-    pub shown: Shown,
+    /// Content.
+    pub content: FigureContent,
 }
 
-/// What a figure draws.
+/// Content of a figure.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shown {
-    /// Observed indices over the first axis of each sweep, a panel each: mean over seeds with its confidence.
+pub enum FigureContent {
+    /// Observed indices over the first axis, one panel per sweep: mean over seeds with its confidence interval.
     Indices {
-        /// Sweeps.
+        /// Names of the sweeps.
         sweeps: Vec<String>,
         /// Observed indices.
         observed: Vec<String>,
-        /// What each is multiplied by, to stand on one axis from zero on; none where each is shown as it is.
+        /// Factor of each index, so that all share one axis that starts at zero; empty to show them unscaled.
         factors: Vec<f64>,
     },
-    /// Force of dampers over time, displacement and velocity, at the first seed of a sweep's first case.
+    /// Damper forces over time, displacement and velocity, for the first case of a sweep with its first seed.
     Dampers {
-        /// The sweep.
+        /// Name of the sweep.
         sweep: String,
-        /// Dampers by name.
+        /// Names of the dampers.
         dampers: Vec<String>,
     },
-    /// A signal over time at the first seed, and its spectrum over all seeds.
+    /// Signal over time for the first seed, and its spectrum over all seeds.
     Signal {
-        /// The sweep.
+        /// Name of the sweep.
         sweep: String,
         /// Values of its first axis.
         values: Vec<Value>,
-        /// The signal, called as in a history.
+        /// Name of the signal, as in a history file.
         signal: String,
     },
-    /// Amplitude-frequency characteristic of a damper.
+    /// Frequency response of a damper.
     Response {
-        /// The sweep.
+        /// Name of the sweep.
         sweep: String,
         /// Values of its first axis.
         values: Vec<Value>,
-        /// The damper.
+        /// Name of the damper.
         damper: String,
         /// Amplitude of its displacement, m.
         amplitude_m: f64,
     },
 }
 
-impl Shown {
-    /// Values that are drawn, each with its sweep.
+impl FigureContent {
+    /// Returns the values drawn, each with its sweep.
     pub(super) fn values(&self) -> impl Iterator<Item = (&str, &Value)> {
         let (sweep, values) = match self {
             Self::Signal { sweep, values, .. } | Self::Response { sweep, values, .. } => {
@@ -71,7 +71,7 @@ impl Shown {
         values.iter().map(move |value| (sweep, value))
     }
 
-    /// The sweeps that are drawn.
+    /// Returns the names of the sweeps drawn.
     pub fn sweeps(&self) -> &[String] {
         match self {
             Self::Indices { sweeps, .. } => sweeps,
@@ -128,29 +128,29 @@ struct ResponseTable {
 }
 
 impl FigureTable {
-    /// The figure.
+    /// Converts the table to a figure.
     ///
     /// # Errors
-    /// Not one thing to draw; in words.
+    /// Returns a description of the problem.
     pub fn figure(self) -> Result<Figure, String> {
         let read = |values: Vec<toml::Value>| -> Result<Vec<Value>, String> {
             if values.is_empty() {
                 return Err("no values, allowed: one or more".into());
             }
-            values.into_iter().map(Value::of).collect()
+            values.into_iter().map(Value::from_toml).collect()
         };
-        let shown = match (self.indices, self.dampers, self.signal, self.response) {
+        let content = match (self.indices, self.dampers, self.signal, self.response) {
             (Some(table), None, None, None) => {
                 let [factors, observed] = [table.factors.len(), table.observed.len()];
                 if !table.factors.iter().all(|factor| factor.is_finite()) {
-                    return Err("a factor that is no finite number".into());
+                    return Err("a factor is not finite".into());
                 }
                 if factors > 0 && factors != observed {
                     return Err(format!(
-                        "{factors} factors of {observed} observed, allowed: none or one each"
+                        "{factors} factors for {observed} observed indices, allowed: none or one each"
                     ));
                 }
-                Shown::Indices {
+                FigureContent::Indices {
                     sweeps: table.sweeps,
                     observed: table.observed,
                     factors: table.factors,
@@ -159,24 +159,24 @@ impl FigureTable {
             (None, Some(table), None, None) if table.dampers.is_empty() => {
                 return Err("no dampers, allowed: one or more".into());
             }
-            (None, Some(table), None, None) => Shown::Dampers {
+            (None, Some(table), None, None) => FigureContent::Dampers {
                 sweep: table.sweep,
                 dampers: table.dampers,
             },
-            (None, None, Some(table), None) => Shown::Signal {
+            (None, None, Some(table), None) => FigureContent::Signal {
                 sweep: table.sweep,
                 values: read(table.values)?,
                 signal: table.signal,
             },
             (None, None, None, Some(table))
-                if !(table.amplitude_m > 0.0 && table.amplitude_m <= MOST_AMPLITUDE_M) =>
+                if !(table.amplitude_m > 0.0 && table.amplitude_m <= MAX_AMPLITUDE_M) =>
             {
                 return Err(format!(
-                    "amplitude_m {}, allowed: above 0 and at most {MOST_AMPLITUDE_M}",
+                    "amplitude_m {}, allowed: above 0 and at most {MAX_AMPLITUDE_M}",
                     table.amplitude_m
                 ));
             }
-            (None, None, None, Some(table)) => Shown::Response {
+            (None, None, None, Some(table)) => FigureContent::Response {
                 sweep: table.sweep,
                 values: read(table.values)?,
                 damper: table.damper,
@@ -189,7 +189,7 @@ impl FigureTable {
         Ok(Figure {
             title: self.title,
             caption: self.caption,
-            shown,
+            content,
         })
     }
 }

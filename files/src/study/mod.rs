@@ -1,4 +1,4 @@
-//! Study files: cases of a vehicle on a track whose parameters vary, and the figures drawn of them.
+//! Study files: parameter sweeps over cases, and the figures drawn from their results.
 
 mod axis;
 mod error;
@@ -6,16 +6,16 @@ mod figure;
 mod tables;
 mod vary;
 
-pub use axis::{Axis, Value, shown};
+pub use axis::{Axis, Value, format_number};
 pub use error::StudyFileError;
-pub use figure::{Figure, Shown};
+pub use figure::{Figure, FigureContent};
 use tables::StudyTables;
 
 use crate::case::CaseOptions;
 use crate::overrides::explain;
 use crate::shipped::{Found, Shipped};
 
-/// Studies that ship with the program: name and file.
+/// Built-in studies: name and text.
 pub const STUDIES: [(&str, &str); 7] = [
     ("paper", include_str!("../../data/studies/paper.toml")),
     (
@@ -42,52 +42,53 @@ pub const STUDIES: [(&str, &str); 7] = [
 ];
 
 const SHIPPED: Shipped = Shipped {
-    what: "study",
-    one: "study",
+    kind: "study",
+    built_in: "study",
     texts: &STUDIES,
 };
 
-/// A study as its file gives it.
+/// Study as read from its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyParameters {
     /// Name.
     pub name: String,
-    /// Names of the indices of a row.
+    /// Names of the indices in each row of results.
     pub observed: Vec<String>,
-    /// Line of the observed in the file.
+    /// Line of `observed` in the file.
     pub observed_line: u64,
     /// Sweeps, in the order of their cases.
     pub sweeps: Vec<Sweep>,
     /// Figures of the page.
     pub figures: Vec<Figure>,
-    /// What stands for the file in errors.
+    /// Name of the file in error messages.
     pub file: String,
 }
 
-/// A case, and what varies of it: every combination of the values of all axes, each with every seed.
+/// A case with varied parameters: every combination of the values of all axes, each with every seed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// Name, which no other sweep of the study has.
+    /// Name, unique in the study.
     pub name: String,
-    /// What a figure is called.
+    /// Title in figures.
     pub title: String,
-    /// The case that values are changed of.
+    /// The case that the axes modify.
     pub case: CaseOptions,
-    /// What varies; the last axis varies fastest.
+    /// Varied parameters; the last axis varies fastest.
     pub axes: Vec<Axis>,
-    /// Seeds of the irregularity; that of the track file when empty.
+    /// Seeds of the track irregularity; if empty, the seed of the track file is used.
     pub seeds: Vec<u64>,
     /// Line in the file.
     pub line: u64,
 }
 
 impl StudyParameters {
-    /// The study called `name`: a shipped one, or the TOML file at that path, `-` being standard input. Names of files in it count
-    /// from the study file, those within `set` from the working folder.
+    /// Loads the study called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
+    ///
+    /// File names in it are relative to the study file; file names within `set` are relative to the working directory.
     ///
     /// # Errors
-    /// Neither study nor readable file; text that is no TOML; unknown or missing keys; axes without values, names that there are twice
-    /// or not at all; with file and line.
+    /// Returns an error with file and line if there is no such study or readable file, if the text is not TOML, for
+    /// unknown or missing keys, an axis without values, or a duplicate or unknown name.
     ///
     /// ```
     /// let study = dashpot_files::study::StudyParameters::load("paper")?;
@@ -100,10 +101,10 @@ impl StudyParameters {
         Self::parse_in(&SHIPPED.find::<StudyFileError>(name)?)
     }
 
-    /// The study written in `text`; `name` stands for it in errors.
+    /// Parses the study in `text`; error messages call it `name`.
     ///
     /// # Errors
-    /// As [`Self::load`].
+    /// Same as [`Self::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, StudyFileError> {
         Self::parse_in(&Found {
             name: name.to_owned(),
@@ -121,7 +122,7 @@ impl StudyParameters {
         tables.parameters(found)
     }
 
-    /// The same with seeds 1 to `count` where there are seeds.
+    /// Replaces the seeds of each sweep that has seeds by 1 to `count`.
     #[must_use]
     pub fn with_seeds(mut self, count: u64) -> Self {
         for sweep in &mut self.sweeps {
@@ -132,20 +133,20 @@ impl StudyParameters {
         self
     }
 
-    /// The sweep of a name.
+    /// Returns the sweep called `name`.
     pub fn sweep(&self, name: &str) -> Option<&Sweep> {
         self.sweeps.iter().find(|sweep| sweep.name == name)
     }
 }
 
 impl Sweep {
-    /// Combinations of the values of all axes.
+    /// Number of combinations of the values of all axes.
     pub fn points(&self) -> u64 {
         let counts = self.axes.iter().map(|axis| axis.values.len() as u64);
         counts.fold(1, u64::saturating_mul)
     }
 
-    /// The value of each axis at a point.
+    /// Returns the value of each axis at a point, which is a combination counted from 0.
     pub fn values(&self, point: u64) -> Vec<&Value> {
         let mut rest = point;
         let mut values: Vec<&Value> = Vec::with_capacity(self.axes.len());
@@ -158,10 +159,10 @@ impl Sweep {
         values
     }
 
-    /// The case with a value of each axis.
+    /// Returns the case with each axis set to a value.
     ///
     /// # Errors
-    /// As [`CaseOptions::case`]; a value of the wrong kind as well.
+    /// Returns a description of the problem for an unknown parameter or a value of the wrong kind.
     pub fn options(&self, values: &[&Value]) -> Result<CaseOptions, String> {
         let mut options = self.case.clone();
         for (axis, value) in self.axes.iter().zip(values) {
@@ -171,7 +172,7 @@ impl Sweep {
         Ok(options)
     }
 
-    /// Cases: each point with every seed.
+    /// Number of cases: each point with every seed.
     pub fn cases(&self) -> u64 {
         self.points().saturating_mul(self.seeds.len().max(1) as u64)
     }

@@ -1,4 +1,4 @@
-//! The tables of a study file.
+//! Tables of a study file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,10 +9,10 @@ use super::axis::Axis;
 use super::figure::{Figure, FigureTable};
 use super::vary::VaryTable;
 use super::{StudyFileError, StudyParameters, Sweep};
-use crate::case::{CaseError, CaseParts};
+use crate::case::{CaseError, CaseNumbers, CaseParts};
 use crate::lines::line_at;
-use crate::overrides::nearest;
-use crate::shipped::{Found, named_in};
+use crate::overrides::did_you_mean;
+use crate::shipped::{Found, resolve_name};
 use crate::vehicle::Replacement;
 
 #[derive(Deserialize)]
@@ -52,9 +52,9 @@ struct SweepTable {
 }
 
 impl StudyTables {
-    /// The study in the file that was found.
+    /// Converts the tables to a study.
     pub fn parameters(self, found: &Found) -> Result<StudyParameters, StudyFileError> {
-        let wrong_at = |start: usize, message: String| StudyFileError::Line {
+        let error_at = |start: usize, message: String| StudyFileError::Line {
             name: found.name.clone(),
             line: line_at(&found.text, start),
             message,
@@ -63,11 +63,11 @@ impl StudyTables {
         let observed = self.observed.into_inner();
         let once: BTreeSet<&String> = observed.iter().collect();
         if observed.is_empty() || once.len() < observed.len() {
-            let message = "observed: allowed: one index or more, each once";
-            return Err(wrong_at(observed_at, message.into()));
+            let message = "observed: allowed: one or more indices, each once";
+            return Err(error_at(observed_at, message.into()));
         }
         if self.sweep.is_empty() {
-            return Err(wrong_at(0, "sweep: allowed: one or more".into()));
+            return Err(error_at(0, "no sweeps, allowed: one or more".into()));
         }
         let mut sweeps = Vec::new();
         let mut names = BTreeSet::new();
@@ -75,11 +75,14 @@ impl StudyTables {
             let start = table.span().start;
             let table = table.into_inner();
             if table.name.is_empty() || table.name.contains(char::is_control) {
-                let message = "name of a sweep: allowed: one line that is not empty";
-                return Err(wrong_at(start, message.into()));
+                let message = "empty or multi-line name of a sweep, allowed: one line of text";
+                return Err(error_at(start, message.into()));
             }
             if !names.insert(table.name.clone()) {
-                return Err(wrong_at(start, format!("a second sweep `{}`", table.name)));
+                return Err(error_at(
+                    start,
+                    format!("duplicate sweep name `{}`", table.name),
+                ));
             }
             sweeps.push(table.sweep(&self.seeds, start, found)?);
         }
@@ -95,7 +98,7 @@ impl StudyTables {
             let start = table.span().start;
             let figure = table.into_inner().figure();
             let figure = figure.and_then(|figure| study.check(figure));
-            let figure = figure.map_err(|message| wrong_at(start, message))?;
+            let figure = figure.map_err(|message| error_at(start, message))?;
             study.figures.push(figure);
         }
         Ok(study)
@@ -103,36 +106,39 @@ impl StudyTables {
 }
 
 impl StudyParameters {
-    /// The figure, if the study has what it draws.
+    /// Checks that the study has the content of the figure.
     fn check(&self, figure: Figure) -> Result<Figure, String> {
-        if figure.shown.sweeps().is_empty() {
+        if figure.content.sweeps().is_empty() {
             return Err("no sweeps, allowed: one or more".into());
         }
         let names = || self.sweeps.iter().map(|sweep| sweep.name.as_str());
-        for wanted in figure.shown.sweeps() {
+        for wanted in figure.content.sweeps() {
             if self.sweep(wanted).is_none() {
-                return Err(format!("no sweep `{wanted}`{}", nearest(wanted, names())));
-            }
-        }
-        for (sweep, value) in figure.shown.values() {
-            let axis = self.sweep(sweep).and_then(|sweep| sweep.axes.first());
-            if !axis.is_some_and(|axis| axis.values.contains(value)) {
                 return Err(format!(
-                    "{value} is no value of the first axis of sweep {sweep}"
+                    "no sweep `{wanted}`{}",
+                    did_you_mean(wanted, names())
                 ));
             }
         }
-        if let super::Shown::Indices {
+        for (sweep, value) in figure.content.values() {
+            let axis = self.sweep(sweep).and_then(|sweep| sweep.axes.first());
+            if !axis.is_some_and(|axis| axis.values.contains(value)) {
+                return Err(format!(
+                    "{value} is not a value of the first axis of sweep {sweep}"
+                ));
+            }
+        }
+        if let super::FigureContent::Indices {
             observed, sweeps, ..
-        } = &figure.shown
+        } = &figure.content
         {
-            let is_wide =
+            let has_two_axes =
                 |name: &String| self.sweep(name).is_some_and(|sweep| sweep.axes.len() > 1);
-            if observed.len() > 1 && sweeps.iter().any(is_wide) {
-                return Err("several indices over two axes, allowed: one".into());
+            if observed.len() > 1 && sweeps.iter().any(has_two_axes) {
+                return Err("several indices of a sweep with two axes, allowed: one index".into());
             }
             if observed.is_empty() {
-                return Err("no index observed, allowed: one or more".into());
+                return Err("no observed indices, allowed: one or more".into());
             }
             let names = || self.observed.iter().map(String::as_str);
             if let Some(wanted) = observed
@@ -140,8 +146,8 @@ impl StudyParameters {
                 .find(|wanted| !self.observed.contains(wanted))
             {
                 return Err(format!(
-                    "`{wanted}` is not among the observed{}",
-                    nearest(wanted, names())
+                    "`{wanted}` is not in `observed`{}",
+                    did_you_mean(wanted, names())
                 ));
             }
         }
@@ -153,54 +159,60 @@ impl SweepTable {
     fn sweep(self, seeds: &[u64], start: usize, found: &Found) -> Result<Sweep, StudyFileError> {
         let Found { name, text, folder } = found;
         let line = line_at(text, start);
-        let wrong = |line: u64, message: String| StudyFileError::Line {
+        let invalid = |line: u64, message: String| StudyFileError::Line {
             name: name.clone(),
             line,
             message,
         };
-        let named = |name: &String| named_in(folder, name);
-        let [of_case, vehicle, track] =
-            [&self.case, &self.vehicle, &self.track].map(|name| name.as_ref().map(named));
+        let resolve = |name: &String| resolve_name(folder, name);
+        let [base_case, vehicle, track] =
+            [&self.case, &self.vehicle, &self.track].map(|name| name.as_ref().map(resolve));
         let parts = CaseParts {
-            case: of_case.as_deref(),
+            case: base_case.as_deref(),
             vehicle: vehicle.as_deref(),
             track: track.as_deref(),
-            numbers: [
-                self.speed_km_h,
-                self.duration_s,
-                self.start_m,
-                self.friction,
-                self.normal_damping_s_per_m,
-                self.step_us,
-                self.push_m,
-            ],
+            numbers: CaseNumbers {
+                speed_km_h: self.speed_km_h,
+                duration_s: self.duration_s,
+                start_m: self.start_m,
+                friction: self.friction,
+                normal_damping_s_per_m: self.normal_damping_s_per_m,
+                step_us: self.step_us,
+                push_m: self.push_m,
+            },
         };
         let options = parts.options();
-        let Some(mut case) = options.map_err(|source| self.refused(name, line, source))? else {
+        let Some(mut case) = options.map_err(|source| self.case_error(name, line, source))? else {
             let sweep = &self.name;
             let message = format!("sweep {sweep}: give `case`, or `track` and `speed_km_h`");
-            return Err(wrong(line, message));
+            return Err(invalid(line, message));
         };
         let replacements = self
             .dampers
             .iter()
-            .map(|(dampers, by)| Replacement::named(dampers.clone(), named(by)));
+            .map(|(dampers, damper)| Replacement::named(dampers.clone(), resolve(damper)));
         case.dampers.extend(replacements);
         case.overrides.extend(self.set);
         let mut axes: Vec<Axis> = Vec::new();
         for vary in self.vary {
             let at = line_at(text, vary.span().start);
             let axis = vary.into_inner().axis(folder);
-            let axis = axis.map_err(|error| wrong(at, error))?;
+            let axis = axis.map_err(|error| invalid(at, error))?;
             if axes.iter().any(|other| other.parameter == axis.parameter) {
-                return Err(wrong(at, format!("vary: {} twice", axis.parameter)));
+                return Err(invalid(
+                    at,
+                    format!("vary: duplicate parameter {}", axis.parameter),
+                ));
             }
             axes.push(axis);
         }
         let seeds = self.seeds.unwrap_or_else(|| seeds.to_vec());
         let once: BTreeSet<u64> = seeds.iter().copied().collect();
         if once.len() < seeds.len() {
-            return Err(wrong(line, format!("sweep {}: a seed twice", self.name)));
+            return Err(invalid(
+                line,
+                format!("sweep {}: duplicate seed", self.name),
+            ));
         }
         Ok(Sweep {
             title: self.title.unwrap_or_else(|| self.name.clone()),
@@ -212,7 +224,7 @@ impl SweepTable {
         })
     }
 
-    fn refused(&self, name: &str, line: u64, source: CaseError) -> StudyFileError {
+    fn case_error(&self, name: &str, line: u64, source: CaseError) -> StudyFileError {
         StudyFileError::Case {
             name: name.to_owned(),
             line,

@@ -1,10 +1,10 @@
-//! The table of what varies in a sweep.
+//! Table `vary` of a sweep, which describes one axis.
 
 use std::path::Path;
 
 use serde::Deserialize;
 
-use super::axis::{Axis, MOST_VALUES, Value, WORN_DAMPER, names_files, range};
+use super::axis::{Axis, MAX_VALUES, Value, WORN_DAMPER, may_name_files, range};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -29,72 +29,74 @@ enum Spacing {
 }
 
 impl VaryTable {
-    /// The axis.
+    /// Converts the table to an axis.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// Returns a description of the problem.
     pub fn axis(self, folder: &Path) -> Result<Axis, String> {
         let parameter = self.parameter;
-        let wrong = |reason: String| format!("{parameter}: {reason}");
+        let invalid = |reason: String| format!("{parameter}: {reason}");
         if self.values.is_some() && self.spacing.is_some() {
-            return Err(wrong(
-                "`spacing` beside `values`, allowed: beside `from`, `to` and `count`".into(),
+            return Err(invalid(
+                "`spacing` given with `values`, allowed: with `from`, `to` and `count`".into(),
             ));
         }
         let factor = self.factor.unwrap_or(1.0);
         if !factor.is_finite() || factor == 0.0 {
-            return Err(wrong(format!(
-                "factor {factor}, allowed: a finite number but 0"
+            return Err(invalid(format!(
+                "factor {factor}, allowed: finite numbers except 0"
             )));
         }
         let values = match (self.values, self.from, self.to, self.count) {
             (Some(values), None, None, None) => {
                 let values = values
                     .into_iter()
-                    .map(|value| Value::of(value).map_err(&wrong));
+                    .map(|value| Value::from_toml(value).map_err(&invalid));
                 values.collect::<Result<Vec<_>, _>>()?
             }
             (None, Some(from), Some(to), Some(count)) => {
                 let geometric = self.spacing == Some(Spacing::Geometric);
-                if !(2..=MOST_VALUES).contains(&count) {
-                    return Err(wrong(format!("count {count}, allowed: 2 to {MOST_VALUES}")));
+                if !(2..=MAX_VALUES).contains(&count) {
+                    return Err(invalid(format!(
+                        "count {count}, allowed: 2 to {MAX_VALUES}"
+                    )));
                 }
                 if geometric && !(from > 0.0 && to > 0.0) {
-                    let reason = format!("from {from} to {to} in equal ratios, allowed: above 0");
-                    return Err(wrong(reason));
+                    let reason = format!("geometric spacing from {from} to {to}, allowed: above 0");
+                    return Err(invalid(reason));
                 }
                 range(from, to, count, geometric)
             }
             _ => {
-                return Err(wrong(
-                    "allowed: either `values`, or `from`, `to` and `count`".into(),
+                return Err(invalid(
+                    "give either `values`, or `from`, `to` and `count`".into(),
                 ));
             }
         };
-        if values.is_empty() || values.len() > MOST_VALUES {
+        if values.is_empty() || values.len() > MAX_VALUES {
             let count = values.len();
-            return Err(wrong(format!(
-                "{count} values, allowed: 1 to {MOST_VALUES}"
+            return Err(invalid(format!(
+                "{count} values, allowed: 1 to {MAX_VALUES}"
             )));
         }
         let finite = |value: &Value| !matches!(value, Value::Number(number) if !number.is_finite());
         if !values.iter().all(finite) {
-            return Err(wrong("a value that is no finite number".into()));
+            return Err(invalid("a value is not finite".into()));
         }
         for (number, value) in values.iter().enumerate() {
             if values[..number].contains(value) {
-                return Err(wrong(format!("value {value} twice")));
+                return Err(invalid(format!("duplicate value {value}")));
             }
         }
         if (parameter == WORN_DAMPER) == self.set.is_empty() {
-            return Err(wrong(format!(
-                "`set` belongs to `{WORN_DAMPER}`, and it cannot be without"
+            return Err(invalid(format!(
+                "`set` is required for `{WORN_DAMPER}` and not allowed for other parameters"
             )));
         }
-        let values = match names_files(&parameter) {
+        let values = match may_name_files(&parameter) {
             true => values
                 .into_iter()
-                .map(|value| value.named_in(folder))
+                .map(|value| value.resolve_name(folder))
                 .collect(),
             false => values,
         };

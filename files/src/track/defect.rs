@@ -1,4 +1,4 @@
-//! The table of a single defect.
+//! Table of a single track defect.
 
 use dashpot_rail::track::{Defect, Rails};
 use serde::Deserialize;
@@ -40,7 +40,7 @@ pub(super) struct DefectTable {
 impl DefectTable {
     fn keys(&self) -> Keys {
         Keys {
-            of: match self.kind {
+            owner: match self.kind {
                 Kind::CosineDip => "a cosine dip",
                 Kind::AlignmentBump => "an alignment bump",
                 Kind::AlignmentKink => "an alignment kink",
@@ -59,46 +59,46 @@ impl DefectTable {
         }
     }
 
-    /// The rails, which every kind but a twist names.
-    fn rails(&self, of: &str) -> Result<Rails, String> {
+    /// Returns the rails, required for every kind except a twist.
+    fn rails(&self, owner: &str) -> Result<Rails, String> {
         match self.rails {
             Some(RailsName::Left) => Ok(Rails::Left),
             Some(RailsName::Right) => Ok(Rails::Right),
             Some(RailsName::Both) => Ok(Rails::Both),
-            None => Err(format!("missing `rails` of {of}")),
+            None => Err(format!("{owner} needs `rails`")),
         }
     }
 
-    /// The defect.
+    /// Converts the table to a defect.
     ///
     /// # Errors
-    /// A key that is missing or that its kind has not, in words.
+    /// Returns a description of a missing key, or of a key that does not apply to this kind.
     pub fn defect(&self) -> Result<Defect, String> {
         let mut keys = self.keys();
-        let of = keys.of;
+        let owner = keys.owner;
         let start_m = keys.take("start_m")?;
         let defect = match self.kind {
             Kind::CosineDip => Defect::CosineDip {
-                rails: self.rails(of)?,
+                rails: self.rails(owner)?,
                 start_m,
                 length_m: keys.take("length_m")?,
                 depth_m: keys.take("depth_m")?,
             },
             Kind::AlignmentBump => Defect::AlignmentBump {
-                rails: self.rails(of)?,
+                rails: self.rails(owner)?,
                 start_m,
                 length_m: keys.take("length_m")?,
                 offset_m: keys.take("offset_m")?,
             },
             Kind::AlignmentKink => Defect::AlignmentKink {
-                rails: self.rails(of)?,
+                rails: self.rails(owner)?,
                 start_m,
                 length_m: keys.take("length_m")?,
                 offset_m: keys.take("offset_m")?,
                 rounding_m: keys.take("rounding_m")?,
             },
             Kind::Twist if self.rails.is_some() => {
-                return Err("`rails`, which a twist has not: half of it is on each".into());
+                return Err("a twist has no `rails`: half of it is on each rail".into());
             }
             Kind::Twist => Defect::Twist {
                 start_m,

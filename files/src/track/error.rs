@@ -1,23 +1,23 @@
-//! Why there is no track.
+//! Track-file errors.
 
 use crate::{FileError, UnknownName};
 
-/// Why a name and a file are no track.
+/// Error from loading a track.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrackFileError {
-    /// The name is neither a shipped track's nor a file's.
+    /// The name is neither a built-in track nor a file.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// A file cannot be read, or a line of it is not as it must be: the track's own, or the one of its measured irregularity.
+    /// Cannot use the track file or the file of its measured irregularity.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The text is no TOML, or has unknown or missing keys; with line, column and the nearest key.
+    /// The text is not TOML, or has unknown or missing keys.
     #[error("{name}: {message}")]
     Text {
-        /// The file or track.
+        /// Name of the file or track.
         name: String,
-        /// What is wrong, and where.
+        /// The problem with line and column, and a similar key if there is one.
         message: String,
     },
 }

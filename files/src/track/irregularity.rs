@@ -1,4 +1,4 @@
-//! Where the irregularity of a track file is from.
+//! Sources of a track's irregularity.
 
 use std::path::{Path, PathBuf};
 
@@ -6,38 +6,38 @@ use dashpot_rail::track::measured::{self, MeasuredTrackError, Options};
 use dashpot_rail::track::{Band, Generation, Irregularity, Seeds, Spectrum};
 use serde::{Deserialize, Serialize};
 
-use crate::overrides::nearest;
-use crate::shipped::named_in;
+use crate::overrides::did_you_mean;
+use crate::shipped::resolve_name;
 use crate::{FileError, input};
 
-/// Where an irregularity is from.
+/// Source of an irregularity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum IrregularityParameters {
-    /// There is none.
+    /// No irregularity.
     None,
-    /// Computed or read before, as it is.
+    /// Already generated or read.
     Given(Irregularity),
-    /// A published spectrum.
+    /// Generated from a published spectrum.
     #[serde(skip)]
     Generated {
-        /// Its name in the file.
+        /// Name of the spectrum in the track file.
         spectrum: String,
-        /// Its seed in the file.
+        /// Seed in the track file.
         seed: u64,
-        /// What it is generated from.
+        /// Settings of the generator.
         generation: Box<Generation>,
     },
-    /// A measured file.
+    /// Read from a measured file.
     #[serde(skip)]
     Measured {
         /// The file.
         file: PathBuf,
-        /// How it is used.
+        /// How the measurement is placed on the track.
         options: Options,
     },
 }
 
-/// Either a spectrum or a measured file, with the keys of the one or of the other.
+/// Table of either a spectrum or a measured file; each has its own keys.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct IrregularityTable {
@@ -74,18 +74,18 @@ fn spectrum_called(name: &str) -> Result<Spectrum, String> {
         _ => Err(format!(
             "spectrum `{name}`, allowed: {}{}",
             SPECTRA.join(", "),
-            nearest(name, SPECTRA.into_iter())
+            did_you_mean(name, SPECTRA.into_iter())
         )),
     }
 }
 
 impl IrregularityTable {
-    /// What the table says; files count from `folder`.
+    /// Converts the table; file names are relative to `folder`.
     ///
     /// # Errors
-    /// What is wrong, in words.
+    /// Returns a description of the problem.
     pub fn parameters(self, folder: &Path) -> Result<IrregularityParameters, String> {
-        let of_spectrum = [
+        let spectrum_keys = [
             ("seed", self.seed.is_some()),
             ("wavelength_m", self.wavelength_m.is_some()),
             ("length_m", self.length_m.is_some()),
@@ -93,10 +93,10 @@ impl IrregularityTable {
         match (self.spectrum, self.file) {
             (Some(spectrum), None) => {
                 if self.shift_m.is_some() {
-                    return Err("`shift_m` beside `spectrum`, allowed: beside `file`".into());
+                    return Err("`shift_m` given with `spectrum`, allowed: with `file`".into());
                 }
                 let missing = |key| {
-                    format!("missing `{key}`: a spectrum has seed, wavelength_m and length_m")
+                    format!("missing `{key}`: a spectrum needs seed, wavelength_m and length_m")
                 };
                 let generation = Generation::new(spectrum_called(&spectrum)?);
                 let seed = self.seed.ok_or_else(|| missing("seed"))?;
@@ -115,19 +115,21 @@ impl IrregularityTable {
                 })
             }
             (None, Some(file)) => {
-                if let Some((key, _)) = of_spectrum.into_iter().find(|(_, given)| *given) {
-                    return Err(format!("`{key}` beside `file`, allowed: beside `spectrum`"));
+                if let Some((key, _)) = spectrum_keys.into_iter().find(|(_, given)| *given) {
+                    return Err(format!(
+                        "`{key}` given with `file`, allowed: with `spectrum`"
+                    ));
                 }
                 let options = Options::default();
                 Ok(IrregularityParameters::Measured {
-                    file: named_in(folder, &file).into(),
+                    file: resolve_name(folder, &file).into(),
                     options: options
                         .with_shift_m(self.shift_m.unwrap_or(options.shift_m))
                         .with_ramp_m(self.ramp_m.unwrap_or(options.ramp_m))
                         .with_spacing_m(self.spacing_m),
                 })
             }
-            _ => Err("allowed: either `spectrum` or `file`".into()),
+            _ => Err("give either `spectrum` or `file`".into()),
         }
     }
 }

@@ -1,27 +1,27 @@
-//! The numbers of a table whose kind says which it has.
+//! Numbers of a table whose allowed keys depend on its kind.
 //!
-//! Not an enumeration with a tag, whose errors would name the line of the first table.
+//! A tagged enumeration would do the same, but its errors name the line of the first table.
 
-/// Numbers that a table gives, each taken once.
+/// Numbers given in a table, each taken once.
 pub(super) struct Keys {
-    /// What the table is of.
-    pub of: &'static str,
-    /// Each key with its number if it is given.
+    /// Words for the owner of the keys, such as `a twist`.
+    pub owner: &'static str,
+    /// Each key with its number; `None` if it is not given.
     pub given: Vec<(&'static str, Option<f64>)>,
 }
 
 impl Keys {
-    /// The number of a key that this kind has.
+    /// Takes the number of a key that this kind requires.
     pub fn take(&mut self, key: &'static str) -> Result<f64, String> {
         let found = self.given.iter().position(|(name, _)| *name == key);
         let value = found.and_then(|index| self.given.swap_remove(index).1);
-        value.ok_or_else(|| format!("missing `{key}` of {}", self.of))
+        value.ok_or_else(|| format!("{} needs `{key}`", self.owner))
     }
 
-    /// Checks that nothing else is given.
+    /// Checks that no other key is given.
     pub fn end(self) -> Result<(), String> {
         match self.given.iter().find(|(_, value)| value.is_some()) {
-            Some((key, _)) => Err(format!("`{key}`, which {} has not", self.of)),
+            Some((key, _)) => Err(format!("{} has no `{key}`", self.owner)),
             None => Ok(()),
         }
     }

@@ -1,4 +1,4 @@
-//! Track files: TOML in SI units, unknown keys refused with the nearest one.
+//! Track files: TOML in SI units; unknown keys are errors that suggest a similar key.
 
 mod defect;
 mod error;
@@ -20,7 +20,7 @@ use crate::FileError;
 use crate::overrides::explain;
 use crate::shipped::{Found, Shipped};
 
-/// Tracks that ship with the program: name and file.
+/// Built-in tracks: name and text.
 pub const TRACKS: [(&str, &str); 7] = [
     ("ideal", include_str!("../../data/tracks/ideal.toml")),
     ("straight", include_str!("../../data/tracks/straight.toml")),
@@ -47,32 +47,34 @@ pub const TRACKS: [(&str, &str); 7] = [
 ];
 
 const SHIPPED: Shipped = Shipped {
-    what: "track",
-    one: "track",
+    kind: "track",
+    built_in: "track",
     texts: &TRACKS,
 };
 
-/// What a track file gives: all but the irregularity, which [`TrackParameters::build`] generates or reads.
+/// Content of a track file; [`TrackParameters::build`] generates or reads the irregularity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackParameters {
     /// Name.
     pub name: String,
     /// Curvature and cant.
     pub layout: Layout,
-    /// Where the irregularity is from.
+    /// Source of the irregularity.
     pub irregularity: IrregularityParameters,
     /// Single defects.
     pub defects: Vec<Defect>,
-    /// What stands for the file in errors, and the line of its irregularity.
+    /// Name of the file in error messages.
     file: PathBuf,
+    /// Line of the irregularity in the file.
     irregularity_line: u64,
 }
 
 impl TrackParameters {
-    /// The track, with its irregularity generated or read: some 30 ms for a kilometre of a spectrum.
+    /// Builds the track and generates or reads its irregularity, which takes about 30 ms per generated kilometre.
     ///
     /// # Errors
-    /// A spectrum that cannot be generated with what the file says of it, a measured file that cannot be read or used; with file and line.
+    /// Returns an error with file and line if the irregularity cannot be generated, or if a measured file cannot be
+    /// used.
     pub fn build(&self) -> Result<Track, FileError> {
         Track::new(
             self.layout.clone(),
@@ -82,11 +84,12 @@ impl TrackParameters {
         .map_err(|error| self.in_irregularity(error))
     }
 
-    /// The same with its irregularity as [`Self::build`] has it, which needs no other file and is written by serde.
+    /// Returns the track with its irregularity already generated or read, so that it can be serialized and needs no
+    /// other file.
     ///
     /// # Errors
-    /// As [`Self::build`].
-    pub fn given(&self) -> Result<Self, FileError> {
+    /// Same as [`Self::build`].
+    pub fn resolved(&self) -> Result<Self, FileError> {
         Ok(Self {
             irregularity: IrregularityParameters::Given(self.irregularity()?),
             ..self.clone()
@@ -106,18 +109,18 @@ impl TrackParameters {
         }
     }
 
-    /// The same with an irregularity of another seed; none where it is not generated.
+    /// Returns the track with another seed; `None` if its irregularity is not generated.
     pub fn with_seed(&self, seed: u64) -> Option<Self> {
         let mut other = self.clone();
         let IrregularityParameters::Generated {
-            seed: of_file,
+            seed: file_seed,
             generation,
             ..
         } = &mut other.irregularity
         else {
             return None;
         };
-        *of_file = seed;
+        *file_seed = seed;
         generation.seeds = seed.into();
         Some(other)
     }
@@ -127,11 +130,12 @@ impl TrackParameters {
     }
 }
 
-/// The track called `name`: a shipped one, or the TOML file at that path, `-` being standard input. A measured irregularity is read from
-/// a file whose name counts from the track file.
+/// Loads the track called `name`: a built-in one, or the TOML file at that path (`-` for standard input). The file name
+/// of a measured irregularity is relative to the track file.
 ///
 /// # Errors
-/// Neither track nor readable file; text that is no TOML; unknown or missing keys; parts or defects that are no track.
+/// Returns an error if there is no such track or readable file, if the text is not TOML, for unknown or missing keys,
+/// and for invalid parts or defects.
 ///
 /// ```
 /// let track = dashpot_files::track::load("curve-r600")?.build()?;
@@ -143,10 +147,10 @@ pub fn load(name: &str) -> Result<TrackParameters, TrackFileError> {
     parse(&name, &text, &folder)
 }
 
-/// The track written in `text`; `name` stands for it in errors, and files that it names count from `folder`.
+/// Parses the track in `text`; error messages call it `name`, and file names are relative to `folder`.
 ///
 /// # Errors
-/// As [`load`].
+/// Same as [`load`].
 pub fn parse(name: &str, text: &str, folder: &Path) -> Result<TrackParameters, TrackFileError> {
     let tables: TrackTables = toml::from_str(text).map_err(|error| TrackFileError::Text {
         name: name.to_owned(),

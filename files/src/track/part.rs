@@ -1,4 +1,4 @@
-//! The table of a part of the layout.
+//! Table of a part of the layout.
 
 use dashpot_rail::track::Part;
 use serde::Deserialize;
@@ -23,12 +23,12 @@ pub(super) struct PartTable {
 }
 
 impl PartTable {
-    /// The part.
+    /// Converts the table to a part.
     ///
     /// # Errors
-    /// A key that is missing or that its kind has not, in words.
+    /// Returns a description of a missing key, or of a key that does not apply to this kind.
     pub fn part(&self) -> Result<Part, String> {
-        let of = match self.kind {
+        let owner = match self.kind {
             Kind::Straight => "a straight part",
             Kind::Transition => "a transition",
             Kind::Circular => "a circular part",
@@ -38,7 +38,7 @@ impl PartTable {
             ("radius_m", self.radius_m),
             ("cant_m", self.cant_m),
         ];
-        let mut keys = Keys { of, given };
+        let mut keys = Keys { owner, given };
         let length_m = keys.take("length_m")?;
         let part = match self.kind {
             Kind::Straight => Part::Straight { length_m },

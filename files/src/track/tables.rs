@@ -1,4 +1,4 @@
-//! The tables of a track file.
+//! Tables of a track file.
 
 use std::path::Path;
 
@@ -23,62 +23,74 @@ pub(super) struct TrackTables {
     defect: Vec<Spanned<DefectTable>>,
 }
 
-/// What each table gives, or the line and the number of the one that gives nothing.
-fn each<T, U>(
-    tables: &[Spanned<T>],
-    of: impl Fn(&T) -> Result<U, String>,
-    place: fn(usize) -> Place,
-) -> Result<Vec<U>, (usize, String)> {
-    let numbered = tables.iter().zip(1..);
-    let given = numbered.map(|(table, number)| {
-        of(table.get_ref()).map_err(|reason| {
-            let reason = format!("{}: {reason}", place(number));
-            (table.span().start, reason)
-        })
-    });
-    given.collect()
+/// Invalid table.
+struct TableError {
+    /// Byte offset of the table in the text.
+    offset: usize,
+    reason: String,
 }
 
-/// Where the table of a place begins.
-fn start_of<T>(tables: &[Spanned<T>], number: usize) -> usize {
+/// Converts each table, or returns the error of the first invalid one.
+fn convert_all<T, U>(
+    tables: &[Spanned<T>],
+    convert: impl Fn(&T) -> Result<U, String>,
+    place: fn(usize) -> Place,
+) -> Result<Vec<U>, TableError> {
+    let numbered = tables.iter().zip(1..);
+    let converted = numbered.map(|(table, number)| {
+        convert(table.get_ref()).map_err(|reason| TableError {
+            offset: table.span().start,
+            reason: format!("{}: {reason}", place(number)),
+        })
+    });
+    converted.collect()
+}
+
+/// Byte offset of the table with this number, from 1.
+fn offset_of<T>(tables: &[Spanned<T>], number: usize) -> usize {
     let table = tables.get(number.wrapping_sub(1));
     table.map_or(0, |table| table.span().start)
 }
 
 impl TrackTables {
-    /// What the tables say; `file` stands for their `text` in errors, and files count from `folder`.
+    /// Converts the tables parsed from `text`; error messages call the text `file`, and file names are relative to
+    /// `folder`.
     pub fn parameters(
         self,
         file: &Path,
         text: &str,
         folder: &Path,
     ) -> Result<TrackParameters, FileError> {
-        let in_table = |(offset, reason)| FileError::in_line(file, line_at(text, offset), reason);
-        let wrong = |error: TrackError| {
+        let in_table = |TableError { offset, reason }: TableError| {
+            FileError::in_line(file, line_at(text, offset), reason)
+        };
+        let invalid = |error: TrackError| {
             let offset = match &error {
                 TrackError::OutOfBounds { place, .. }
                 | TrackError::TransitionAtEnd { place }
                 | TrackError::NeedlessTransition { place }
                 | TrackError::CantJump { place, .. } => match *place {
-                    Place::Part(number) => start_of(&self.part, number),
-                    Place::Defect(number) => start_of(&self.defect, number),
+                    Place::Part(number) => offset_of(&self.part, number),
+                    Place::Defect(number) => offset_of(&self.defect, number),
                     _ => 0,
                 },
                 _ => 0,
             };
             FileError::in_line(file, line_at(text, offset), error)
         };
-        let parts = each(&self.part, PartTable::part, Place::Part).map_err(in_table)?;
-        let defects = each(&self.defect, DefectTable::defect, Place::Defect).map_err(in_table)?;
-        let layout = Layout::new(&parts).map_err(wrong)?;
-        // Both are checked here, where their lines are known.
-        let track = Track::new(layout, Irregularity::default(), defects).map_err(wrong)?;
+        let parts = convert_all(&self.part, PartTable::part, Place::Part).map_err(in_table)?;
+        let defects =
+            convert_all(&self.defect, DefectTable::defect, Place::Defect).map_err(in_table)?;
+        let layout = Layout::new(&parts).map_err(invalid)?;
+        // Checked here because the lines are known here.
+        let track = Track::new(layout, Irregularity::default(), defects).map_err(invalid)?;
         let (mut irregularity, mut irregularity_line) = (IrregularityParameters::None, 1);
         if let Some(table) = self.irregularity {
             let offset = table.span().start;
             irregularity_line = line_at(text, offset);
             irregularity = table.into_inner().parameters(folder).map_err(|reason| {
-                in_table((offset, format!("{}: {reason}", Place::Irregularity)))
+                let reason = format!("{}: {reason}", Place::Irregularity);
+                in_table(TableError { offset, reason })
             })?;
         }
         Ok(TrackParameters {

@@ -1,52 +1,71 @@
-//! Values of a vehicle's dampers changed.
+//! Overrides of a vehicle's dampers.
 
 use dashpot_core::DamperParameters;
 use dashpot_rail::vehicle::{Law, VehicleParameters};
 
-use super::dampers::called;
+use super::dampers::find_dampers;
 use super::error::VehicleFileError;
 use crate::{damper, overrides};
 
-/// The dampers and the override `table.key=value` of `dampers.table.key=value`; none of `part.key=value`, which is of the vehicle's file.
-pub(super) fn of_dampers(assignment: &str) -> Option<(&str, &str)> {
-    let (keys, _) = assignment.split_once('=')?;
-    let (dampers, path) = keys.split_once('.')?;
-    path.contains('.')
-        .then(|| (dampers.trim(), &assignment[dampers.len() + 1..]))
+/// Override `dampers.table.key=value`, split after the dampers.
+pub(super) struct DamperOverride<'a> {
+    /// Direction or name of the dampers.
+    dampers: &'a str,
+    /// Override `table.key=value` of each of them.
+    change: &'a str,
 }
 
-/// Applies `dampers.table.key=value` to the dampers of a direction or of a name.
+/// Splits an override `dampers.table.key=value`; `None` for an override `part.key=value` of the vehicle file.
+pub(super) fn split(assignment: &str) -> Option<DamperOverride<'_>> {
+    let (keys, _) = assignment.split_once('=')?;
+    let (dampers, path) = keys.split_once('.')?;
+    path.contains('.').then(|| DamperOverride {
+        dampers: dampers.trim(),
+        change: &assignment[dampers.len() + 1..],
+    })
+}
+
+/// Damper parameters before and after an override.
+struct Changed {
+    before: DamperParameters,
+    after: DamperParameters,
+}
+
+/// Applies `dampers.table.key=value` to the dampers in a direction or with a name.
 pub(super) fn apply(
     vehicle: &mut VehicleParameters,
     assignment: &str,
 ) -> Result<(), VehicleFileError> {
-    let wrong = |reason: String| VehicleFileError::Override {
+    let invalid = |reason: String| VehicleFileError::Override {
         assignment: assignment.to_owned(),
         reason,
     };
-    overrides::parse(assignment).map_err(wrong)?;
-    let Some((which, change)) = of_dampers(assignment) else {
-        return Err(wrong("no table of a damper".into()));
+    overrides::parse(assignment).map_err(invalid)?;
+    let Some(DamperOverride { dampers, change }) = split(assignment) else {
+        return Err(invalid("no damper table in the path".into()));
     };
     let change = [change.to_owned()];
-    // Equal dampers stay equal; each is changed once.
-    let mut changed: Vec<[DamperParameters; 2]> = Vec::new();
-    for element in called(vehicle, which).map_err(wrong)? {
+    // Identical dampers are changed only once.
+    let mut changed: Vec<Changed> = Vec::new();
+    for element in find_dampers(vehicle, dampers).map_err(invalid)? {
         let Law::Damper { parameters, .. } = &mut vehicle.elements[element].law else {
             continue;
         };
-        let known = changed.iter().find(|[before, _]| *before == **parameters);
-        let now = match known {
-            Some([_, now]) => now.clone(),
+        let known = changed.iter().find(|known| known.before == **parameters);
+        let after = match known {
+            Some(known) => known.after.clone(),
             None => {
-                let now = damper::change(which, parameters, &change)
-                    .map_err(|error| wrong(error.to_string()))?;
-                let now = DamperParameters::clone(&now);
-                changed.push([DamperParameters::clone(parameters), now.clone()]);
-                now
+                let after = damper::change(dampers, parameters, &change)
+                    .map_err(|error| invalid(error.to_string()))?;
+                let after = DamperParameters::clone(&after);
+                changed.push(Changed {
+                    before: DamperParameters::clone(parameters),
+                    after: after.clone(),
+                });
+                after
             }
         };
-        **parameters = now;
+        **parameters = after;
     }
     Ok(())
 }

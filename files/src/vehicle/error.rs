@@ -1,4 +1,4 @@
-//! Why there is no vehicle.
+//! Vehicle-file errors.
 
 use dashpot_rail::vehicle::VehicleError;
 
@@ -6,67 +6,68 @@ use super::Replacement;
 use crate::damper::DamperError;
 use crate::{FileError, UnknownName};
 
-/// Why a name, a file and its overrides are no vehicle.
+/// Error from loading a vehicle.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VehicleFileError {
-    /// The name is neither a shipped vehicle's nor a file's.
+    /// The name is neither a built-in vehicle nor a file.
     #[error(transparent)]
     Unknown(#[from] UnknownName),
-    /// The file cannot be read.
+    /// Cannot read the file.
     #[error(transparent)]
     File(#[from] FileError),
-    /// An override is not of the form `part.key=value`.
+    /// Invalid override; the form is `part.key=value`.
     #[error("override {assignment}: {reason}; the form is {FORM}")]
     Override {
         /// The override.
         assignment: String,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
-    /// Dampers cannot be replaced.
+    /// Invalid replacement of dampers.
     #[error("dampers {replacement}: {reason}")]
     Replacement {
-        /// Which by what.
+        /// The replacement.
         replacement: Replacement,
-        /// What is wrong with it.
+        /// The problem.
         reason: String,
     },
-    /// The text is no TOML, or has unknown or missing keys; with line, column and the nearest key.
+    /// The text is not TOML, or has unknown or missing keys.
     #[error("{name}: {message}")]
     Text {
-        /// The file or vehicle.
+        /// Name of the file or vehicle.
         name: String,
-        /// What is wrong, and where.
+        /// The problem with line and column, and a similar key if there is one.
         message: String,
     },
-    /// The file is good, but not with the overrides.
+    /// Valid file content that the overrides make invalid.
     #[error("{name}: with the overrides: {message}")]
     Overridden {
-        /// The file or vehicle.
+        /// Name of the file or vehicle.
         name: String,
-        /// What is wrong with both together.
+        /// The problem.
         message: String,
     },
-    /// A damper of the vehicle cannot be had.
+    /// Cannot load a damper of the vehicle.
     #[error("{name}: {element}: {source}")]
     Damper {
-        /// The file or vehicle.
+        /// Name of the file or vehicle.
         name: String,
-        /// The element.
+        /// Name of the element.
         element: String,
-        /// What is wrong with its damper.
+        /// The problem with its damper.
         source: Box<DamperError>,
     },
-    /// The parts are no vehicle.
+    /// Invalid parts.
     #[error("{name}: {source}")]
     Vehicle {
-        /// The file or vehicle.
+        /// Name of the file or vehicle.
         name: String,
-        /// What is wrong with them.
+        /// The problem.
         source: VehicleError,
     },
 }
 
-/// The form of an override.
-pub const FORM: &str = "part.key=value with a TOML value, such as body.mass_kg=70e3, or dampers.table.key=value, such as vertical.mount.clearance_m=2e-3";
+/// Forms of an override, for error messages.
+pub const FORM: &str = "part.key=value with a TOML value, such as body.mass_kg=70e3, or dampers.table.key=value, such \
+                        as vertical.mount.clearance_m=2e-3";

@@ -1,4 +1,4 @@
-//! Vehicle files: TOML in SI units, unknown keys refused with the nearest one.
+//! Vehicle files: TOML in SI units; unknown keys are errors that suggest a similar key.
 
 mod change;
 mod dampers;
@@ -9,17 +9,17 @@ mod tables;
 
 use std::path::PathBuf;
 
-pub(crate) use dampers::called;
+pub(crate) use dampers::find_dampers;
 use dashpot_rail::vehicle::{Standstill, VehicleParameters};
 pub use error::FORM;
 pub use error::VehicleFileError;
 pub use replacement::Replacement;
 use tables::VehicleFile;
 
-use crate::overrides::{self, explain, nearest};
+use crate::overrides::{self, Override, did_you_mean, explain};
 use crate::shipped::{Found, Shipped};
 
-/// Vehicles that ship with the program: name and file.
+/// Built-in vehicles: name and text.
 pub const VEHICLES: [(&str, &str); 2] = [
     (
         "locomotive",
@@ -29,18 +29,20 @@ pub const VEHICLES: [(&str, &str); 2] = [
 ];
 
 const SHIPPED: Shipped = Shipped {
-    what: "vehicle",
-    one: "vehicle",
+    kind: "vehicle",
+    built_in: "vehicle",
     texts: &VEHICLES,
 };
 
-/// The vehicle called `name`: a shipped one, or the TOML file at that path, `-` being standard input; then each
-/// `part.key=value` of `overrides` in order, where a part is a body, a wheelset, an element or a ride point of the file, and then each
-/// `dampers.table.key=value`, which changes the dampers along vertical, lateral or longitudinal, or of a name.
+/// Loads the vehicle called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
+///
+/// Then applies each override `part.key=value` in order, where a part is a body, wheelset, element or ride point of the
+/// file, and after these each `dampers.table.key=value`, where `dampers` is `vertical`, `lateral`, `longitudinal` or a
+/// name.
 ///
 /// # Errors
-/// Neither vehicle nor readable file; text that is no TOML; unknown or missing keys; a damper that there is not; an override of
-/// a part that there is not; parts that are no vehicle.
+/// Returns an error if there is no such vehicle or readable file, if the text is not TOML, for unknown or missing keys,
+/// an unknown damper, an override of an unknown part, and invalid parts.
 ///
 /// ```
 /// let vehicle = dashpot_files::vehicle::load("locomotive", &["body.mass_kg=70e3".into()])?;
@@ -59,10 +61,10 @@ pub fn load(name: &str, overrides: &[String]) -> Result<VehicleParameters, Vehic
     load_with(name, &[], overrides)
 }
 
-/// As [`load`], with dampers replaced before the overrides are applied.
+/// Same as [`load`], but replaces dampers before the overrides are applied.
 ///
 /// # Errors
-/// As [`load`]; a replacement of dampers that there are not, or by one that there is not.
+/// Same as [`load`]; also for a replacement of, or by, an unknown damper.
 ///
 /// ```
 /// use dashpot_files::vehicle::{self, Replacement};
@@ -83,10 +85,10 @@ pub fn load_with(
     parse_in(&found, replacements, overrides)
 }
 
-/// The vehicle written in `text`; `name` stands for it in errors.
+/// Parses the vehicle in `text`; error messages call it `name`.
 ///
 /// # Errors
-/// As [`load`].
+/// Same as [`load`].
 pub fn parse(
     name: &str,
     text: &str,
@@ -110,15 +112,15 @@ fn parse_in(
         name: name.clone(),
         message: explain(&error),
     };
-    // Typed first, for errors that name line and column.
+    // Parsed as typed data first, for errors with line and column.
     let _: VehicleFile = toml::from_str(text).map_err(in_text)?;
     let mut tree: toml::Table = toml::from_str(text).map_err(in_text)?;
-    dampers::name_files_from(folder, &mut tree);
+    dampers::resolve_files(folder, &mut tree);
     let replaced = replace::apply(&mut tree, replacements)?;
-    let (of_dampers, of_parts): (Vec<_>, Vec<_>) = overrides
+    let (damper_overrides, part_overrides): (Vec<_>, Vec<_>) = overrides
         .iter()
-        .partition(|assignment| change::of_dampers(assignment).is_some());
-    for assignment in of_parts {
+        .partition(|assignment| change::split(assignment).is_some());
+    for assignment in part_overrides {
         set(&mut tree, assignment)?;
     }
     let file: VehicleFile = tree
@@ -127,23 +129,24 @@ fn parse_in(
             name: name.clone(),
             message: explain(&error),
         })?;
-    let mut vehicle = file.vehicle(&replaced, |part| located(name, text, part))?;
-    for assignment in of_dampers {
+    let mut vehicle = file.vehicle(&replaced, |part| locate(name, text, part))?;
+    for assignment in damper_overrides {
         change::apply(&mut vehicle, assignment)?;
     }
-    // What no equation can be made of is told with its line here.
+    // Checks that the vehicle's equations can be set up; the line of an invalid part is known only here.
     Standstill::new(&vehicle).map_err(|source| VehicleFileError::Vehicle {
         name: source
             .part()
-            .map_or_else(|| name.clone(), |part| located(name, text, part)),
+            .map_or_else(|| name.clone(), |part| locate(name, text, part)),
         source,
     })?;
     Ok(vehicle)
 }
 
-/// The file with the line of the part of that name; equal parts are called by their name and a number.
-fn located(file: &str, text: &str, part: &str) -> String {
-    let of_equals = part.rsplit_once(' ').map(|(name, _)| name);
+/// Returns the file name with the line of a part. A part that is one of several equal ones is called by name and
+/// number.
+fn locate(file: &str, text: &str, part: &str) -> String {
+    let without_number = part.rsplit_once(' ').map(|(name, _)| name);
     let line_of = |wanted: &str| {
         let is_name = |line: &str| {
             let value = line
@@ -159,21 +162,21 @@ fn located(file: &str, text: &str, part: &str) -> String {
         };
         text.lines().position(|line| is_name(line).is_some())
     };
-    match line_of(part).or_else(|| line_of(of_equals?)) {
+    match line_of(part).or_else(|| line_of(without_number?)) {
         Some(line) => format!("{file}:{}", line + 1),
         None => file.to_owned(),
     }
 }
 
-/// Applies `part.key=value` to the part of that name.
+/// Applies the override `part.key=value` to the part of that name.
 fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), VehicleFileError> {
-    let wrong = |reason: String| VehicleFileError::Override {
+    let invalid = |reason: String| VehicleFileError::Override {
         assignment: assignment.to_owned(),
         reason,
     };
-    let (path, key, value) = overrides::parse(assignment).map_err(wrong)?;
+    let Override { path, key, value } = overrides::parse(assignment).map_err(invalid)?;
     let [part] = path[..] else {
-        return Err(wrong("one part and one key".into()));
+        return Err(invalid("not one part and one key".into()));
     };
     let name_of = |table: &toml::Value| Some(table.get("name")?.as_str()?.to_owned());
     let parts = |tree: &toml::Table| -> Vec<String> {
@@ -188,8 +191,8 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), VehicleFileError>
         .find(|table| name_of(table).as_deref() == Some(part))
         .and_then(toml::Value::as_table_mut);
     let Some(table) = found else {
-        let hint = nearest(part, known.iter().map(String::as_str));
-        return Err(wrong(format!("no part `{part}`{hint}")));
+        let hint = did_you_mean(part, known.iter().map(String::as_str));
+        return Err(invalid(format!("no part `{part}`{hint}")));
     };
     table.insert(key.to_owned(), value);
     Ok(())

@@ -1,12 +1,14 @@
-//! Replaces dampers in the tables of a vehicle file.
+//! Replacement of dampers in the tables of a vehicle file.
 
 use super::Replacement;
 use super::dampers::{DIRECTIONS, tables};
 use super::error::VehicleFileError;
 use crate::damper;
-use crate::overrides::nearest;
+use crate::overrides::did_you_mean;
 
-/// Replaces dampers in the tables of a vehicle file, and tells for each table of dampers what replaced it last.
+/// Replaces dampers in the tables of a vehicle file. Returns the last replacement of each damper table.
+///
+/// Replacements by direction are applied before those by name, so a name takes precedence.
 pub(super) fn apply<'a>(
     tree: &mut toml::Table,
     replacements: &'a [Replacement],
@@ -17,8 +19,8 @@ pub(super) fn apply<'a>(
             .iter()
             .any(|(word, _)| *word == replacement.dampers)
     };
-    let (along, named): (Vec<_>, Vec<_>) = replacements.iter().partition(is_direction);
-    for (key, replacements) in [("direction", along), ("name", named)] {
+    let (by_direction, by_name): (Vec<_>, Vec<_>) = replacements.iter().partition(is_direction);
+    for (key, replacements) in [("direction", by_direction), ("name", by_name)] {
         for replacement in replacements {
             replace(tree, key, replacement, &mut replaced)?;
         }
@@ -26,28 +28,32 @@ pub(super) fn apply<'a>(
     Ok(replaced)
 }
 
-/// Replaces the dampers whose `key` is what the replacement names.
+/// Replaces the dampers whose `key` (`direction` or `name`) has the value that the replacement selects.
 fn replace<'a>(
     tree: &mut toml::Table,
     key: &str,
     replacement: &'a Replacement,
     replaced: &mut [Option<&'a Replacement>],
 ) -> Result<(), VehicleFileError> {
-    let wrong = |reason: String| VehicleFileError::Replacement {
+    let invalid = |reason: String| VehicleFileError::Replacement {
         replacement: replacement.clone(),
         reason,
     };
-    let Replacement { dampers, by, made } = replacement;
-    if made.is_none() {
-        damper::load(by, &[]).map_err(|error| wrong(error.to_string()))?;
+    let Replacement {
+        dampers,
+        damper,
+        parameters,
+    } = replacement;
+    if parameters.is_none() {
+        damper::load(damper, &[]).map_err(|error| invalid(error.to_string()))?;
     }
-    let is_called = |table: &toml::Table, key, name: &str| {
-        table.get(key).and_then(toml::Value::as_str) == Some(name)
+    let has_value = |table: &toml::Table, key, value: &str| {
+        table.get(key).and_then(toml::Value::as_str) == Some(value)
     };
     let mut found = false;
     let with_last = tables(tree).zip(replaced);
-    for (table, last) in with_last.filter(|(table, _)| is_called(table, key, dampers)) {
-        table.insert("damper".into(), toml::Value::String(by.clone()));
+    for (table, last) in with_last.filter(|(table, _)| has_value(table, key, dampers)) {
+        table.insert("damper".into(), toml::Value::String(damper.clone()));
         table.remove("set");
         *last = Some(replacement);
         found = true;
@@ -60,6 +66,6 @@ fn replace<'a>(
         .collect();
     let directions = DIRECTIONS.iter().map(|(word, _)| *word);
     let known = directions.chain(names.iter().map(String::as_str));
-    let hint = nearest(dampers, known.filter(|known| known != dampers));
-    Err(wrong(format!("no damper `{dampers}`{hint}")))
+    let hint = did_you_mean(dampers, known.filter(|known| known != dampers));
+    Err(invalid(format!("no damper `{dampers}`{hint}")))
 }

@@ -1,32 +1,37 @@
-//! Dampers of a vehicle file replaced by another.
+//! Replacement of a vehicle's dampers by another damper.
 
 use std::fmt;
 use std::str::FromStr;
 
 use dashpot_core::DamperParameters;
 
-/// Dampers of a vehicle file replaced by another, in words `dampers=damper`; the overrides of the file's table go with its damper.
+/// Replacement of a vehicle's dampers by another damper, written `dampers=damper`. It also discards the overrides in
+/// the replaced tables.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replacement {
-    /// A direction (longitudinal, lateral, vertical), or the name of a damper in the vehicle file, which counts more.
+    /// Dampers to replace: a direction (longitudinal, lateral, vertical) or a name in the vehicle file. A name takes
+    /// precedence over a direction.
     pub dampers: String,
-    /// A preset or a damper file; how `made` is called in errors, where there is that.
-    pub by: String,
-    /// A damper in memory.
-    pub made: Option<Box<DamperParameters>>,
+    /// Preset or damper file; only a name for error messages if `parameters` is given.
+    pub damper: String,
+    /// Parameters of the new damper; `None` loads `damper`.
+    pub parameters: Option<Box<DamperParameters>>,
 }
 
 impl Replacement {
-    /// By a preset or a damper file.
-    pub fn named(dampers: String, by: String) -> Self {
-        let made = None;
-        Self { dampers, by, made }
+    /// Replacement by a preset or a damper file.
+    pub fn named(dampers: String, damper: String) -> Self {
+        Self {
+            dampers,
+            damper,
+            parameters: None,
+        }
     }
 }
 
 impl fmt::Display for Replacement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}", self.dampers, self.by)
+        write!(f, "{}={}", self.dampers, self.damper)
     }
 }
 
@@ -35,10 +40,10 @@ impl FromStr for Replacement {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let words = text.split_once('=');
-        let words = words.map(|(dampers, by)| (dampers.trim(), by.trim()));
+        let words = words.map(|(dampers, damper)| (dampers.trim(), damper.trim()));
         match words {
-            Some((dampers, by)) if !dampers.is_empty() && !by.is_empty() => {
-                Ok(Self::named(dampers.to_owned(), by.to_owned()))
+            Some((dampers, damper)) if !dampers.is_empty() && !damper.is_empty() => {
+                Ok(Self::named(dampers.to_owned(), damper.to_owned()))
             }
             _ => Err(format!(
                 "`{text}`, allowed: dampers=damper, such as vertical=in-service"

@@ -1,4 +1,4 @@
-//! The tables of a vehicle file.
+//! Tables of a vehicle file.
 
 use dashpot_core::DamperParameters;
 use dashpot_rail::vehicle::{
@@ -46,7 +46,7 @@ struct BodyTable {
     height_m: f64,
 }
 
-/// Equal wheelsets, called by the name and a number from 1, at places along the vehicle.
+/// Identical wheelsets, named by `name` and a number from 1, one at each `x_m`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct WheelsetTable {
@@ -59,7 +59,7 @@ struct WheelsetTable {
     x_m: Vec<f64>,
 }
 
-/// Equal elements, called by the name and a number from 1, at places `[x, y, height]`.
+/// Identical elements, named by `name` and a number from 1, one at each `[x, y, height]` of `at_m`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SpringDamperTable {
@@ -100,7 +100,7 @@ struct DamperTable {
     between: [String; 2],
     at_m: Vec<[f64; 3]>,
     direction: DirectionName,
-    /// A preset or a file.
+    /// Preset or file.
     damper: String,
     #[serde(default)]
     set: Vec<String>,
@@ -134,7 +134,7 @@ struct TractionRodTable {
     damping_n_s_per_m: f64,
 }
 
-/// Where the ride is told of: a place `[x, y, height]` of a body.
+/// Ride measurement point: a position `[x, y, height]` on a body.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RidePointTable {
@@ -153,7 +153,7 @@ impl From<DirectionName> for Direction {
     }
 }
 
-/// What an end on the track is attached to.
+/// Name that attaches an end to the track.
 const TRACK: &str = "track";
 
 fn end(on: &str, at_m: [f64; 3]) -> End {
@@ -176,11 +176,11 @@ fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> 
 }
 
 impl VehicleFile {
-    /// The vehicle; in errors a part is where `located` has it.
+    /// Converts the tables to a vehicle; `locate` returns file and line of a part for error messages.
     pub fn vehicle(
         self,
         replaced: &[Option<&Replacement>],
-        located: impl Fn(&str) -> String,
+        locate: impl Fn(&str) -> String,
     ) -> Result<VehicleParameters, VehicleFileError> {
         let bodies = self.body.into_iter().map(|table| {
             let inertia_kg_m2 = [
@@ -229,15 +229,15 @@ impl VehicleFile {
             all.extend(elements(&table.name, &table.between, &table.at_m, &law));
         }
         for (number, table) in self.damper.iter().enumerate() {
-            let by = replaced.get(number).copied().flatten();
-            // An override may name another damper since.
-            let made = by.filter(|by| by.by == table.damper);
-            let parameters = match made.and_then(|by| by.made.as_deref()) {
-                Some(made) => damper::change(&table.damper, made, &table.set),
+            let replacement = replaced.get(number).copied().flatten();
+            // A later override may have named another damper.
+            let replacement = replacement.filter(|replacement| replacement.damper == table.damper);
+            let parameters = match replacement.and_then(|by| by.parameters.as_deref()) {
+                Some(parameters) => damper::change(&table.damper, parameters, &table.set),
                 None => damper::load(&table.damper, &table.set),
             };
             let parameters = parameters.map_err(|source| VehicleFileError::Damper {
-                name: located(&table.name),
+                name: locate(&table.name),
                 element: table.name.clone(),
                 source: Box::new(source),
             })?;

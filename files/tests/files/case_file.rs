@@ -1,4 +1,4 @@
-//! Case files: what they give, the shipped cases, faults, and errors with file, line and name.
+//! Case files: keys, built-in cases, faults, and errors with file, line and name.
 
 use std::fs;
 
@@ -21,7 +21,7 @@ speed_km_h = 90
 ";
 
 #[test]
-fn every_key_counts() {
+fn every_key_is_read() {
     let all = "duration_s = 4
         start_m = -20
         friction = 0.25
@@ -60,7 +60,7 @@ fn every_key_counts() {
     };
     assert_eq!(found, expected);
     assert_eq!(found.end_m(), 80.0);
-    // What a file leaves out is as in the words of a command line.
+    // Missing keys have the defaults of `CaseOptions::new`.
     let mut options = CaseOptions::new("coach", "straight", 90.0);
     options.name = Some("ride".into());
     assert_eq!(case(CASE), options.case().unwrap());
@@ -92,7 +92,7 @@ fn shipped_cases_start_before_and_end_within_their_irregularities() {
 }
 
 #[test]
-fn faults_come_by_time_and_build_on_each_other() {
+fn faults_are_sorted_by_time_and_build_on_each_other() {
     let faults = "
         [[fault]]
         time_s = 3
@@ -139,7 +139,7 @@ fn faults_come_by_time_and_build_on_each_other() {
 }
 
 #[test]
-fn names_of_files_count_from_the_case_file() {
+fn file_names_are_relative_to_the_case_file() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let text = include_str!("../../../data/vehicles/locomotive.toml");
@@ -249,7 +249,7 @@ fn errors_have_file_line_and_name() {
         ),
         (
             fault("time_s = 1\ndamper = \"vertical\""),
-            "case.toml:6: fault 1: neither damper_file nor set",
+            "case.toml:6: fault 1: no effect without `damper_file` or `set`",
         ),
     ];
     for (text, expected) in cases {
@@ -262,12 +262,12 @@ fn errors_have_file_line_and_name() {
 }
 
 #[test]
-fn a_fault_may_be_given_in_words() {
+fn a_fault_may_be_given_without_a_file() {
     let mut options = CaseOptions::new("locomotive", "ideal", 100.0);
     options.faults.push(FaultOptions {
         time_s: 0.0,
         damper: "rear vertical damper 4".into(),
-        by: Some("paper".into()),
+        replacement: Some("paper".into()),
         overrides: Vec::new(),
     });
     let case = options.case().unwrap();

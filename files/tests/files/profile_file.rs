@@ -1,4 +1,4 @@
-//! Profiles from files: what is wrong is reported with file, line and column.
+//! Profile files: errors with file, line and column.
 
 use std::fmt::Write;
 
@@ -41,7 +41,7 @@ fn a_wrong_line_is_reported_with_file_and_line() {
 }
 
 #[test]
-fn letters_that_are_not_utf_8_are_read_over() {
+fn bytes_that_are_not_utf_8_are_accepted() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("wheel.whl");
     let text = include_str!("../../../rail/tests/data/s1002.whl");

@@ -1,4 +1,4 @@
-//! Track files: what each table gives, the shipped tracks, and errors with file, line and name.
+//! Track files: tables, built-in tracks, and errors with file, line and name.
 
 use std::fmt::Write;
 use std::fs;
@@ -15,7 +15,7 @@ fn parse(text: &str) -> Result<TrackParameters, track::TrackFileError> {
 const STRAIGHT: &str = "name = \"line\"\n\n[[part]]\nkind = \"straight\"\nlength_m = 100\n";
 
 #[test]
-fn parts_are_those_of_the_file() {
+fn parts_are_read() {
     let text = format!(
         "{STRAIGHT}
         [[part]]
@@ -37,7 +37,7 @@ fn parts_are_those_of_the_file() {
 }
 
 #[test]
-fn defects_are_those_of_the_file() {
+fn defects_are_read() {
     let text = format!(
         "{STRAIGHT}
         [[defect]]
@@ -131,7 +131,7 @@ fn measured_text() -> String {
 }
 
 #[test]
-fn a_measured_file_counts_from_the_track_file() {
+fn a_measured_file_is_relative_to_the_track_file() {
     let folder = tempfile::tempdir().unwrap();
     let text = measured_text();
     fs::create_dir(folder.path().join("measured")).unwrap();
@@ -148,7 +148,7 @@ fn a_measured_file_counts_from_the_track_file() {
     assert_eq!(track.irregularity(), &expected);
 }
 
-/// Every wheelset of a vehicle of 30 m that starts 15 m before the irregularities stays within them, smooth start apart.
+/// All wheelsets of a vehicle of 30 m that starts 15 m before the irregularity stay within it until its smooth end.
 #[test]
 fn shipped_tracks_are_long_enough_for_their_cases() {
     let class_6 = Spectrum::fra(6).unwrap();
@@ -214,11 +214,11 @@ fn errors_have_file_line_and_name() {
         ),
         (
             part("kind = \"circular\"\nlength_m = 1\nradius_m = 300"),
-            "line.toml:7: part 2 of the layout: missing `cant_m` of a circular part",
+            "line.toml:7: part 2 of the layout: a circular part needs `cant_m`",
         ),
         (
             part("kind = \"straight\"\nlength_m = 1\nradius_m = 300"),
-            "line.toml:7: part 2 of the layout: `radius_m`, which a straight part has not",
+            "line.toml:7: part 2 of the layout: a straight part has no `radius_m`",
         ),
         (
             part("kind = \"circular\"\nlength_m = 1\nradius_m = 30\ncant_m = 0"),
@@ -230,13 +230,13 @@ fn errors_have_file_line_and_name() {
         ),
         (
             format!("{STRAIGHT}\n[[defect]]\nkind = \"twist\"\nrails = \"left\"\nstart_m = 1\n"),
-            "line.toml:7: defect 1: `rails`, which a twist has not",
+            "line.toml:7: defect 1: a twist has no `rails`",
         ),
         (
             format!(
                 "{STRAIGHT}\n[[defect]]\nkind = \"cosine-dip\"\nstart_m = 1\nlength_m = 1\ndepth_m = 1e-3\n"
             ),
-            "line.toml:7: defect 1: missing `rails` of a cosine dip",
+            "line.toml:7: defect 1: a cosine dip needs `rails`",
         ),
         (
             format!(
@@ -258,19 +258,19 @@ fn errors_have_file_line_and_name() {
         ),
         (
             generated(""),
-            "line.toml:7: irregularity: missing `seed`: a spectrum has",
+            "line.toml:7: irregularity: missing `seed`: a spectrum needs",
         ),
         (
             generated("seed = 1\nshift_m = 3\n"),
-            "line.toml:7: irregularity: `shift_m` beside `spectrum`, allowed: beside `file`",
+            "line.toml:7: irregularity: `shift_m` given with `spectrum`, allowed: with `file`",
         ),
         (
             irregularity("file = \"a.csv\"\nseed = 1"),
-            "line.toml:7: irregularity: `seed` beside `file`, allowed: beside `spectrum`",
+            "line.toml:7: irregularity: `seed` given with `file`, allowed: with `spectrum`",
         ),
         (
             irregularity(""),
-            "line.toml:7: irregularity: allowed: either `spectrum` or `file`",
+            "line.toml:7: irregularity: give either `spectrum` or `file`",
         ),
     ];
     for (text, expected) in cases {
@@ -281,7 +281,7 @@ fn errors_have_file_line_and_name() {
 }
 
 #[test]
-fn what_only_building_finds_has_its_line_too() {
+fn errors_from_building_have_file_and_line() {
     let table = "\n[irregularity]\nspectrum = \"fra-6\"\nseed = 1\nlength_m = 200\nwavelength_m = [80, 3]\n";
     let error = parse(&format!("{STRAIGHT}{table}"))
         .unwrap()
@@ -311,9 +311,9 @@ fn what_only_building_finds_has_its_line_too() {
 }
 
 #[test]
-fn an_unknown_track_is_told_the_nearest() {
+fn an_unknown_track_suggests_a_similar_one() {
     let message = track::load("curve-r20").unwrap_err().to_string();
-    let expected = "track `curve-r20`: no such track or file; give a TOML file or a track: ideal, straight, straight-short, \
-                    straight-german, curve-r200, curve-r300, curve-r600; did you mean `curve-r200`?";
+    let expected = "track `curve-r20`: no such track or file; give a TOML file or a track: ideal, straight, \
+                    straight-short, straight-german, curve-r200, curve-r300, curve-r600; did you mean `curve-r200`?";
     assert_eq!(message, expected);
 }

@@ -1,4 +1,4 @@
-//! Dampers of a vehicle file: by another, changed, and files that count from the vehicle file.
+//! Dampers of a vehicle file: replacement, overrides, and relative file names.
 
 use std::fs;
 
@@ -25,7 +25,7 @@ fn replacements(texts: &[&str]) -> Vec<Replacement> {
 }
 
 #[test]
-fn a_replacement_is_of_a_direction_or_of_one_name_which_counts_more() {
+fn a_name_takes_precedence_over_a_direction() {
     let texts = ["front vertical damper=in-service", "vertical=paper"];
     let vehicle = vehicle::load_with("coach", &replacements(&texts), &[]).unwrap();
     let paper = damper::load("paper", &[]).unwrap();
@@ -55,7 +55,7 @@ fn overrides_come_after_replacements() {
 }
 
 #[test]
-fn a_value_changes_in_dampers_of_a_direction_a_name_or_one_of_them() {
+fn an_override_selects_a_direction_a_name_or_one_damper() {
     let [sets @ .., refused] = [
         ("vertical.mount.clearance_m=2e-3", 8),
         ("front vertical damper.mount.clearance_m=2e-3", 4),
@@ -82,7 +82,7 @@ fn a_value_changes_in_dampers_of_a_direction_a_name_or_one_of_them() {
 }
 
 #[test]
-fn dampers_that_there_are_not_are_refused() {
+fn unknown_dampers_are_refused() {
     for (text, expected) in [
         (
             "verticl=paper",
@@ -108,7 +108,7 @@ fn dampers_that_there_are_not_are_refused() {
 }
 
 #[test]
-fn damper_files_count_from_the_vehicle_file() {
+fn damper_files_are_relative_to_the_vehicle_file() {
     let folder = tempfile::tempdir().unwrap();
     let worn = "[reduced]\ndamping_n_s_per_m = 5e4\nsaturation_velocity_m_per_s = 0.1\n[mount]\nstiffness_n_per_m = 3e6\n";
     fs::write(folder.path().join("worn.toml"), worn).unwrap();
@@ -126,7 +126,7 @@ fn damper_files_count_from_the_vehicle_file() {
 }
 
 #[test]
-fn a_changed_damper_is_that_of_its_file_with_the_override() {
+fn a_changed_damper_equals_its_file_with_the_override() {
     for (preset, _) in PRESETS {
         let plain = damper::load(preset, &[]).unwrap();
         assert_eq!(*damper::change(preset, &plain, &[]).unwrap(), *plain);

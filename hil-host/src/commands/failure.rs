@@ -11,7 +11,7 @@ use dashpot_export::ExportError;
 use dashpot_files::FileError;
 use dashpot_files::case::CaseError;
 use dashpot_files::damper::{ContentError, DamperError, FORM};
-use dashpot_files::harmonic::{HIGHEST_FREQUENCY_HZ, HarmonicError, LARGEST_AMPLITUDE_M};
+use dashpot_files::harmonic::{HarmonicError, MAX_AMPLITUDE_M, MAX_FREQUENCY_HZ};
 use dashpot_files::profile::NamedProfileError;
 use dashpot_files::sheet::SheetFileError;
 use dashpot_files::study::StudyFileError;
@@ -177,9 +177,10 @@ impl From<CaseError> for Failure {
             CaseError::OutOfBounds {
                 key,
                 value,
-                allowed: [from, to],
+                min,
+                max,
             } => Self::wrong_use(format!(
-                "{} {value}, allowed: {from} to {to}",
+                "{} {value}, allowed: {min} to {max}",
                 option_of(key)
             )),
             _ => Self::new(error.to_string()),
@@ -219,12 +220,12 @@ impl From<TestbenchError> for Failure {
             TestbenchError::Recording(error) => error.into(),
             TestbenchError::Motion(HarmonicError::Amplitude(amplitude_m)) => {
                 Self::wrong_use(format!(
-                    "--amplitude-m: {amplitude_m}, allowed: above 0 and at most {LARGEST_AMPLITUDE_M} m"
+                    "--amplitude-m: {amplitude_m}, allowed: above 0 and at most {MAX_AMPLITUDE_M} m"
                 ))
             }
             TestbenchError::Motion(HarmonicError::Frequency(frequency_hz)) => {
                 Self::wrong_use(format!(
-                    "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
+                    "--frequency-hz: {frequency_hz}, allowed: above 0 and at most {MAX_FREQUENCY_HZ} Hz"
                 ))
             }
             TestbenchError::SweepRate { .. } | TestbenchError::SweepSteps { .. } => {
@@ -290,8 +291,7 @@ impl From<ExportError> for Failure {
                  --standalone"
             ),
             ExportError::Include { .. } => format!("--output: {error}"),
-            // The message starts with `name`, which is also the name of the option.
-            ExportError::Name { .. } | ExportError::ReservedName { .. } => format!("--{error}"),
+            ExportError::Name { name, reason } => format!("--name {name}: {reason}"),
             _ => return Self::new(error.to_string()),
         })
     }

@@ -188,7 +188,7 @@ fn what_is_wrong_is_told_with_its_place_and_leaves_no_page() {
         (
             good.replace("name = \"fast\"", "name = \"slow\""),
             "paper",
-            "sheet.toml:16: a second test `slow`",
+            "sheet.toml:16: duplicate test name `slow`",
         ),
         (
             good.replace("frequency_hz = 4", "frequency_hz = 4\ntemperature_c = 20"),

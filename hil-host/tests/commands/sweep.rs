@@ -482,7 +482,7 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "values = [0, 5e-3]",
             "values = [1e-3, 0.001]",
-            "study.toml:11: vertical.mount.clearance_m: value 0.001 twice",
+            "study.toml:11: vertical.mount.clearance_m: duplicate value 0.001",
         ),
         (
             "from = 100, to = 140, count = 2",
@@ -492,7 +492,7 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "from = 100, to = 140, count = 2",
             "from = 100, to = 140",
-            "study.toml:12: speed_km_h: allowed: either `values`, or `from`, `to` and `count`",
+            "study.toml:12: speed_km_h: give either `values`, or `from`, `to` and `count`",
         ),
         (
             "\"none\", \"rear vertical damper 4\"",
@@ -502,12 +502,12 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "name = \"worn\"",
             "name = \"clearance\"",
-            "a second sweep `clearance`",
+            "duplicate sweep name `clearance`",
         ),
         (
             "seeds = [1, 2]",
             "seeds = [1, 1]",
-            "study.toml:5: sweep clearance: a seed twice",
+            "study.toml:5: sweep clearance: duplicate seed",
         ),
         (
             "track = \"straight\"",
@@ -522,38 +522,38 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "[\"body_vertical_rms_m_per_s2\"] }",
             "[\"body_lateral_rms_m_per_s2\"] }",
-            "`body_lateral_rms_m_per_s2` is not among the observed; did you mean `body_vertical_rms_m_per_s2`?",
+            "`body_lateral_rms_m_per_s2` is not in `observed`; did you mean `body_vertical_rms_m_per_s2`?",
         ),
         ("indices = {", "indexes = {", "did you mean `indices`?"),
         (
             "\"speed_km_h\", from = 100, to = 140, count = 2",
             "\"vertical.mount.clearance_m\", values = [1e-3]",
-            "study.toml:12: vary: vertical.mount.clearance_m twice",
+            "study.toml:12: vary: duplicate parameter vertical.mount.clearance_m",
         ),
         (
             "observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\", \"last_lateral_m\"]",
             "observed = []",
-            "study.toml:3: observed: allowed: one index or more, each once",
+            "study.toml:3: observed: allowed: one or more indices, each once",
         ),
         (
             "name = \"worn\"",
             "name = \"\"",
-            "name of a sweep: allowed: one line that is not empty",
+            "name of a sweep, allowed: one line of text",
         ),
         (
             "to = 140, count = 2",
             "to = 140, count = 2, factor = 0",
-            "speed_km_h: factor 0, allowed: a finite number but 0",
+            "speed_km_h: factor 0, allowed: finite numbers except 0",
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
             "indices = { sweeps = [\"clearance\"], observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\"] }",
-            "several indices over two axes, allowed: one",
+            "several indices of a sweep with two axes, allowed: one",
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
             "signal = { sweep = \"worn\", values = [\"nobody\"], signal = \"body_lateral_m\" }",
-            "nobody is no value of the first axis of sweep worn",
+            "nobody is not a value of the first axis of sweep worn",
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",

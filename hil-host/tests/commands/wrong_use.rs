@@ -415,7 +415,7 @@ fn contact() {
         (&["--wheel-mirror", "x"], "possible values: none, y, z, yz"),
         (
             &["--wheel-format", "miniprof"],
-            "s1002 is built in; allowed with a format or mirror: a profile file",
+            "s1002 is built in; a format or mirror is allowed for profile files only",
         ),
     ] {
         wrong_use(&contact, options, part);

@@ -43,7 +43,7 @@ fn a_library_for_another_processor_is_refused_with_what_was_found() {
         assert!(text.contains(found), "{text}");
         let needed = format!("needed for {}-", std::env::consts::ARCH);
         assert!(text.contains(&needed), "{text}");
-        assert!(text.contains("by the variable CC"), "{text}");
+        assert!(text.contains("in the variable CC"), "{text}");
         assert!(text.contains("--sources-only"), "{text}");
         assert!(output.stdout.is_empty());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -69,7 +69,7 @@ fn an_object_file_in_place_of_a_library_is_refused() {
     let output = export(folder.path(), named, &["--damper", "in-service"]);
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{text}");
-    assert!(text.contains("no shared library"), "{text}");
+    assert!(text.contains("not a shared library"), "{text}");
     assert!(!folder.path().join("it.fmu").exists());
 }
 
@@ -100,7 +100,7 @@ fn a_library_of_vehicles_for_another_processor_is_refused() {
     let output = export(folder.path(), "", &line);
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{text}");
-    let expected = "it.a: the library of vehicles holds object files of another kind (ELF, 64 bit, aarch64, no \
+    let expected = "it.a: the vehicle library contains object files of another type (ELF, 64 bit, aarch64, not a \
                     shared library)";
     assert!(text.contains(expected), "{text}");
     assert!(!folder.path().join("it.fmu").exists());

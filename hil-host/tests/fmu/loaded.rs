@@ -73,8 +73,8 @@ fn what_is_no_image_for_it_is_refused_with_the_reason() {
         (b"DASHPOT?".to_vec(), "does not begin with DASH"),
         (whole[..whole.len() - 1].to_vec(), "cut short or too long"),
         ([&whole[..], b"x"].concat(), "cut short or too long"),
-        (damaged, "its checksum is another"),
-        (exported(&["--step-us", "500"]), "for another step"),
+        (damaged, "its checksum is wrong"),
+        (exported(&["--step-us", "500"]), "for a different step"),
         (
             exported(&["--scalar", "f64"]),
             "allowed: export --lang bin --scalar f32",

@@ -116,12 +116,12 @@ fn an_export_that_cannot_be_says_what_is_allowed_and_writes_nothing() {
         (
             &["--fmi", "3", "--name", "straße"],
             2,
-            "no name of a constant",
+            "not a valid constant name",
         ),
         (
             &["--fmi", "3", "--name", "9lives"],
             2,
-            "no name of a constant",
+            "not a valid constant name",
         ),
         (&["--fmi", "3", "--health"], 2, "--health"),
     ];

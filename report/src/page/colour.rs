@@ -1,4 +1,4 @@
-//! A curve's colour on white, and what takes its place on a dark screen.
+//! Colours of curves on light and dark screens.
 
 use std::fmt;
 
@@ -22,19 +22,19 @@ impl fmt::Display for Colour {
 }
 
 impl Colour {
-    /// The same hue with its lightness turned over: what stands out on white stands out on black.
+    /// Returns the same hue with inverted lightness, so that the contrast on black equals that on white.
     pub(super) fn on_dark(self) -> Self {
         let parts = self.0.map(|part| f64::from(part) / 255.0);
-        let most = parts.into_iter().fold(0.0, f64::max);
-        let least = parts.into_iter().fold(1.0, f64::min);
-        // Lightness is the mean of the most and the least part, chroma their difference; it is at most what the
-        // lightness leaves room for.
-        let lightness = 0.5 * (most + least);
-        let turned = 0.95 - 0.72 * lightness;
-        let room = |lightness: f64| 1.0 - (2.0 * lightness - 1.0).abs();
-        let stretch = 0.9 * room(turned) / room(lightness).max(1e-9);
+        let max = parts.into_iter().fold(0.0, f64::max);
+        let min = parts.into_iter().fold(1.0, f64::min);
+        // HSL: lightness is the mean of the largest and smallest part, chroma their difference. The lightness limits
+        // the chroma.
+        let lightness = 0.5 * (max + min);
+        let inverted = 0.95 - 0.72 * lightness;
+        let max_chroma = |lightness: f64| 1.0 - (2.0 * lightness - 1.0).abs();
+        let chroma_factor = 0.9 * max_chroma(inverted) / max_chroma(lightness).max(1e-9);
         Self(parts.map(|part| {
-            let part = turned + stretch * (part - lightness);
+            let part = inverted + chroma_factor * (part - lightness);
             (255.0 * part.clamp(0.0, 1.0)).round() as u8
         }))
     }
@@ -45,12 +45,12 @@ mod tests {
     use super::*;
 
     fn lightness(Colour(parts): Colour) -> u8 {
-        let [most, least] = [parts.iter().max(), parts.iter().min()];
-        most.copied().unwrap_or(0) / 2 + least.copied().unwrap_or(0) / 2
+        let [max, min] = [parts.iter().max(), parts.iter().min()];
+        max.copied().unwrap_or(0) / 2 + min.copied().unwrap_or(0) / 2
     }
 
     #[test]
-    fn a_dark_screen_turns_lightness_over_and_keeps_the_order_of_the_parts() {
+    fn on_dark_inverts_lightness_and_keeps_the_order_of_the_parts() {
         let (blue, grey) = (Colour([21, 101, 192]), Colour([160, 168, 176]));
         let (bright, dim) = (blue.on_dark(), grey.on_dark());
         assert!(lightness(blue) < lightness(grey) && lightness(bright) > lightness(dim));
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn black_and_white_stay_grey_and_change_places() {
+    fn on_dark_swaps_black_and_white() {
         let [black, white] = [[0; 3], [255; 3]].map(|parts| Colour(parts).on_dark());
         for Colour([red, green, blue]) in [black, white] {
             assert!(red == green && green == blue);

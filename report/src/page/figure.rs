@@ -1,4 +1,4 @@
-//! A figure of a page: panels that are looked at together.
+//! Figures of a page: groups of panels.
 
 use std::ops::Range;
 
@@ -11,17 +11,18 @@ use crate::plot::curves::Curve;
 use crate::plot::sheet::{Panel, Scale};
 use crate::plot::style::failed;
 
-/// Panels that are shown together, side by side on a desk and one below the other on a phone. They share the cursor.
+/// Panels shown together: side by side on a desktop screen, below each other on a phone. They share the cursor.
 pub struct Figure {
     /// Panels, from left to right.
     pub panels: Vec<Panel>,
-    /// Height of a panel on a desk (pixels).
+    /// Height of a panel on a desktop screen (pixels).
     pub height: u32,
-    /// Name of the figures of the page that share the cursor with this one, where their abscissas are the same quantity.
+    /// Name of a group of figures with the same abscissa, which share the cursor across the page; `None` for this
+    /// figure only.
     pub shares: Option<&'static str>,
 }
 
-/// A panel whose curves fill the width; those with a name are in its legend.
+/// Returns a linear panel whose curves fill the width. Curves with a name appear in the legend.
 pub fn panel(x: &str, y: &str, curves: Vec<Curve>) -> Panel {
     Panel {
         title: String::new(),
@@ -36,7 +37,7 @@ pub fn panel(x: &str, y: &str, curves: Vec<Curve>) -> Panel {
     }
 }
 
-/// What the page's script draws a panel from.
+/// Data of a panel for the page's script.
 #[derive(Serialize)]
 struct Plot {
     height: u32,
@@ -46,7 +47,7 @@ struct Plot {
     curves: Vec<Series>,
 }
 
-/// What an axis says and shows.
+/// Data of an axis for the page's script.
 #[derive(Serialize)]
 struct Axis {
     label: String,
@@ -65,14 +66,14 @@ impl Axis {
 }
 
 impl Figure {
-    /// The figure in HTML, drawn by the page's script.
+    /// Returns the figure as HTML; the page's script draws it.
     ///
     /// # Errors
-    /// A panel cannot be written as JSON.
+    /// Returns an error if a panel cannot be written as JSON.
     pub(super) fn html(&self, caption: &Markup) -> Result<Markup, DrawError> {
         let panels = self.panels.iter().map(|panel| self.panel(panel));
         let panels: Vec<Markup> = panels.collect::<Result<_, _>>()?;
-        // Four stand better two by two than three and one.
+        // Four panels look better in two rows of two than as three and one.
         let columns = match panels.len() {
             4 => 2,
             count => count.min(3),
@@ -92,7 +93,7 @@ impl Figure {
         let mut columns = Columns::default();
         let curves = panel.curves.iter();
         let curves = curves
-            .map(|curve| Series::of(curve, &mut columns))
+            .map(|curve| Series::new(curve, &mut columns))
             .collect();
         let plot = Plot {
             height: self.height,
@@ -101,11 +102,11 @@ impl Figure {
             columns,
             curves,
         };
-        // No end tag can be in it.
+        // Escaped so that the data cannot contain an end tag.
         let data = serde_json::to_string(&plot).map_err(failed)?;
         let data = data.replace('<', "\\u003c");
-        let what = format!("{} over {}", panel.y_label, panel.x_label);
-        let title = [&panel.title, &what].map(String::as_str);
+        let axes = format!("{} over {}", panel.y_label, panel.x_label);
+        let title = [&panel.title, &axes].map(String::as_str);
         let title = title.into_iter().filter(|text| !text.is_empty());
         Ok(html! {
             div.panel {
@@ -121,13 +122,14 @@ impl Figure {
     }
 }
 
-/// Key, name and place for the value under the cursor of each curve that has a name; of one alone, its value.
+/// Legend: key, name and value under the cursor of each named curve. A single curve without a name shows its value
+/// only.
 fn legend(curves: &[Curve]) -> Markup {
-    let is_alone = curves.iter().filter(|curve| curve.has_values()).count() == 1;
+    let is_single = curves.iter().filter(|curve| curve.has_values()).count() == 1;
     html! {
         ul {
             @for (number, curve) in curves.iter().enumerate() {
-                @if !curve.name.is_empty() || is_alone && curve.has_values() {
+                @if !curve.name.is_empty() || is_single && curve.has_values() {
                     li data-curve=(number) {
                         @if !curve.name.is_empty() { (key(curve)) (curve.name) }
                         span.value {}

@@ -1,5 +1,5 @@
-//! Pages: self-contained HTML, all in one style, for light and dark screens, phones and desks. Their plots are drawn
-//! by the page itself, with zoom and shared cursor, from the numbers it carries.
+//! Self-contained HTML pages in one style, for light and dark screens, phones and desktops. A script in the page draws
+//! the plots, with zoom and shared cursor, from numbers in the page.
 
 mod colour;
 mod figure;
@@ -11,27 +11,27 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::DrawError;
 
-/// The plotting library (uplot/README.md), then what uses it.
+/// Scripts: the plotting library (uplot/README.md), then the code that uses it.
 const SCRIPTS: [&str; 2] = [
     include_str!("uplot/uPlot.iife.min.js"),
     include_str!("plots.js"),
 ];
-/// The library's licence asks to be kept where the library is.
+/// Licence of the plotting library, which must accompany it.
 const LICENCE: &str = include_str!("uplot/LICENSE");
-/// The library's style, then the page's own.
+/// Styles: the library's, then the page's own.
 const STYLES: [&str; 2] = [
     include_str!("uplot/uPlot.min.css"),
     include_str!("page.css"),
 ];
 
-/// The text of a page with `title` and `body`.
+/// Returns the text of a page with `title` and `body`.
 pub fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(policy::of(&SCRIPTS, &STYLES));
+                meta http-equiv="Content-Security-Policy" content=(policy::content_policy(&SCRIPTS, &STYLES));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (title) }
                 @for style in STYLES { style { (PreEscaped(style)) } }
@@ -40,7 +40,7 @@ pub fn document(title: &str, body: &Markup) -> String {
                 main {
                     noscript {
                         p.note {
-                            "The plots are missing: they are drawn by the page's own script, which does not run here. Text and tables are \
+                            "The plots are missing because the page's script does not run here. Text and tables are \
                              complete."
                         }
                     }
@@ -54,7 +54,7 @@ pub fn document(title: &str, body: &Markup) -> String {
     page.into_string() + "\n"
 }
 
-/// The headline in figures: each a value and what it is.
+/// Row of key figures, each with a value and its meaning.
 pub fn tiles(tiles: &[(Markup, String)]) -> Markup {
     html! {
         div.tiles {
@@ -65,15 +65,15 @@ pub fn tiles(tiles: &[(Markup, String)]) -> Markup {
     }
 }
 
-/// A figure with its caption.
+/// Returns a figure with its caption.
 ///
 /// # Errors
-/// Its numbers cannot be written.
+/// Returns an error if the numbers cannot be written.
 pub fn figure(figure: &Figure, caption: &Markup) -> Result<Markup, DrawError> {
     figure.html(caption)
 }
 
-/// What made the page, and `text`.
+/// Footer with program version, platform and `text`.
 pub fn footer(text: &Markup) -> Markup {
     html! {
         footer {
@@ -83,7 +83,7 @@ pub fn footer(text: &Markup) -> Markup {
     }
 }
 
-/// A note where the program is slower than it could be.
+/// Note about a development build; empty for a release build.
 pub fn built() -> &'static str {
     if cfg!(debug_assertions) {
         "; development build, a release build is faster"

@@ -1,11 +1,11 @@
 "use strict";
-// Draws the plots of a page from the JSON beside each (figure.rs, series.rs) by uPlot, and shares cursor and zoom between them.
+// Draws the plots of a page with uPlot from the JSON in the page (figure.rs, series.rs); plots share cursor and zoom.
 {
   const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif';
   const DARK = matchMedia("(prefers-color-scheme: dark)");
   const NARROW = matchMedia("(max-width: 760px)");
 
-  // Panels by what they share the cursor with: the name of their figure's group, or the figure alone.
+  // Panels that share a cursor, by the name of their figures' group, or by the figure.
   const groups = new Map();
   let printing = false;
 
@@ -15,7 +15,7 @@
   // Zero has no sign.
   const minus = text => text.replace(/^-(?=[0.]+$)/, "").replace("-", "−");
 
-  // A value in as many digits as tell a thousandth of what the axis shows.
+  // Formats a value with enough digits to resolve a thousandth of the axis range.
   function number(u, axis, value) {
     const { min, max, distr } = u.scales[axis];
     if (distr === 3 || Number.isNaN(value)) return String(Number(value.toPrecision(4)));
@@ -23,14 +23,14 @@
     return minus(value.toFixed(digits));
   }
 
-  // Numbers on an axis, in as many digits as their distance has.
+  // Formats the numbers on an axis with as many digits as their spacing needs.
   function labels(u, splits, axis, space, distance) {
     let digits = 0;
     while (digits < 9 && Math.abs(distance * 10 ** digits - Math.round(distance * 10 ** digits)) > 1e-6) digits++;
     return splits.map(value => minus(value.toFixed(digits)));
   }
 
-  // Every tenth or, where little is shown, hundredth part of each decade, and those of them that there is room to write.
+  // Tick marks of a logarithmic axis: tenths of each decade, or hundredths for a short axis.
   function decades(u, axis, min, max) {
     const splits = [];
     for (let power = Math.floor(Math.log10(min)); power <= Math.log10(max); power++)
@@ -38,6 +38,7 @@
     return splits.filter(value => value >= min && value <= max);
   }
 
+  // Labels of a logarithmic axis: only those tick marks that have room for one.
   function written(u, splits, axis, space) {
     const [one, ten] = [1, 10].map(value => u.valToPos(value, u.axes[axis].scale));
     const room = Math.abs(ten - one) / space;
@@ -45,7 +46,7 @@
     return splits.map(value => (shown.test(value.toExponential()) ? value : null));
   }
 
-  // What is stroked and what is filled of a curve, on the canvas.
+  // Outline and filled area of a curve on the canvas.
   function paths(u, curve) {
     const [xs, lows, highs] = curve.columns;
     const x = index => u.valToPos(xs[index], "x", true);
@@ -68,7 +69,7 @@
       for (let i = 0; i <= last; i++) fill.lineTo(x(i), y(lows[i]));
       for (let i = last; i >= 0; i--) fill.lineTo(x(i), y(highs[i]));
     } else {
-      // A number that is none parts the line.
+      // NaN makes a gap in the line.
       let isDown = false;
       for (let i = 0; i <= last; i++) {
         if (!Number.isNaN(lows[i])) stroke[isDown ? "lineTo" : "moveTo"](x(i), y(lows[i]));
@@ -113,7 +114,7 @@
     };
   }
 
-  // The sample of a curve that is nearest to an abscissa.
+  // Finds the sample of a curve nearest to an abscissa.
   function nearest([xs], x) {
     let [from, to] = [0, xs.length - 1];
     while (to - from > 1) {
@@ -123,7 +124,7 @@
     return x - xs[from] <= xs[to] - x ? from : to;
   }
 
-  // How far along its loop the curve comes nearest to the mouse.
+  // Finds the fraction of a loop at which the curve is nearest to the mouse.
   function along(panel, left, top) {
     let [least, part] = [Infinity, 0];
     for (const { columns: [xs, ys] } of panel.curves) {
@@ -135,7 +136,7 @@
     return part;
   }
 
-  // The cursor of histories is an abscissa; that of loops an instant, the same part of every loop.
+  // The cursor of histories is an abscissa; that of loops is a fraction of the loop, the same for every loop.
   function point(panel, cursor) {
     panel.cursor = cursor;
     panel.shown = panel.curves.map(({ columns, stroke }) => {
@@ -144,7 +145,7 @@
     });
   }
 
-  // Values under the cursor.
+  // Shows the values under the cursor.
   function tell({ u, head, x, cursor, isLoop, curves, shown }) {
     for (const item of head.querySelectorAll("li")) {
       const [index, [xs, lows, highs]] = [shown[item.dataset.curve], curves[item.dataset.curve].columns];
@@ -156,7 +157,7 @@
     head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}`.trim() : "";
   }
 
-  // Panels that show the same: loops of the figure, or histories over the same quantity.
+  // Panels that share the cursor: loops of the figure, or histories over the same quantity.
   function peers({ group, isLoop, x, u }) {
     return group.filter(other => other.u !== u && other.isLoop === isLoop && (isLoop || other.x.label === x.label));
   }
@@ -171,7 +172,7 @@
     }
   }
 
-  // Histories show the same stretch, as far as they have it.
+  // Histories show the same range, as far as they have data.
   function shareZoom(panel) {
     if (panel.isLoop) return;
     const { min, max } = panel.u.scales.x;
@@ -185,7 +186,7 @@
   }
 
   function options(panel, plot) {
-    // What the mouse did is shared; what was shared is not shared again.
+    // Only changes by the mouse are shared, not changes received from another panel.
     const moved = (u, over, handle) => event => { panel.isMoved = true; handle(event); panel.isMoved = false; };
     const whole = u => () => ["x", "y"].forEach(name => u.setScale(name, { min: null, max: null }));
     return {

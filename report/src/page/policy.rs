@@ -1,13 +1,14 @@
-//! What a page's browser may load and run: nothing but what stands in the page.
+//! Content security policy: the browser may load and run only the content of the page itself.
 //!
-//! W3C, Content Security Policy Level 3: an inline script or style runs where the policy has the hash of its text.
+//! An inline script or style is allowed if the policy contains the hash of its text (W3C, Content Security Policy Level
+//! 3).
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest, Sha256};
 
-/// The policy of a page with these texts as its scripts and styles.
-pub(super) fn of(scripts: &[&str], styles: &[&str]) -> String {
+/// Returns the policy of a page with these scripts and styles.
+pub(super) fn content_policy(scripts: &[&str], styles: &[&str]) -> String {
     format!(
         "default-src 'none'; script-src {}; style-src {}; base-uri 'none'; form-action 'none'",
         hashes(scripts),
@@ -24,10 +25,10 @@ fn hashes(texts: &[&str]) -> String {
 mod tests {
     use super::*;
 
-    /// The example of the specification, section 2.3.3.
+    /// Example of the specification, section 2.3.3.
     #[test]
     fn a_script_is_allowed_by_its_hash() {
-        let policy = of(&["doSomething();"], &[]);
+        let policy = content_policy(&["doSomething();"], &[]);
         assert!(
             policy.contains("script-src 'sha256-RFWPLDbv2BY+rCkDzsE+0fr8ylGr2R2faWMhq4lfEQc=';"),
             "{policy}"

@@ -1,4 +1,4 @@
-//! A curve as the page's script reads it, and its key in the legend.
+//! Curves as JSON for the page's script, and their keys in the legend.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -9,31 +9,31 @@ use super::colour::Colour;
 use crate::plot::curves::{Curve, Stroke};
 use crate::plot::style::FINE;
 
-/// A curve in JSON.
+/// Curve as JSON.
 #[derive(Serialize)]
 pub(super) struct Series {
     stroke: &'static str,
-    /// Width of its line (pixels).
+    /// Line width (pixels).
     width: f64,
-    /// Colour on a light and on a dark screen.
+    /// Colours on a light and on a dark screen.
     colours: [String; 2],
-    /// Whether its abscissas never fall: it is a history, else a loop.
+    /// True if the abscissas never decrease (a history), false for a loop.
     rises: bool,
-    /// Which of the panel's columns are its abscissas, lowest and, where they differ from these, highest ordinates.
+    /// Indices of the panel's columns: abscissas, low ordinates and, for bands and bars, high ordinates.
     columns: Vec<usize>,
 }
 
-/// Columns of a panel, each once: little-endian `f32` in base64.
+/// Distinct columns of a panel: little-endian `f32` in base64.
 #[derive(Default, Serialize)]
 pub(super) struct Columns(Vec<String>);
 
 impl Columns {
-    /// The place of these numbers among the columns.
-    fn place(&mut self, values: impl Iterator<Item = f64>) -> usize {
+    /// Returns the index of the column with these numbers, adding it if necessary.
+    fn index_of(&mut self, values: impl Iterator<Item = f64>) -> usize {
         let bytes = values.flat_map(|value| (value as f32).to_le_bytes());
         let text = BASE64_STANDARD.encode(bytes.collect::<Vec<u8>>());
-        let there = self.0.iter().position(|other| *other == text);
-        there.unwrap_or_else(|| {
+        let existing = self.0.iter().position(|other| *other == text);
+        existing.unwrap_or_else(|| {
             self.0.push(text);
             self.0.len() - 1
         })
@@ -41,14 +41,14 @@ impl Columns {
 }
 
 impl Series {
-    pub(super) fn of(curve: &Curve, columns: &mut Columns) -> Self {
+    pub(super) fn new(curve: &Curve, columns: &mut Columns) -> Self {
         let points = &curve.points;
-        let mut places = vec![
-            columns.place(points.iter().map(|point| point.0)),
-            columns.place(points.iter().map(|point| point.1)),
+        let mut indices = vec![
+            columns.index_of(points.iter().map(|point| point.x)),
+            columns.index_of(points.iter().map(|point| point.low)),
         ];
         if matches!(curve.stroke, Stroke::Band | Stroke::Bars) {
-            places.push(columns.place(points.iter().map(|point| point.2)));
+            indices.push(columns.index_of(points.iter().map(|point| point.high)));
         }
         Self {
             stroke: match curve.stroke {
@@ -63,25 +63,25 @@ impl Series {
             width: f64::from(curve.width) / f64::from(FINE),
             colours: curve.colours(),
             rises: curve.abscissas().is_sorted(),
-            columns: places,
+            columns: indices,
         }
     }
 }
 
 impl Curve {
-    /// Its colours on a light and on a dark screen.
+    /// Returns the colours on a light and on a dark screen.
     fn colours(&self) -> [String; 2] {
         let colour = Colour::from(self.colour);
         [colour, colour.on_dark()].map(|colour| colour.to_string())
     }
 
-    /// Whether it has a value at an abscissa.
+    /// True if the curve has a value at each abscissa.
     pub(super) fn has_values(&self) -> bool {
         self.stroke != Stroke::Marks
     }
 }
 
-/// The key of a curve in the legend; the page's script gives it the colour of the screen.
+/// Returns the key of a curve in the legend; the page's script sets its colour.
 pub(super) fn key(curve: &Curve) -> Markup {
     let width = f64::from(curve.width) / f64::from(FINE);
     let dashes = (curve.stroke == Stroke::Dashes).then_some("7 5");
@@ -92,7 +92,8 @@ pub(super) fn key(curve: &Curve) -> Markup {
                 Stroke::Band => rect width="22" height="12" fill="currentColor" fill-opacity="0.25" {},
                 Stroke::Bars => path d="M5 1V11M11 3V9M17 1V11" stroke="currentColor" stroke-width=(width) {},
                 Stroke::Line | Stroke::Dashes | Stroke::Marks | Stroke::Filled => {
-                    path d="M0 6H22" stroke="currentColor" stroke-width=(width.clamp(2.0, 6.0)) stroke-dasharray=[dashes] {}
+                    path d="M0 6H22" stroke="currentColor" stroke-width=(width.clamp(2.0, 6.0))
+                        stroke-dasharray=[dashes] {}
                 }
             }
         }
@@ -105,8 +106,8 @@ mod tests {
 
     use super::*;
 
-    fn told(curve: &Curve, columns: &mut Columns) -> serde_json::Value {
-        serde_json::to_value(Series::of(curve, columns)).unwrap()
+    fn as_json(curve: &Curve, columns: &mut Columns) -> serde_json::Value {
+        serde_json::to_value(Series::new(curve, columns)).unwrap()
     }
 
     #[test]
@@ -115,12 +116,12 @@ mod tests {
         let grey = RGBColor(9, 9, 9);
         let times = [0.0, 0.5, 1.0];
         let line = Curve::new("mean", grey, times.map(|x| (x, 2.0 * x)));
-        let line = told(&line, &mut columns);
+        let line = as_json(&line, &mut columns);
         let spread = times.map(|x| (x, x, 3.0 * x));
-        let band = told(&Curve::band("spread", grey, spread), &mut columns);
-        let bars = told(&Curve::bars("", grey, spread), &mut columns);
+        let band = as_json(&Curve::band("spread", grey, spread), &mut columns);
+        let bars = as_json(&Curve::bars("", grey, spread), &mut columns);
         assert_eq!(line["columns"], serde_json::json!([0, 1]));
-        // The lowest of the band are its abscissas, number for number.
+        // The low ordinates of the band equal its abscissas.
         assert_eq!(band["columns"], serde_json::json!([0, 0, 2]));
         assert_eq!(bars["columns"], band["columns"]);
         assert_eq!(
@@ -132,12 +133,12 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_that_comes_back_is_a_loop() {
+    fn a_curve_with_decreasing_abscissas_is_a_loop() {
         let mut columns = Columns::default();
         let mut rises = |abscissas: [f64; 3]| {
             let points = abscissas.map(|x| (x, 0.0));
             let curve = Curve::new("", RGBColor(0, 0, 0), points);
-            told(&curve, &mut columns)["rises"] == true
+            as_json(&curve, &mut columns)["rises"] == true
         };
         assert!(rises([0.0, 1.0, 1.0]) && !rises([0.0, 1.0, 0.5]));
     }

@@ -1,4 +1,4 @@
-//! Curves: lines, dashes, points, bands or bars, and their keys in the legend.
+//! Curves: lines, dashes, points, bands and bars, with their keys in the legend.
 
 use plotters::coord::ranged1d::Ranged;
 use plotters::prelude::*;
@@ -15,63 +15,74 @@ pub enum Stroke {
     Dashes,
     /// Dots without a line.
     Points,
-    /// Short strokes on the horizontal axis.
+    /// Short marks on the horizontal axis.
     Marks,
-    /// A line over its filled area, down to zero.
+    /// A line with the area down to zero filled.
     Filled,
-    /// The area between a lowest and a highest value.
+    /// The area between low and high ordinates.
     Band,
-    /// A vertical stroke from the lowest to the highest value.
+    /// Vertical strokes from low to high ordinates.
     Bars,
 }
 
-/// One curve: its name in the legend, its colour and its points.
+/// Point of a curve. Low and high ordinates are equal except for bands and bars.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Abscissa.
+    pub x: f64,
+    /// Low ordinate.
+    pub low: f64,
+    /// High ordinate.
+    pub high: f64,
+}
+
+/// Curve of a panel.
 pub struct Curve {
-    /// Name in the legend; a curve without a name is not listed.
+    /// Name in the legend; empty to leave it out.
     pub name: String,
     /// Colour.
     pub colour: RGBColor,
-    /// Width of the line in quarters of a pixel.
+    /// Line width in quarters of a pixel.
     pub width: u32,
-    /// How the curve is drawn.
+    /// Style of drawing.
     pub stroke: Stroke,
-    /// Abscissa, lowest and highest ordinate; these are the same but for bands and bars.
-    pub points: Vec<(f64, f64, f64)>,
+    /// Points in drawing order.
+    pub points: Vec<Point>,
 }
 
-/// A set of axes that curves are drawn on.
+/// Axes on which curves are drawn.
 type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
 
 impl Curve {
-    /// A curve of the usual width; without a name it is not in the legend.
+    /// Solid line of the usual width; an empty name leaves it out of the legend.
     pub fn new(
         name: impl Into<String>,
         colour: RGBColor,
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
         let points = points.into_iter().map(|(x, y)| (x, y, y));
-        Self::of(Stroke::Line, name, colour, points)
+        Self::with_stroke(Stroke::Line, name, colour, points)
     }
 
-    /// The area from the lowest to the highest value at each abscissa, `(x, low, high)`: what many runs spread over.
+    /// Filled area between two ordinates, from points `(x, low, high)`; for the spread of many runs.
     pub fn band(
         name: impl Into<String>,
         colour: RGBColor,
         points: impl IntoIterator<Item = (f64, f64, f64)>,
     ) -> Self {
-        Self::of(Stroke::Band, name, colour, points)
+        Self::with_stroke(Stroke::Band, name, colour, points)
     }
 
-    /// Vertical strokes from the lowest to the highest value at each abscissa, `(x, low, high)`: bars of uncertainty.
+    /// Error bars, from points `(x, low, high)`.
     pub fn bars(
         name: impl Into<String>,
         colour: RGBColor,
         points: impl IntoIterator<Item = (f64, f64, f64)>,
     ) -> Self {
-        Self::of(Stroke::Bars, name, colour, points)
+        Self::with_stroke(Stroke::Bars, name, colour, points)
     }
 
-    fn of(
+    fn with_stroke(
         stroke: Stroke,
         name: impl Into<String>,
         colour: RGBColor,
@@ -82,11 +93,14 @@ impl Curve {
             colour,
             width: 2 * FINE,
             stroke,
-            points: points.into_iter().collect(),
+            points: points
+                .into_iter()
+                .map(|(x, low, high)| Point { x, low, high })
+                .collect(),
         }
     }
 
-    /// The same curve drawn `quarters` of a pixel wide.
+    /// Sets the line width to `quarters` of a pixel.
     pub fn wide(self, quarters: u32) -> Self {
         Self {
             width: quarters,
@@ -94,7 +108,7 @@ impl Curve {
         }
     }
 
-    /// The same curve dashed.
+    /// Draws the curve dashed.
     pub fn dashed(self) -> Self {
         Self {
             stroke: Stroke::Dashes,
@@ -102,7 +116,7 @@ impl Curve {
         }
     }
 
-    /// The same curve as points without a line between them.
+    /// Draws the curve as dots without a line.
     pub fn dotted(self) -> Self {
         Self {
             stroke: Stroke::Points,
@@ -118,7 +132,7 @@ impl Curve {
         }
     }
 
-    /// The same curve with the area under it filled.
+    /// Fills the area between the curve and zero.
     pub fn filled(self) -> Self {
         Self {
             stroke: Stroke::Filled,
@@ -126,24 +140,24 @@ impl Curve {
         }
     }
 
-    /// Where its points lie along the horizontal axis.
+    /// Returns the abscissas of the points.
     pub fn abscissas(&self) -> impl Iterator<Item = f64> {
-        self.points.iter().map(|(x, ..)| *x)
+        self.points.iter().map(|point| point.x)
     }
 
-    /// How high its points lie; marks lie on the axis wherever that is.
+    /// Returns the low and high ordinates of the points; none for marks, which are always on the axis.
     pub fn ordinates(&self) -> impl Iterator<Item = f64> {
         let points = match self.stroke {
             Stroke::Marks => &[],
             _ => &self.points[..],
         };
-        points.iter().flat_map(|(_, low, high)| [*low, *high])
+        points.iter().flat_map(|point| [point.low, point.high])
     }
 
-    /// Draws it and enters its key into the legend.
+    /// Draws the curve and adds its key to the legend.
     ///
     /// # Errors
-    /// The drawing fails.
+    /// Returns an error if the plotting library fails.
     pub fn draw<'a, 'b: 'a, X, Y>(&self, chart: &mut Chart<'a, 'b, X, Y>) -> Result<(), DrawError>
     where
         X: Ranged<ValueType = f64> + 'a,
@@ -155,7 +169,7 @@ impl Curve {
         let style = self.colour.stroke_width(self.width);
         let mark = self.colour.filled();
         let radius = 4 * FINE;
-        let points = self.points.iter().map(|(x, y, _)| (*x, *y));
+        let points = self.points.iter().map(|point| (point.x, point.low));
         let bottom = chart.y_range().start;
         let drawn = match self.stroke {
             Stroke::Line => chart.draw_series(LineSeries::new(points, style)),
@@ -169,14 +183,15 @@ impl Curve {
                 chart.draw_series(area.border_style(style))
             }
             Stroke::Band => {
-                let highs = self.points.iter().rev().map(|(x, _, high)| (*x, *high));
+                let highs = self.points.iter().rev().map(|point| (point.x, point.high));
                 let outline: Vec<_> = points.chain(highs).collect();
                 chart.draw_series([Polygon::new(outline, self.colour.mix(0.25))])
             }
-            Stroke::Bars => chart.draw_series(
-                (self.points.iter())
-                    .map(|(x, low, high)| PathElement::new([(*x, *low), (*x, *high)], style)),
-            ),
+            Stroke::Bars => {
+                chart.draw_series((self.points.iter()).map(|Point { x, low, high }| {
+                    PathElement::new([(*x, *low), (*x, *high)], style)
+                }))
+            }
         }
         .map_err(failed)?;
         if self.name.is_empty() {
@@ -206,13 +221,13 @@ impl Curve {
     }
 }
 
-/// Colours from light to strong for `count` curves of one family.
+/// Returns colours from light to dark for `count` curves of one family.
 pub fn ramp(count: usize) -> Vec<RGBColor> {
-    let (light, strong) = ([144.0, 190.0, 235.0], [13.0, 58.0, 120.0]);
+    let (light, dark) = ([144.0, 190.0, 235.0], [13.0, 58.0, 120.0]);
     (0..count)
         .map(|i| {
             let fraction = i as f64 / (count.max(2) - 1) as f64;
-            let mix = |k: usize| (light[k] + fraction * (strong[k] - light[k])) as u8;
+            let mix = |k: usize| (light[k] + fraction * (dark[k] - light[k])) as u8;
             RGBColor(mix(0), mix(1), mix(2))
         })
         .collect()

@@ -1,26 +1,26 @@
-//! A series over ticks, however long, in no more points than a plot can show: the lowest and the highest of
-//! each stretch of ticks stay, at their own ticks, so that no peak vanishes.
+//! Reduction of a long series to the points that a plot can show. It keeps the lowest and the highest sample of each
+//! interval of ticks, at their own ticks, so that no peak is lost.
 
-/// Stretches at most; a plot is a thousand pixels wide, and may be enlarged.
-const MOST: usize = 4096;
+/// Maximum number of intervals; a plot is about a thousand pixels wide and can be enlarged.
+const MAX_INTERVALS: usize = 4096;
 
-/// The lowest and highest value of each stretch of ticks. Stretches double as the series grows.
+/// Lowest and highest value of each interval of ticks. The length of the intervals doubles as the series grows.
 pub struct Envelope {
-    /// Ticks in a stretch.
+    /// Ticks per interval.
     width: u32,
-    stretches: Vec<Stretch>,
+    intervals: Vec<Interval>,
 }
 
-/// A value and its tick.
+/// Tick and value.
 type Sample = (u32, f64);
 
-struct Stretch {
+struct Interval {
     low: Sample,
     high: Sample,
 }
 
-impl Stretch {
-    fn take(&mut self, other: &Self) {
+impl Interval {
+    fn merge(&mut self, other: &Self) {
         if other.low.1 < self.low.1 {
             self.low = other.low;
         }
@@ -34,43 +34,43 @@ impl Default for Envelope {
     fn default() -> Self {
         Self {
             width: 1,
-            stretches: Vec::new(),
+            intervals: Vec::new(),
         }
     }
 }
 
 impl Envelope {
-    /// Takes the value at `tick`, later than all before; ticks may be left out. A value that is not finite
-    /// is passed over.
+    /// Adds the value at `tick`, which must be later than all previous ones; ticks may be skipped. Values that are not
+    /// finite are ignored.
     pub fn record(&mut self, tick: u32, value: f64) {
         if !value.is_finite() {
             return;
         }
         let sample = (tick, value);
-        self.push(Stretch {
+        self.push(Interval {
             low: sample,
             high: sample,
         });
-        if self.stretches.len() > MOST {
+        if self.intervals.len() > MAX_INTERVALS {
             self.width = self.width.saturating_mul(2);
-            for stretch in std::mem::take(&mut self.stretches) {
-                self.push(stretch);
+            for interval in std::mem::take(&mut self.intervals) {
+                self.push(interval);
             }
         }
     }
 
-    fn push(&mut self, new: Stretch) {
+    fn push(&mut self, new: Interval) {
         let width = self.width;
-        match self.stretches.last_mut() {
-            Some(last) if last.low.0 / width == new.low.0 / width => last.take(&new),
-            _ => self.stretches.push(new),
+        match self.intervals.last_mut() {
+            Some(last) if last.low.0 / width == new.low.0 / width => last.merge(&new),
+            _ => self.intervals.push(new),
         }
     }
 
-    /// The samples that stay, in the order of their ticks.
+    /// Returns the kept samples in the order of their ticks.
     pub fn samples(&self) -> impl Iterator<Item = Sample> {
-        self.stretches.iter().flat_map(|stretch| {
-            let (low, high) = (stretch.low, stretch.high);
+        self.intervals.iter().flat_map(|interval| {
+            let (low, high) = (interval.low, interval.high);
             let (first, last) = if low.0 <= high.0 {
                 (low, high)
             } else {
@@ -80,20 +80,25 @@ impl Envelope {
         })
     }
 
-    /// The first tick of each stretch that stays.
+    /// Returns the tick of the first kept sample of each interval.
     pub fn ticks(&self) -> impl Iterator<Item = u32> {
-        self.stretches
+        self.intervals
             .iter()
-            .map(|stretch| stretch.low.0.min(stretch.high.0))
+            .map(|interval| interval.low.0.min(interval.high.0))
     }
 }
 
-/// When a tick ended, the first a step after the start, s.
+/// Returns the time (s) at the end of a tick; tick 0 ends one step after the start.
 pub fn time_s(tick: u32, step_s: f64) -> f64 {
     (f64::from(tick) + 1.0) * step_s
 }
 
-/// Values of ticks over time (s), the lowest and highest of each stretch.
+/// Reduces one value per tick to points `(time_s, value)` that keep all peaks.
+///
+/// ```
+/// let points = dashpot_report::plot::envelope::thinned([1.0, 5.0, 2.0], 1e-3);
+/// assert_eq!(points[1], (2e-3, 5.0));
+/// ```
 pub fn thinned(values: impl IntoIterator<Item = f64>, step_s: f64) -> Vec<(f64, f64)> {
     let mut envelope = Envelope::default();
     for (tick, value) in (0..).zip(values) {
@@ -110,9 +115,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_short_series_stays_as_it_is() {
+    fn a_short_series_is_unchanged() {
         let mut envelope = Envelope::default();
-        let samples: Vec<Sample> = (0..MOST as u32).map(|tick| (tick, 0.5)).collect();
+        let samples: Vec<Sample> = (0..MAX_INTERVALS as u32).map(|tick| (tick, 0.5)).collect();
         for (tick, value) in &samples {
             envelope.record(*tick, *value);
         }
@@ -132,7 +137,7 @@ mod tests {
             envelope.record(tick, peak(tick));
         }
         let samples: Vec<Sample> = envelope.samples().collect();
-        assert!(samples.len() <= 2 * MOST && samples.len() > MOST / 2);
+        assert!(samples.len() <= 2 * MAX_INTERVALS && samples.len() > MAX_INTERVALS / 2);
         assert!(
             samples.is_sorted_by(|a, b| a.0 < b.0),
             "in order, once each"
@@ -142,13 +147,13 @@ mod tests {
     }
 
     #[test]
-    fn ticks_may_be_left_out() {
+    fn ticks_may_be_skipped() {
         let mut envelope = Envelope::default();
         for tick in (0..5000).map(|i| i * i) {
             envelope.record(tick, 1.0);
         }
         let ticks: Vec<u32> = envelope.ticks().collect();
-        assert!(ticks.len() <= MOST && ticks.is_sorted());
+        assert!(ticks.len() <= MAX_INTERVALS && ticks.is_sorted());
         assert_eq!(ticks[0], 0);
     }
 }

@@ -6,7 +6,8 @@ use super::curves::Curve;
 use super::sheet::{Panel, Scale};
 use dashpot_testbench::bench_test::Cycle;
 
-/// Two panels: force (kN) over displacement (mm) and over velocity (m/s).
+/// Returns two panels: force (kN) over displacement (mm) and over velocity (m/s). Force is positive when it resists
+/// extension.
 pub fn panels(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Vec<Panel> {
     let panel = |x: &str, curves| Panel {
         title: String::new(),
@@ -25,7 +26,7 @@ pub fn panels(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Vec<Panel> {
     ]
 }
 
-/// A settled cycle as a closed curve of either panel.
+/// Returns a settled cycle as one closed curve for each panel, displacement first.
 pub fn of_cycle(name: &str, colour: RGBColor, cycle: &Cycle) -> (Curve, Curve) {
     let forces = cycle.forces_n.iter().map(|force| force * 1e-3);
     let close = |abscissas: Vec<f64>| {

@@ -1,4 +1,4 @@
-//! Maps of a value over a round disc, its scale in the hole.
+//! Maps of a value over an annular disc, with the scale in the hole.
 
 use std::f64::consts::TAU;
 
@@ -11,27 +11,27 @@ use super::sheet::Layout;
 use super::style::{Area, FINE, INK, axes, draw, failed, letters};
 use crate::DrawError;
 
-/// Division of a disc, outwards and round.
+/// Number of cells, radial and circumferential.
 const CELLS: (u32, u32) = (30, 120);
-/// Shades from nothing to the greatest value.
+/// Number of shades from zero to the maximum.
 const SHADES: usize = 6;
 
-/// A value over a disc.
+/// Map of a value over an annular disc.
 pub struct DiscMap<'a> {
     /// Title above the map.
     pub title: String,
-    /// Name and unit of the value, on lines of their own.
+    /// Name and unit of the value, one line each.
     pub value_label: [String; 2],
-    /// Radii of the disc (mm).
+    /// Inner and outer radius of the disc (mm).
     pub radii_mm: [f64; 2],
-    /// The value, from zero, at a radius (mm) and an angle (rad).
+    /// Value, not negative, at a radius (mm) and an angle (rad).
     pub value: Box<dyn Fn(f64, f64) -> f64 + 'a>,
 }
 
-/// Draws maps on a sheet.
+/// Draws maps on a sheet and returns the SVG text.
 ///
 /// # Errors
-/// The drawing fails.
+/// Returns an error if the plotting library fails.
 pub fn maps(layout: Layout, maps: &[DiscMap<'_>]) -> Result<String, DrawError> {
     let rows = maps.len().div_ceil(layout.columns);
     draw(layout.width, layout.row_height * rows as u32, |area| {
@@ -45,20 +45,20 @@ pub fn maps(layout: Layout, maps: &[DiscMap<'_>]) -> Result<String, DrawError> {
 
 fn draw_map(area: &Area<'_>, map: &DiscMap<'_>) -> Result<(), DrawError> {
     let [inner, outer] = map.radii_mm;
-    let (out, round) = CELLS;
-    let radius = |i: f64| inner + (outer - inner) * i / f64::from(out);
-    let angle = |j: f64| TAU * j / f64::from(round);
+    let (radial, circumferential) = CELLS;
+    let radius = |i: f64| inner + (outer - inner) * i / f64::from(radial);
+    let angle = |j: f64| TAU * j / f64::from(circumferential);
     let mut values = Vec::new();
-    for i in 0..out {
-        for j in 0..round {
+    for i in 0..radial {
+        for j in 0..circumferential {
             let (i, j) = (f64::from(i), f64::from(j));
             values.push((i, j, (map.value)(radius(i + 0.5), angle(j))));
         }
     }
-    let greatest = values
+    let max = values
         .iter()
-        .fold(0.0, |most: f64, (.., value)| most.max(*value));
-    let step = round_up(greatest / SHADES as f64);
+        .fold(0.0, |max: f64, (.., value)| max.max(*value));
+    let step = round_up(max / SHADES as f64);
     let shades = ramp(SHADES);
     let side = 1.05 * outer;
     let [x, y] = ["mm", "mm"];
@@ -88,7 +88,7 @@ fn draw_map(area: &Area<'_>, map: &DiscMap<'_>) -> Result<(), DrawError> {
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// The scale in the hole: name and unit, then a line for each shade, the highest above.
+/// Draws the scale in the hole: name and unit, then one line per shade, highest first.
 fn draw_scale(
     chart: &mut Chart<'_, '_>,
     map: &DiscMap<'_>,
@@ -117,7 +117,7 @@ fn draw_scale(
     Ok(())
 }
 
-/// Digits behind the point that a step of two digits takes.
+/// Number of decimals of a step with two significant digits.
 fn digits(step: f64) -> usize {
     let digits = (-step.log10().floor()).clamp(0.0, 12.0);
     let last = step * 10_f64.powf(digits);
@@ -125,7 +125,7 @@ fn digits(step: f64) -> usize {
     digits as usize + usize::from(more)
 }
 
-/// The next round number: one of few digits times a power of ten.
+/// Rounds up to a number with at most two digits times a power of ten.
 fn round_up(value: f64) -> f64 {
     let value = value.max(1e-12);
     let decade = 10_f64.powf(value.log10().floor());
@@ -141,7 +141,7 @@ mod tests {
     use super::{digits, round_up};
 
     #[test]
-    fn shades_are_round_numbers() {
+    fn shades_have_round_limits() {
         for (value, round) in [
             (0.9, 1.0),
             (1.0, 1.0),
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn shades_have_the_digits_of_their_step() {
+    fn decimals_follow_the_step() {
         for (step, count) in [(50.0, 0), (2.5, 1), (0.2, 1), (0.25, 2), (0.012, 3)] {
             assert_eq!(digits(step), count, "{step}");
         }

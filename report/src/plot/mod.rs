@@ -1,4 +1,4 @@
-//! Plots as SVG, all in one style.
+//! SVG plots in one style.
 
 pub mod curves;
 pub mod envelope;

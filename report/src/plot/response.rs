@@ -1,4 +1,4 @@
-//! Frequency responses: dynamic stiffness, loss angle and damping over frequency.
+//! Frequency responses: dynamic stiffness, loss angle and damping.
 
 use plotters::style::RGBColor;
 
@@ -7,11 +7,12 @@ use super::sheet::{Panel, Scale};
 use crate::page::panel;
 use dashpot_testbench::response::Response;
 
-/// Where a scale of decades stops to show damping: a loss angle (degrees) that is all but that of a spring.
-const LEAST_ANGLE_DEG: f64 = 0.1;
+/// Minimum loss angle (degrees) for showing damping on a logarithmic scale; below it the damper is practically a
+/// spring.
+const MIN_LOSS_ANGLE_DEG: f64 = 0.1;
 
-/// The panels of dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m) without curves yet; stiffness and damping on this
-/// scale.
+/// Returns empty panels for dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m). `scale` applies to
+/// stiffness and damping.
 pub fn panels(scale: Scale) -> [Panel; 3] {
     let axes = |y: &str, scale| Panel {
         x_scale: Scale::Decades,
@@ -25,20 +26,21 @@ pub fn panels(scale: Scale) -> [Panel; 3] {
     ]
 }
 
-/// A response as a curve of each panel. Where it has no loss angle, or too little for decades, the curve is parted.
+/// Returns a response as one curve for each panel. Curves have gaps where the loss angle is undefined or too small for
+/// a logarithmic scale.
 pub fn of(name: &str, colour: RGBColor, responses: &[Response], scale: Scale) -> [Curve; 3] {
     let curve = |value: &dyn Fn(&Response) -> Option<f64>| {
         let points = responses.iter();
         let points = points.map(|r| (r.frequency_hz, value(r).unwrap_or(f64::NAN)));
         Curve::new(name, colour, points)
     };
-    let is_shown = |least_deg: f64| {
+    let is_shown = |min_deg: f64| {
         move |r: &Response| match scale {
             Scale::Linear => true,
-            Scale::Decades => r.loss_angle_deg().is_some_and(|angle| angle >= least_deg),
+            Scale::Decades => r.loss_angle_deg().is_some_and(|angle| angle >= min_deg),
         }
     };
-    let (has_force, has_loss) = (is_shown(f64::MIN), is_shown(LEAST_ANGLE_DEG));
+    let (has_force, has_loss) = (is_shown(f64::MIN), is_shown(MIN_LOSS_ANGLE_DEG));
     [
         curve(&|r| has_force(r).then(|| r.stiffness_n_per_m() * 1e-6)),
         curve(&|r| r.loss_angle_deg()),

@@ -1,4 +1,4 @@
-//! Panels of curves in rows on one sheet.
+//! Sheets: panels of curves in rows.
 
 use std::ops::Range;
 
@@ -8,19 +8,19 @@ use super::curves::Curve;
 use super::style::{Area, Digits, FINE, INK, axes, draw, extent, failed, letters, span};
 use crate::DrawError;
 
-/// Margin above and below the curves on a scale of decades, as a ratio.
+/// Margin above and below the curves on a logarithmic scale, as a ratio.
 const DECADE_MARGIN: f64 = 1.6;
 
-/// How an axis is divided.
+/// Scale of an axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Equal lengths are equal differences.
+    /// Linear.
     Linear,
-    /// Equal lengths are equal ratios, for values above zero.
+    /// Logarithmic, for values above zero.
     Decades,
 }
 
-/// One set of axes with its curves.
+/// Axes with their curves.
 pub struct Panel {
     /// Title above the axes.
     pub title: String,
@@ -28,22 +28,22 @@ pub struct Panel {
     pub x_label: String,
     /// Quantity and unit of the vertical axis.
     pub y_label: String,
-    /// Where the legend stands on a sheet, if there is one; on a page it stands above the curves.
+    /// Position of the legend on a sheet, if any; on a page the legend is above the curves.
     pub legend: Option<SeriesLabelPosition>,
-    /// Whether the curves keep off the sides, as loops do, or fill the width.
+    /// True to leave margins at the sides, as for loops; false to fill the width.
     pub sides: bool,
-    /// The horizontal axis.
+    /// Scale of the horizontal axis.
     pub x_scale: Scale,
-    /// The vertical axis.
+    /// Scale of the vertical axis.
     pub scale: Scale,
-    /// Whether a linear vertical axis keeps to its values where they are far from zero.
+    /// True if a linear vertical axis shows only the range of its values; false to include zero.
     pub keeps_to_values: bool,
-    /// Curves, the first at the back.
+    /// Curves, from back to front.
     pub curves: Vec<Curve>,
 }
 
 impl Panel {
-    /// What the axes show, horizontal and vertical.
+    /// Returns the ranges of the horizontal and the vertical axis.
     pub fn ranges(&self) -> [Range<f64>; 2] {
         let on = |scale: Scale| move |value: &f64| scale == Scale::Linear || *value > 0.0;
         let abscissas = self.curves.iter().flat_map(Curve::abscissas);
@@ -58,7 +58,7 @@ impl Panel {
         let y = match self.scale {
             Scale::Linear => {
                 let mut y = extent(ordinates());
-                // A curve that starts at zero, but for rounding, keeps zero at the edge.
+                // If no value is below zero, apart from rounding, the axis starts at zero.
                 let rounding = 1e-9 * y.end;
                 if !self.keeps_to_values && ordinates().all(|y| y >= -rounding) {
                     y.start = 0.0;
@@ -67,23 +67,23 @@ impl Panel {
             }
             Scale::Decades => widened(span(ordinates().filter(on(self.scale)))),
         };
-        [shown(x, self.x_scale), shown(y, self.scale)]
+        [non_empty(x, self.x_scale), non_empty(y, self.scale)]
     }
 }
 
-/// How panels lie on a sheet.
+/// Arrangement of panels on a sheet.
 #[derive(Clone, Copy)]
 pub struct Layout {
     /// Width of the sheet (pixels).
     pub width: u32,
     /// Height of a row (pixels).
     pub row_height: u32,
-    /// Panels side by side.
+    /// Number of panels side by side.
     pub columns: usize,
 }
 
 impl Layout {
-    /// So many panels in one row, each `width` by `height` pixels.
+    /// One row of panels, each `width` by `height` pixels.
     pub fn row(panels: usize, width: u32, height: u32) -> Self {
         Self {
             width: width * panels as u32,
@@ -93,10 +93,10 @@ impl Layout {
     }
 }
 
-/// Draws panels on a sheet.
+/// Draws panels on a sheet and returns the SVG text.
 ///
 /// # Errors
-/// The drawing fails.
+/// Returns an error if the plotting library fails.
 pub fn sheet(layout: Layout, panels: &[Panel]) -> Result<String, DrawError> {
     let rows = panels.len().div_ceil(layout.columns);
     draw(layout.width, layout.row_height * rows as u32, |area| {
@@ -108,7 +108,7 @@ pub fn sheet(layout: Layout, panels: &[Panel]) -> Result<String, DrawError> {
     })
 }
 
-/// The curves on axes of the panel's scale, and the legend.
+/// Draws curves and legend on axes of the panel's scale.
 macro_rules! draw_on {
     ($area:expr, $panel:expr, $x:expr, $y:expr, $digits:expr) => {{
         let Panel {
@@ -150,36 +150,36 @@ fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
     Ok(())
 }
 
-/// The range, or one around it where it has no length or nothing lies in it.
-fn shown(range: Range<f64>, scale: Scale) -> Range<f64> {
-    let is_value = range.start == range.end;
+/// Returns the range itself, or a default around it if it is empty or has no length.
+fn non_empty(range: Range<f64>, scale: Scale) -> Range<f64> {
+    let is_single_value = range.start == range.end;
     match scale {
         _ if range.start < range.end => range,
-        Scale::Linear if is_value => range.start - 0.5..range.end + 0.5,
-        Scale::Decades if is_value => widened(range),
+        Scale::Linear if is_single_value => range.start - 0.5..range.end + 0.5,
+        Scale::Decades if is_single_value => widened(range),
         Scale::Linear => 0.0..1.0,
         Scale::Decades => 1.0..10.0,
     }
 }
 
-/// A scale of decades with room at its ends.
+/// Adds margins to the range of a logarithmic axis.
 fn widened(range: Range<f64>) -> Range<f64> {
     range.start / DECADE_MARGIN..range.end * DECADE_MARGIN
 }
 
-/// An axis that nearly begins at zero begins there.
+/// Extends a range that starts just above zero down to zero.
 fn from_zero(range: Range<f64>) -> Range<f64> {
-    let nearly = (0.0..0.05 * range.end).contains(&range.start);
-    if nearly { 0.0..range.end } else { range }
+    let is_near_zero = (0.0..0.05 * range.end).contains(&range.start);
+    if is_near_zero { 0.0..range.end } else { range }
 }
 
-/// Digits behind the point that make the labels of an axis differ.
+/// Number of decimals that makes the labels of an axis differ.
 fn digits(range: &Range<f64>, scale: Scale) -> Digits {
     if scale == Scale::Decades {
         return Digits::OfDecade;
     }
-    let apart = (range.end - range.start).max(1e-12) / 6.0;
-    Digits::Behind((-apart.log10().floor()).clamp(0.0, 6.0) as usize)
+    let spacing = (range.end - range.start).max(1e-12) / 6.0;
+    Digits::Fixed((-spacing.log10().floor()).clamp(0.0, 6.0) as usize)
 }
 
 #[cfg(test)]
@@ -203,14 +203,14 @@ mod tests {
     }
 
     #[test]
-    fn decades_show_what_is_above_zero() {
+    fn logarithmic_axes_ignore_values_up_to_zero() {
         let [x, y] = ranges(Scale::Decades, &[(0.0, 3.0), (2.0, -1.0), (50.0, 40.0)]);
         assert_eq!(x, 2.0..50.0);
         assert!(y.start > 1.0 && y.start < 3.0 && y.end > 40.0);
     }
 
     #[test]
-    fn axes_have_a_length_whatever_lies_on_them() {
+    fn axes_are_never_empty() {
         for scale in [Scale::Linear, Scale::Decades] {
             for points in [&[][..], &[(7.0, 7.0)], &[(0.0, 0.0)], &[(-1.0, f64::NAN)]] {
                 for range in ranges(scale, points) {

@@ -1,4 +1,4 @@
-//! Sheet, colours, lettering and axes of every plot.
+//! Colours, fonts, axes and sheets of all plots.
 
 use std::error::Error;
 use std::ops::Range;
@@ -8,33 +8,36 @@ use plotters::prelude::*;
 
 use crate::DrawError;
 
-/// The backend rounds to whole units; drawn this much larger, curves stay smooth.
+/// Drawing units per pixel. The backend rounds to whole units, so plots are drawn larger to keep curves smooth.
 pub const FINE: u32 = 4;
 const FONT: &str = "sans-serif";
 /// Colour of text and axes.
 pub const INK: RGBColor = RGBColor(38, 50, 56);
-/// Blue of curves.
+/// Blue curves.
 pub const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
-/// Red of curves.
+/// Red curves.
 pub const RED_LINE: RGBColor = RGBColor(198, 40, 40);
-/// Green of curves.
+/// Green curves.
 pub const GREEN_LINE: RGBColor = RGBColor(46, 125, 50);
-/// Amber of curves and limits.
+/// Amber curves and limits.
 pub const AMBER_LINE: RGBColor = RGBColor(239, 138, 0);
-/// Grey of curves in the background.
+/// Grey curves in the background.
 pub const PALE: RGBColor = RGBColor(160, 168, 176);
-/// Usual width of a line.
+/// Usual line width, in drawing units.
 pub const LINE: u32 = 2 * FINE;
 
-/// What a drawing function says when the plotting library fails.
+/// Converts an error of the plotting library.
 pub fn failed(error: impl Error + Send + Sync + 'static) -> DrawError {
     DrawError(Box::new(error))
 }
 
-/// The surface that plots are drawn on.
+/// Drawing area of the SVG backend.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
-/// Draws on a white sheet of `width` by `height` pixels and gives the SVG's text.
+/// Draws on a white sheet of `width` by `height` pixels and returns the SVG text.
+///
+/// # Errors
+/// Returns the error of `paint`, or an error if the plotting library fails.
 pub fn draw(
     width: u32,
     height: u32,
@@ -52,30 +55,30 @@ pub fn draw(
     Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
 }
 
-/// Lettering of `size` pixels.
+/// Text style with a font size in pixels.
 pub fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
     TextStyle::from((FONT, size * FINE).into_font()).color(colour)
 }
 
-/// Digits behind the point of the numbers on an axis.
+/// Number of decimals of the labels on an axis.
 #[derive(Clone, Copy)]
 pub enum Digits {
-    /// As many for every number.
-    Behind(usize),
-    /// As many as the number's power of ten takes.
+    /// Equal for all numbers.
+    Fixed(usize),
+    /// As many as needed for the number's power of ten.
     OfDecade,
 }
 
 impl From<usize> for Digits {
     fn from(digits: usize) -> Self {
-        Self::Behind(digits)
+        Self::Fixed(digits)
     }
 }
 
-/// A number on an axis, zero without a sign.
+/// Formats a number on an axis; zero has no sign.
 pub fn label(value: f64, digits: impl Into<Digits>) -> String {
     let digits = match digits.into() {
-        Digits::Behind(digits) => digits,
+        Digits::Fixed(digits) => digits,
         Digits::OfDecade => (-value.abs().log10().round()).clamp(0.0, 12.0) as usize,
     };
     let text = format!("{value:.digits$}");
@@ -85,7 +88,7 @@ pub fn label(value: f64, digits: impl Into<Digits>) -> String {
     }
 }
 
-/// One set of axes with the house's lettering; `$digits` are those behind the point, (x, y).
+/// Draws axes in the common style; `$digits` is the number of decimals on (x, y).
 #[macro_export]
 macro_rules! axes {
     ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
@@ -115,7 +118,7 @@ macro_rules! axes {
             .set_all_tick_mark_size(5 * FINE)
             .x_label_formatter(&|x| $crate::plot::style::label(*x, $digits.0))
             .y_label_formatter(&|y| $crate::plot::style::label(*y, $digits.1))
-            // A label takes some 40 pixels.
+            // A label takes about 40 pixels.
             .x_labels((($area.dim_in_pixel().0 / (40 * FINE)) as usize).min(11))
             .y_labels(8)
             .draw()
@@ -126,14 +129,14 @@ macro_rules! axes {
 
 pub use axes;
 
-/// Least and greatest of `values`.
+/// Range from the minimum to the maximum of `values`.
 pub fn span(values: impl Iterator<Item = f64>) -> Range<f64> {
     values.fold(f64::MAX..f64::MIN, |range, value| {
         range.start.min(value)..range.end.max(value)
     })
 }
 
-/// Least and greatest of `values`, widened by a twentieth.
+/// Range of `values`, widened by 5 % at both ends.
 pub fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
     let Range { start, end } = span(values);
     let margin = 0.05 * (end - start).max(1e-6);

@@ -4,7 +4,7 @@ use super::RunError;
 use super::shared::Shared;
 use super::study::Study;
 use dashpot_files::case::Case;
-use dashpot_files::nearest;
+use dashpot_files::did_you_mean;
 use dashpot_files::study::{Sweep, Value};
 use dashpot_vehicle_run::VehicleRunError;
 use dashpot_vehicle_run::signals::{self, Signal};
@@ -57,7 +57,7 @@ impl Study {
         {
             Some(unknown) => Err(RunError::Figure {
                 sweep: sweep.name.clone(),
-                reason: format!("no signal `{unknown}`{}", nearest(unknown, known())),
+                reason: format!("no signal `{unknown}`{}", did_you_mean(unknown, known())),
             }),
             None => Ok(()),
         }

@@ -3,7 +3,7 @@
 use super::digest::Digest;
 use super::observed::Observed;
 use dashpot_files::case::{Case, CaseError};
-use dashpot_files::nearest;
+use dashpot_files::did_you_mean;
 use dashpot_files::study::{StudyFileError, StudyParameters, Sweep, Value};
 use dashpot_vehicle_run::check_ride;
 
@@ -88,7 +88,7 @@ impl Study {
             let found = Observed::called(name);
             let known = super::OBSERVED.iter().map(|index| index.name);
             observed.push(*found.ok_or_else(|| {
-                let hint = nearest(name, known.clone());
+                let hint = did_you_mean(name, known.clone());
                 let known = known.clone().collect::<Vec<_>>().join(", ");
                 wrong(
                     parameters.observed_line,

@@ -127,13 +127,13 @@ fn errors_have_file_line_and_name() {
     let cases = [
         (
             "title = \"t\"\n".to_owned(),
-            "sheet.toml:1: test: allowed: one or more",
+            "sheet.toml:1: no tests, allowed: one or more",
         ),
         (TEST.replace("title", "titel"), "line 1, column 1"),
         (TEST.replace("title", "titel"), "did you mean `title`?"),
         (
             TEST.to_owned(),
-            "sheet.toml:3: test `one`: allowed: two of `amplitude_m`, `frequency_hz`",
+            "sheet.toml:3: test `one`: give exactly two of `amplitude_m`, `frequency_hz`",
         ),
         (
             with("velocity_m_per_s = 1"),
@@ -158,11 +158,11 @@ fn errors_have_file_line_and_name() {
         ),
         (
             with("[[test]]\nname = \"one\"\namplitude_m = 1\nfrequency_hz = 1"),
-            "sheet.toml:7: a second test `one`",
+            "sheet.toml:7: duplicate test name `one`",
         ),
         (
             TEST.replace("\"one\"", "\"\""),
-            "name of a test: allowed: one line",
+            "name of a test, allowed: one line",
         ),
         (
             limit("clause = \"5\""),
@@ -170,11 +170,11 @@ fn errors_have_file_line_and_name() {
         ),
         (
             limit("least = 2\nmost = 1"),
-            "sheet.toml:7: test `one`: max_extension_force_n: least 2 above most 1",
+            "sheet.toml:7: test `one`: max_extension_force_n: `least` 2 is greater than `most` 1",
         ),
         (
             limit("least = -inf"),
-            "max_extension_force_n: allowed: finite numbers",
+            "max_extension_force_n: not finite, allowed: finite numbers",
         ),
         (limit("leats = 2"), "did you mean `least`?"),
         (

@@ -1,5 +1,5 @@
 
-/* The dampers are those that were exported. */
+/* Dampers with built-in constants. */
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -8,18 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Part of an internal step by which the size of a step may be off. */
+/* Tolerance of a communication step's size, as a fraction of an internal step. */
 #define CLOSE 1e-6
 
-/* The same for the time at which it begins: importers that add up steps add up what they round. */
+/* Tolerance of a step's start time: importers that add up steps also add up rounding errors. */
 #define CLOSE_AT 0.1
 
-/* Relative spacing of numbers in double precision. */
+/* Relative spacing of double-precision numbers. */
 #define EPSILON 2.220446049250313e-16
 
-/* Internal steps of a communication step, and of a run, at most: more of these no time can tell apart. */
-#define MOST_STEPS 1e9
-#define MOST_STEPS_OF_ALL 4503599627370496.0
+/* Maximum number of internal steps in a communication step, and in a run: a time cannot resolve more. */
+#define MAX_STEPS 1e9
+#define MAX_TOTAL_STEPS 4503599627370496.0
 
 const char *const component_categories[COMPONENT_ERROR + 1] = {
     NULL, "logStatusWarning", "logStatusDiscard", "logStatusError"
@@ -65,7 +65,7 @@ component *component_new(const component *with, const char *token, const char *r
     }
     memcpy(this->name, name, strlen(name) + 1);
     if (token == NULL || strcmp(token, model_token) != 0) {
-        (void)component_tell(this, COMPONENT_ERROR, "the description is of another FMU: its token is %.200s, this is %s",
+        (void)component_tell(this, COMPONENT_ERROR, "the description belongs to another FMU: its token is %.200s, this is %s",
                              token == NULL ? "missing" : token, model_token);
     } else if ((this->model = model_new(resources, reason, sizeof reason)) == NULL) {
         (void)component_tell(this, COMPONENT_ERROR, "%s", reason);
@@ -132,7 +132,7 @@ double component_time_s(const component *this)
     return this->start_s + (double)this->steps * model_step_s;
 }
 
-/* Times of which a thousandth of an internal step can be told. */
+/* Latest time (s) that still resolves a thousandth of an internal step. */
 static double latest_s(void)
 {
     return 1e-3 / EPSILON * model_step_s;
@@ -227,7 +227,7 @@ component_status component_set_reals(component *this, const uint32_t variables[]
             return component_tell(this, COMPONENT_DISCARD, "value reference %lu: %.12g, allowed: %s", reference, values[number],
                                   model_allowed(variables[number]));
         case MODEL_READ_ONLY:
-            return component_tell(this, COMPONENT_ERROR, "value reference %lu is an output, and cannot be set", reference);
+            return component_tell(this, COMPONENT_ERROR, "value reference %lu is an output and cannot be set", reference);
         default:
             return component_no_variable(this, variables[number]);
         }
@@ -244,7 +244,7 @@ component_status component_get_integer(component *this, uint32_t variable, int32
                                                                          : component_no_variable(this, variable);
 }
 
-/* A step that is not taken. An importer that asks for the same again would ask for ever. */
+/* Refuses a step. Refusing the same step again is an error, because the importer would repeat it forever. */
 static component_status refuse_step(component *this, double at_s, double step_s, const char *format, ...)
 {
     const bool is_again = this->refused_at_s == at_s && this->refused_step_s == step_s;
@@ -264,23 +264,23 @@ component_status component_step(component *this, double at_s, double step_s)
 {
     const double now_s = component_time_s(this);
     const double count = floor(step_s / model_step_s + 0.5);
-    /* A size that is the difference of two times errs by their last digits, too. */
+    /* A size computed as the difference of two times also has their rounding errors. */
     const double close_s = CLOSE * model_step_s + 4 * EPSILON * fabs(now_s);
     const char *notice;
 
     if (!(fabs(at_s - now_s) <= CLOSE_AT * model_step_s)) {
         return refuse_step(this, at_s, step_s, "a step from %.12g s, but the last one ended at %.12g s", at_s, now_s);
     }
-    if (!(count >= 1 && count <= MOST_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
+    if (!(count >= 1 && count <= MAX_STEPS && fabs(step_s - count * model_step_s) <= close_s)) {
         return refuse_step(this, at_s, step_s,
                            "a communication step of %.12g s, allowed: a multiple of the internal step of %.12g s, up to %.0e of it",
-                           step_s, model_step_s, MOST_STEPS);
+                           step_s, model_step_s, MAX_STEPS);
     }
     if (!(now_s + step_s <= this->stop_s + CLOSE_AT * model_step_s)) {
         return component_tell(this, COMPONENT_ERROR, "a step to %.12g s, beyond the stop time of %.12g s", now_s + step_s,
                               this->stop_s);
     }
-    if (!(is_time(now_s + step_s) && (double)this->steps + count <= MOST_STEPS_OF_ALL)) {
+    if (!(is_time(now_s + step_s) && (double)this->steps + count <= MAX_TOTAL_STEPS)) {
         return refuse_step(this, at_s, step_s, "a step to %.12g s, allowed: times within %.3g s of 0", now_s + step_s, latest_s());
     }
     forget_refused_step(this);
@@ -297,7 +297,7 @@ bool component_has_ended(const component *this)
     return model_has_ended(this->model);
 }
 
-/* Of a state: hash of all that follows, hash of the token, phase, steps, times, then the model. */
+/* Header of a state: hash of everything that follows, hash of the token, phase, steps, times; then the model. */
 enum { HASH_BYTES = 4, HEAD_BYTES = HASH_BYTES + 4 + 4 + 8 + 2 * 8 };
 
 /* FNV-1a (Fowler, Noll, Vo; 32 bit). */
@@ -348,7 +348,7 @@ component_status component_get_state(component *this, void **pointer)
     return COMPONENT_OK;
 }
 
-/* Whether it is a state of this FMU, whole. */
+/* True for a complete state of this FMU. */
 static bool is_state(const component *this, const uint8_t *bytes, size_t count)
 {
     uint64_t stated, token;
@@ -367,15 +367,15 @@ component_status component_set_state(component *this, const component_state *sta
     double start_s, stop_s;
 
     if (state == NULL || !is_state(this, state->content, state->bytes)) {
-        return component_tell(this, COMPONENT_DISCARD, "no state of this FMU");
+        return component_tell(this, COMPONENT_DISCARD, "not a state of this FMU");
     }
     from = model_take(state->content + HASH_BYTES + 4, &phase, 4);
     from = model_take(from, &steps, 8);
     from = model_take_real(from, &start_s);
     from = model_take_real(from, &stop_s);
     if (phase == 0 || phase > FAILED || (phase & (phase - 1)) != 0 || !is_time(start_s) || !(stop_s >= start_s)
-        || (double)steps > MOST_STEPS_OF_ALL || model_restore(this->model, from) != MODEL_DONE) {
-        return component_tell(this, COMPONENT_DISCARD, "the state is of another model");
+        || (double)steps > MAX_TOTAL_STEPS || model_restore(this->model, from) != MODEL_DONE) {
+        return component_tell(this, COMPONENT_DISCARD, "the state belongs to another model");
     }
     forget_refused_step(this);
     this->phase = (component_phase)phase;

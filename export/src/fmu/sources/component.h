@@ -35,29 +35,29 @@ struct component {
     char *name;
     component_phase phase;
     double start_s;
-    double stop_s;      /* HUGE_VAL where none is set */
-    uint64_t steps;     /* of model_step_s since the start */
-    double refused_at_s; /* the step that was refused last, with nothing in between */
+    double stop_s;      /* HUGE_VAL if not set */
+    uint64_t steps;     /* internal steps since the start */
+    double refused_at_s; /* the step refused just before; else HUGE_VAL */
     double refused_step_s;
     bool logs;
     bool may_return_early;
     unsigned categories;
     component_log *log;
-    void (*logger)(void);  /* of the importer, whatever its type */
+    void (*logger)(void);  /* the importer's, of any type */
     void *environment;
 };
 
-/* What an instance begins with; `name` is copied. NULL where it cannot be, told to `log`. */
+/* Creates an instance; `name` is copied. On failure returns NULL and logs the reason to `log`. */
 component *component_new(const component *with, const char *token, const char *resources);
 void component_free(component *this);
 
-/* Tells what happened, as far as it is to be logged, and returns the status. */
+/* Logs a message if its category is enabled, and returns the status. */
 component_status component_tell(component *this, component_status status, const char *format, ...);
 
-/* Whether a function may be called in this phase; an error that is told where not. */
+/* True if a function may be called in this phase; otherwise logs an error. */
 bool component_allows(component *this, unsigned phases, const char *function);
 
-/* Categories that are logged from now on; all where none is named. */
+/* Sets the categories that are logged; all if none is named. */
 component_status component_set_logging(component *this, bool logs, size_t count, const char *const categories[]);
 extern const char *const component_categories[COMPONENT_ERROR + 1];
 
@@ -67,23 +67,23 @@ component_status component_end_initialization(component *this);
 component_status component_reset(component *this);
 
 component_status component_get_real(component *this, uint32_t variable, double *value);
-/* All of them, or where one is refused, none. */
+/* Sets all values, or none if one is refused. */
 component_status component_set_reals(component *this, const uint32_t variables[], size_t count, const double values[]);
 component_status component_get_integer(component *this, uint32_t variable, int32_t *value);
 component_status component_no_variable(component *this, uint32_t variable);
 
-/* Of a type without variables: nothing asked is no error. */
+/* For a type without variables: a request for no variables is not an error. */
 component_status component_none(component *this, const char *function, const uint32_t variables[], size_t count);
 
-/* A function that is no capability of this FMU, or belongs to a mode that it has not. */
+/* A function for a capability or mode that this FMU does not have. */
 component_status component_unsupported(component *this, const char *function);
 
-/* A step to `at_s + step_s`; refused where it is no multiple of the internal step, or does not begin where the last ended. It is shorter where
- * the model ends on the way. */
+/* Steps to `at_s + step_s`. Refuses a step that is not a multiple of the internal step or does not start at the end
+ * of the last one. The step is shorter if the model ends. */
 component_status component_step(component *this, double at_s, double step_s);
 bool component_has_ended(const component *this);
 
-/* The whole instance in memory of its own; NULL where there is none. It is what is serialized, too. */
+/* Copies the whole instance into new memory; NULL if there is none. The same bytes are serialized. */
 typedef struct component_state {
     size_t bytes;
     uint8_t content[];

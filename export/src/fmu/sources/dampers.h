@@ -1,4 +1,4 @@
-/* The dampers of this FMU, and how they come to be. */
+/* The dampers of this FMU and how they are created. */
 
 #ifndef DASHPOT_DAMPERS_H
 #define DASHPOT_DAMPERS_H
@@ -7,15 +7,15 @@
 
 #include "damper.h"
 
-/* The dampers that this FMU was exported with. */
+/* The dampers with which this FMU was exported. */
 extern const damper_damper *const dampers_as_built[];
 extern const unsigned dampers_count;
 
-/* Largest clearance (m), which is the largest of any damper. */
+/* Maximum clearance (m), the same for all dampers. */
 extern const double dampers_largest_clearance_m;
 
-/* The dampers for one instance, to be freed with dampers_free: those as built, or where this FMU loads them, those of the
- * images in `resources`. NULL with a reason. */
+/* Dampers for one instance, to be freed with dampers_free: as built, or, if this FMU loads them, from the images in
+ * `resources`. On failure returns NULL and writes the reason. */
 damper_damper *dampers_new(const char *resources, char *reason, size_t reason_bytes);
 void dampers_free(damper_damper *dampers);
 

@@ -1,4 +1,4 @@
-/* FMI 2.0 for co-simulation, every function of it, over component.h. */
+/* FMI 2.0 for co-simulation: all functions, on top of component.h. */
 
 #if !defined(FMI2_FUNCTION_PREFIX) && !defined(FMI2_OVERRIDE_FUNCTION_PREFIX)
 #define FMI2_FUNCTION_PREFIX MODEL_IDENTIFIER_
@@ -52,7 +52,7 @@ static int hexadecimal(char digit)
                                           : -1;
 }
 
-/* The folder of a URI: `file:///a%20b` is /a b, `file:///C:/a` is C:/a. False where it is none that can be had. */
+/* The folder of a URI: `file:///a%20b` is /a b, `file:///C:/a` is C:/a. False if the URI is not a usable folder. */
 static bool folder_of(const char *uri, char *folder, size_t bytes)
 {
     static const char scheme[] = "file:";
@@ -107,7 +107,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
         return NULL;
     }
     if (fmuResourceLocation != NULL && !folder_of(fmuResourceLocation, folder, sizeof folder)) {
-        log_message(&with, COMPONENT_ERROR, component_categories[COMPONENT_ERROR], "the URI of the resources is too long, or no path");
+        log_message(&with, COMPONENT_ERROR, component_categories[COMPONENT_ERROR], "the URI of the resources is too long or not a path");
         return NULL;
     }
     return component_new(&with, fmuGUID, fmuResourceLocation == NULL ? NULL : folder);
@@ -290,7 +290,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint, fmi2R
     ENTER(STEPPING, DoStep)
     (void)noSetFMUStatePriorToCurrentPoint;
     status = component_step(this, currentCommunicationPoint, communicationStepSize);
-    /* FMI 2.0.4, 4.2.2: the way to say that the simulation should end, which fmi2GetBooleanStatus then tells. */
+    /* FMI 2.0.4, 4.2.2: requests the end of the simulation; fmi2GetBooleanStatus then reports it. */
     return status < COMPONENT_DISCARD && component_has_ended(this) ? fmi2Discard : (fmi2Status)status;
 }
 
@@ -299,7 +299,7 @@ fmi2Status fmi2CancelStep(fmi2Component c)
     return (fmi2Status)component_unsupported(c, "fmi2CancelStep");
 }
 
-/* A step has ended when fmi2DoStep returns, so there is nothing to tell but the time. */
+/* A step has ended when fmi2DoStep returns, so only the time can be reported. */
 static fmi2Status no_status(fmi2Component c, const char *function)
 {
     component *const this = c;

@@ -1,4 +1,4 @@
-/* FMI 3.0 for co-simulation, every function of it, over component.h. */
+/* FMI 3.0 for co-simulation: all functions, on top of component.h. */
 
 #if !defined(FMI3_FUNCTION_PREFIX) && !defined(FMI3_OVERRIDE_FUNCTION_PREFIX)
 #define FMI3_FUNCTION_PREFIX MODEL_IDENTIFIER_
@@ -50,7 +50,7 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean loggingOn, siz
     return (fmi3Status)component_set_logging(this, loggingOn, nCategories, categories);
 }
 
-/* What an instance has of its importer. */
+/* Data that an instance gets from its importer. */
 static component imported(fmi3String name, fmi3Boolean logs, fmi3InstanceEnvironment environment,
                           fmi3LogMessageCallback logger)
 {
@@ -295,7 +295,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     return (fmi3Status)status;
 }
 
-/* What is no capability of this FMU, or belongs to a mode that it has not. */
+/* Functions for capabilities or modes that this FMU does not have. */
 
 fmi3Status fmi3EnterEventMode(fmi3Instance instance)
 {

@@ -1,6 +1,6 @@
 
-/* The dampers are those of the images in the folder of resources, as `dashpot export --lang bin` writes them: another
- * image under the same name is another damper. */
+/* Dampers loaded from images in the resources folder, as Dashpot exports them; an image can be replaced by that of
+ * another damper. */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ enum {
     IMAGE_VERSION = 3
 };
 
-/* A table in memory. */
+/* Table in memory. */
 typedef struct table {
     damper_piece pieces[2 * DAMPER_PIECES];
     uint8_t bins[DAMPER_BINS][2];
@@ -46,7 +46,7 @@ static damper_real word(const uint8_t *image, unsigned number)
         (damper_bits)damper_get(image + HEADER_BYTES + number * DAMPER_REAL_BYTES, DAMPER_REAL_BYTES));
 }
 
-/* Names the piece at the lower border of each bin of a side. The knots rise, the first a power of two. */
+/* Finds the piece at the lower border of each bin of a side. The knots increase; the first is a power of two. */
 static void index_side(table *this, unsigned side)
 {
     const unsigned end = (side + 1) * DAMPER_PIECES;
@@ -73,7 +73,7 @@ static void index_side(table *this, unsigned side)
     }
 }
 
-/* Makes a damper of an image; returns what is wrong with it, or NULL. */
+/* Builds a damper from an image; returns a description of the problem, or NULL. */
 static const char *load(damper_damper *damper, table *this, const uint8_t *image, size_t count)
 {
     static const uint8_t magic[] = {'D', 'A', 'S', 'H', 0xff, 0xfe};
@@ -88,17 +88,17 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
     unsigned number, piece;
 
     if (count < HEADER_BYTES || memcmp(image, magic, sizeof magic) != 0) {
-        return "no image of a damper: it does not begin with DASH";
+        return "not a damper image: it does not begin with DASH";
     }
     if (damper_get(image + 6, 2) != IMAGE_VERSION || damper_get(image + 8, 4) != DAMPER_REAL_BYTES) {
-        return DAMPER_REAL_BYTES == 4 ? "an image of another version or scalar; allowed: export --lang bin --scalar f32"
-                                      : "an image of another version or scalar; allowed: export --lang bin --scalar f64";
+        return DAMPER_REAL_BYTES == 4 ? "an image of another version or scalar; allowed: one exported in f32"
+                                      : "an image of another version or scalar; allowed: one exported in f64";
     }
     if (count != IMAGE_BYTES || damper_get(image + 12, 4) != IMAGE_BYTES) {
-        return "an image cut short or too long";
+        return "an image that is cut short or too long";
     }
     if (crc_32(image, IMAGE_BYTES - 4) != damper_get(image + IMAGE_BYTES - 4, 4)) {
-        return "a damaged image: its checksum is another";
+        return "a damaged image: its checksum is wrong";
     }
     for (number = 0; number < SCALARS; number++) {
         *scalars[number] = word(image, number);
@@ -140,10 +140,10 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
         || !(damper_largest_displacement_m(damper) >= (damper_real)1e-3)
         || !(damper_largest_displacement_m(damper) <= (damper_real)0.7)
         || !(damper->force_limit_n <= (damper_real)1e7)) {
-        return "an image whose constants do not go together";
+        return "an image with inconsistent constants";
     }
     if (damper->step_s != dampers_as_built[0]->step_s) {
-        return "an image for another step than that of this FMU";
+        return "an image for a different step than that of this FMU";
     }
     return NULL;
 }
@@ -164,7 +164,7 @@ damper_damper *dampers_new(const char *resources, char *reason, size_t reason_by
         char path[4096];
         const int length = snprintf(path, sizeof path, "%s/image_%u.bin", resources == NULL ? "" : resources, number + 1);
         FILE *file = resources != NULL && length > 0 && (size_t)length < sizeof path ? fopen(path, "rb") : NULL;
-        const char *wrong = resources == NULL ? "the importer named no folder of resources" : "cannot be read";
+        const char *wrong = resources == NULL ? "the importer gave no resources folder" : "cannot be read";
 
         if (file != NULL) {
             wrong = load(&dampers[number], &tables[number], image, fread(image, 1, sizeof image, file));

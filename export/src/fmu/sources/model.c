@@ -29,25 +29,25 @@ typedef struct place {
     damper_state state;
     double displacement_m;
     double velocity_m_per_s;
-    double clearance_m;         /* as it was given, before it was rounded */
+    double clearance_m;         /* as given, before rounding */
     double reached_m;           /* the displacement at the last communication point */
-    double derivative_m_per_s;  /* of the displacement, for the next communication step, */
-    double is_derived;          /* where this is not 0 */
+    double derivative_m_per_s;  /* of the displacement, for the next communication step; */
+    double is_derived;          /* valid if this is not 0 */
     double derivative_m_per_s2; /* of the velocity, for the next communication step */
 } place;
 
 struct model {
     damper_damper *dampers;
     damper_damper *as_loaded;
-    unsigned told;              /* status bits of any damper that were told */
+    unsigned told;              /* status bits of any damper already reported */
     bool is_started;
     place places[];
 };
 
-/* Where no displacement was good yet. */
+/* Marks that there was no valid displacement yet. */
 static const double nowhere_m = 1e300;
 
-/* Whether a step to a displacement follows it or a part of the way to it. */
+/* True if a step to a displacement follows it completely or in part. */
 static bool is_good(const damper_damper *damper, double displacement_m)
 {
     const damper_real displacement = (damper_real)displacement_m;
@@ -56,7 +56,7 @@ static bool is_good(const damper_damper *damper, double displacement_m)
     return displacement >= -most && displacement <= most;
 }
 
-/* A displacement that is not good is rejected: the damper starts where the first good one is. */
+/* An invalid displacement is rejected: the damper starts at the first valid one. */
 static void start(model *this, unsigned number)
 {
     place *at = &this->places[number];
@@ -197,7 +197,7 @@ void model_set_real(model *this, uint32_t variable, double value)
         if (!this->is_started) {
             start(this, (unsigned)number);
         } else if (at->state.revision != damper->revision) {
-            /* As the next step would: a state is always of its damper. */
+            /* As the next step would do it: a state always belongs to its damper. */
             damper_adopt(damper, &at->state);
         }
     }
@@ -327,7 +327,7 @@ const char *model_notice(model *this)
     return NULL;
 }
 
-/* Of a place, before the state. */
+/* Header of a damper, before its state. */
 enum { PLACE_REALS = 7, PLACE_BYTES = PLACE_REALS * 8 + DAMPER_STATE_BYTES };
 
 static uint8_t *put_reals(uint8_t *bytes, const place *at)
@@ -371,7 +371,7 @@ void model_save(const model *this, uint8_t *bytes)
     }
 }
 
-/* A damper with its clearance and its state, of bytes. */
+/* Reads a damper's clearance and state from bytes. */
 static bool restored(const damper_damper *of, damper_damper *damper, place *at, const uint8_t *bytes)
 {
     *damper = *of;
@@ -381,7 +381,7 @@ static bool restored(const damper_damper *of, damper_damper *damper, place *at, 
            && damper_restore(damper, &at->state, bytes) == DAMPER_DONE;
 }
 
-/* All are read before any is written. */
+/* All dampers are read before any is changed. */
 model_result model_restore(model *this, const uint8_t *bytes)
 {
     const uint8_t *const first = bytes + 2 * 4;

@@ -11,7 +11,7 @@ use super::named::constant_name;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
 use dashpot_export::Word;
-use dashpot_export::fmu::{Fmu, Interface, Named, archive, compile};
+use dashpot_export::fmu::{CompileError, Fmu, Interface, NamedDamper, Remedy, archive, compile};
 use dashpot_files::Scalar;
 use dashpot_files::damper;
 use dashpot_files::output::{self, write_bytes};
@@ -142,7 +142,7 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments, interface: Interface) ->
     let named = dampers.into_iter().map(|(name, parameters)| -> Outcome<_> {
         let damper: Damper<T> = parameters.build(step_s)?;
         let clearance_m = parameters.mount.clearance_m;
-        Ok(Named {
+        Ok(NamedDamper {
             name,
             damper,
             clearance_m,
@@ -167,6 +167,26 @@ pub(super) fn fmu_name(arguments: &ExportArguments, content: &str) -> String {
     }
 }
 
+/// Words a compile error and its remedies for the command line.
+fn cannot_compile(error: &CompileError) -> Failure {
+    let remedies = error.remedies().iter().map(|remedy| match remedy {
+        Remedy::OtherCompiler => "another C compiler in the variable CC",
+        Remedy::SourcesOnly => "no library for this platform with --sources-only",
+        Remedy::Fmi3 => "--fmi 3",
+        Remedy::OtherLibrary => "a library for this platform with --library FILE",
+    });
+    let remedies: Vec<&str> = remedies.collect();
+    // The messages of a compiler may span several lines.
+    let separator = match error {
+        CompileError::Failed { .. } => "\n",
+        _ => "; ",
+    };
+    Failure::new(match remedies.is_empty() {
+        true => error.to_string(),
+        false => format!("{error}{separator}allowed: {}", remedies.join(", or ")),
+    })
+}
+
 /// Compiles the FMU unless `--sources-only` is given, writes it and prints a report.
 ///
 /// # Errors
@@ -176,7 +196,7 @@ pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) ->
     let step_us = (fmu.step_s() * 1e12).round() / 1e6;
     let binary = match arguments.fmu.sources_only {
         true => None,
-        false => Some(compile(fmu).map_err(|error| Failure::new(error.to_string()))?),
+        false => Some(compile(fmu).map_err(|error| cannot_compile(&error))?),
     };
     let bytes = archive(fmu, binary.as_ref()).map_err(|error| Failure::new(error.to_string()))?;
     write_bytes(&arguments.output, &bytes)?;

@@ -76,7 +76,7 @@ fn ask_status(link: &LinkArguments, request: &Request<'_>) -> Outcome<BankStatus
             let both = status.iter().zip(&rejected_inputs).enumerate();
             let places = both.map(|(place, (word, rejected_inputs))| PlaceStatus {
                 place,
-                status: status_bits::of_word(*word),
+                status: status_bits::from_word(*word),
                 rejected_inputs: *rejected_inputs,
             });
             Some(BankStatus {
@@ -90,7 +90,7 @@ fn ask_status(link: &LinkArguments, request: &Request<'_>) -> Outcome<BankStatus
 fn print_status(out: &mut dyn Write, bank: &BankStatus) -> io::Result<()> {
     writeln!(out, " slot  rejected inputs  status")?;
     for slot in &bank.places {
-        let status = status_bits::in_words(&slot.status);
+        let status = status_bits::describe(&slot.status);
         writeln!(
             out,
             "{:>5}  {:>15}  {status}",

@@ -61,7 +61,7 @@ pub(super) fn save(save: &SaveArguments, link: &LinkArguments) -> Outcome<()> {
             Response::Saved { tick, states } => BankState::from_bytes(tick, states),
             _ => None,
         })?;
-        (report.tick, report.dampers) = (bank.tick, bank.places.len());
+        (report.tick, report.dampers) = (bank.tick, bank.slots.len());
         file.write_all(bank.to_toml()?.as_bytes())
             .map_err(|error| cannot_write(path, error))?;
         Ok(())
@@ -87,7 +87,7 @@ pub(super) fn restore(restore: &RestoreArguments, link: &LinkArguments) -> Outco
     let report = Report {
         file: input::name(path).display().to_string(),
         tick: bank.tick,
-        dampers: bank.places.len(),
+        dampers: bank.slots.len(),
     };
     link.print(&report, |out, report| {
         let (tick, file) = (report.tick, &report.file);
@@ -98,14 +98,14 @@ pub(super) fn restore(restore: &RestoreArguments, link: &LinkArguments) -> Outco
 
 /// Checks that the states belong to dampers of these revisions.
 fn check(bank: &BankState, revisions: &[u32]) -> Result<(), String> {
-    if bank.places.len() != revisions.len() {
+    if bank.slots.len() != revisions.len() {
         return Err(format!(
             "{}, but the target has {}; allowed: one state per slot",
-            counted(bank.places.len() as u64, "state"),
+            counted(bank.slots.len() as u64, "state"),
             counted(revisions.len() as u64, "slot")
         ));
     }
-    let pairs = bank.places.iter().zip(revisions).enumerate();
+    let pairs = bank.slots.iter().zip(revisions).enumerate();
     let others: Vec<String> = pairs
         .filter(|(_, (state, revision))| state.revision != **revision)
         .map(|(place, (state, revision))| {

@@ -50,7 +50,7 @@ impl PlaceSample {
             tick: sample.tick,
             displacement_m: sample.displacement_m,
             force_n: sample.force_n,
-            status: status_bits::of_word(sample.status),
+            status: status_bits::from_word(sample.status),
         }
     }
 
@@ -61,7 +61,7 @@ impl PlaceSample {
 
     /// Prints the sample as one line.
     pub(super) fn print(&self, out: &mut dyn Write) -> io::Result<()> {
-        let status = status_bits::in_words(&self.status);
+        let status = status_bits::describe(&self.status);
         writeln!(
             out,
             "{:>5}  {:>10}  {:>14.6}  {:>10.1}  {status}",

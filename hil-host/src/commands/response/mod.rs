@@ -12,7 +12,7 @@ use report::Report;
 
 use super::{DamperArguments, Format, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_files::harmonic::HIGHEST_FREQUENCY_HZ;
+use dashpot_files::harmonic::MAX_FREQUENCY_HZ;
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::{cannot_write, write_whole_if};
 use dashpot_testbench::response::frequencies;
@@ -144,11 +144,11 @@ impl ResponseArguments {
 
     fn frequencies_hz(&self) -> Outcome<Vec<f64>> {
         let Self { from_hz, to_hz, .. } = *self;
-        let is_within = |hz: f64| hz > 0.0 && hz <= HIGHEST_FREQUENCY_HZ;
+        let is_within = |hz: f64| hz > 0.0 && hz <= MAX_FREQUENCY_HZ;
         for (option, hz) in [("--from-hz", from_hz), ("--to-hz", to_hz)] {
             if !is_within(hz) {
                 return Err(Failure::wrong_use(format!(
-                    "{option}: {hz}, allowed: above 0 and at most {HIGHEST_FREQUENCY_HZ} Hz"
+                    "{option}: {hz}, allowed: above 0 and at most {MAX_FREQUENCY_HZ} Hz"
                 )));
             }
         }

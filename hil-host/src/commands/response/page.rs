@@ -5,7 +5,7 @@ use plotters::style::RGBColor;
 
 use super::report::{Kind, Report, Series, formatted};
 use crate::commands::failure::Outcome;
-use dashpot_files::study::shown;
+use dashpot_files::study::format_number;
 use dashpot_report::DrawError;
 use dashpot_report::page::{Figure, document, figure, footer};
 use dashpot_report::plot::curves::{Curve, ramp};
@@ -37,7 +37,7 @@ pub(super) fn write(report: &Report) -> Outcome<String> {
                 let belongs =
                     |series: &&Series| series.amplitude_m.is_none_or(|other| other == amplitude_m);
                 let chosen: Vec<&Series> = report.series.iter().filter(belongs).collect();
-                let title = format!("Amplitude {} mm", shown(amplitude_m * 1e3));
+                let title = format!("Amplitude {} mm", format_number(amplitude_m * 1e3));
                 figures.push((title, part(report, &chosen)?));
             }
         }

@@ -8,7 +8,7 @@ use super::ResponseArguments;
 use super::family::Member;
 use crate::commands::failure::Outcome;
 use dashpot_files::output;
-use dashpot_files::study::shown;
+use dashpot_files::study::format_number;
 use dashpot_testbench::response::{Response, at_amplitude, linearised};
 use dashpot_testbench::swept_sine::{self, WINDOW, WINDOW_CYCLES};
 
@@ -114,7 +114,7 @@ impl Series {
     /// Returns the label of a curve.
     pub(super) fn name(&self) -> String {
         let amplitude = match self.amplitude_m {
-            Some(amplitude_m) => format!("{} mm", shown(amplitude_m * 1e3)),
+            Some(amplitude_m) => format!("{} mm", format_number(amplitude_m * 1e3)),
             None => self.response.name().to_owned(),
         };
         match self.value {
@@ -127,7 +127,7 @@ impl Series {
 /// Formats a parameter value, in scientific notation if it is very large or small.
 pub(super) fn formatted(value: f64) -> String {
     match value.abs() {
-        1e-2..1e4 | 0.0 => shown(value),
+        1e-2..1e4 | 0.0 => format_number(value),
         _ => format!("{value:e}"),
     }
 }

@@ -1,7 +1,7 @@
 //! Options that define a case.
 
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_files::case::{CASES, Case, CaseParts};
+use dashpot_files::case::{CASES, Case, CaseNumbers, CaseParts};
 use dashpot_files::track::TRACKS;
 use dashpot_files::vehicle::{Replacement, VEHICLES};
 use dashpot_vehicle_run::VehicleRunError;
@@ -77,15 +77,15 @@ impl CaseArguments {
             case: self.case.as_deref(),
             vehicle: self.vehicle.as_deref(),
             track: self.track.as_deref(),
-            numbers: [
-                self.speed_km_h,
-                self.duration_s,
-                self.start_m,
-                self.friction,
-                self.normal_damping_s_per_m,
-                self.step_us,
-                self.push_m,
-            ],
+            numbers: CaseNumbers {
+                speed_km_h: self.speed_km_h,
+                duration_s: self.duration_s,
+                start_m: self.start_m,
+                friction: self.friction,
+                normal_damping_s_per_m: self.normal_damping_s_per_m,
+                step_us: self.step_us,
+                push_m: self.push_m,
+            },
         };
         let Some(mut options) = parts.options()? else {
             return Err(Failure::wrong_use(format!(

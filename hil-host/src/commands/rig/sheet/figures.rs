@@ -4,7 +4,7 @@ use plotters::style::RGBColor;
 
 use dashpot_files::harmonic::Harmonic;
 use dashpot_files::sheet::Index;
-use dashpot_files::study::shown;
+use dashpot_files::study::format_number;
 use dashpot_report::page::{Figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::loops;
@@ -68,7 +68,7 @@ pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
                     let (velocity, force) = at(tested, index);
                     // Without a limit on one side, the bar ends at the point.
                     let end = |end: Option<f64>| end.map_or(force, |end| end * 1e-3);
-                    (velocity, end(limit.least), end(limit.most))
+                    (velocity, end(limit.min), end(limit.max))
                 })
             })
             .collect();
@@ -117,8 +117,8 @@ pub(super) fn over_temperature(tested: &[Tested<'_>]) -> Option<Figure> {
             let points: Vec<(f64, f64)> = points.collect();
             let motion = format!(
                 "±{} mm, {} m/s",
-                shown(motion.amplitude_m * 1e3),
-                shown((motion.peak_velocity_m_per_s() * 1e4).round() * 1e-4)
+                format_number(motion.amplitude_m * 1e3),
+                format_number((motion.peak_velocity_m_per_s() * 1e4).round() * 1e-4)
             );
             [
                 Curve::new(motion, colour, points.clone()),

@@ -107,7 +107,7 @@ fn limits(report: &Report) -> Markup {
                     tr class=[(!limit.kept).then_some("over")] {
                         td { (test.name) }
                         td.text { (limit.index.name()) }
-                        td { (limit.index.told_in().0) }
+                        td { (limit.index.display_unit().symbol) }
                         td { b { (minus(&limit.formatted())) } }
                         td { (minus(&limit.allowed())) }
                         td.text { (limit.clause.as_deref().unwrap_or("")) }
@@ -151,7 +151,7 @@ fn tests(tests: &[TestReport]) -> Markup {
                 thead {
                     tr {
                         th { "test" }
-                        @for index in Index::ALL { th { (index.name()) ", " (index.told_in().0) } }
+                        @for index in Index::ALL { th { (index.name()) ", " (index.display_unit().symbol) } }
                     }
                 }
                 @for test in tests {

@@ -10,7 +10,7 @@ use crate::commands::rig::RigArguments;
 use dashpot_files::output;
 use dashpot_files::sheet::Index;
 use dashpot_files::sheet::{Limit, SheetParameters};
-use dashpot_files::study::shown;
+use dashpot_files::study::format_number;
 use dashpot_testbench::bench_sheet::Tested;
 
 /// A header field.
@@ -65,8 +65,8 @@ impl Limited {
         Self {
             index: limit.index,
             value,
-            least: limit.least,
-            most: limit.most,
+            least: limit.min,
+            most: limit.max,
             clause: limit.clause.clone(),
             kept: limit.is_kept(value),
         }
@@ -74,7 +74,7 @@ impl Limited {
 
     /// Formats the allowed range in the unit of the index.
     pub(super) fn allowed(&self) -> String {
-        let end = |end: f64| shown(end / self.index.told_in().1);
+        let end = |end: f64| format_number(end / self.index.display_unit().size);
         match (self.least, self.most) {
             (Some(least), Some(most)) => format!("{} to {}", end(least), end(most)),
             (Some(least), None) => format!("at least {}", end(least)),
@@ -91,7 +91,7 @@ impl Limited {
 /// Formats a value with four digits in the display unit of its index.
 pub(super) fn value_of(index: Index, value: Option<f64>) -> String {
     value.map_or("none".into(), |value| {
-        let value = value / index.told_in().1;
+        let value = value / index.display_unit().size;
         let magnitude = value.abs().max(1e-9).log10().floor();
         let digits = (3.0 - magnitude).clamp(0.0, 4.0) as usize;
         format!("{value:.digits$}")
@@ -106,13 +106,13 @@ impl Limited {
             return text;
         };
         let read: f64 = text.parse().unwrap_or(value);
-        let rounded = Some(read * self.index.told_in().1);
+        let rounded = Some(read * self.index.display_unit().size);
         let looks_kept = self.least.is_none_or(|least| rounded >= Some(least))
             && self.most.is_none_or(|most| rounded <= Some(most));
         if looks_kept == self.kept {
             return text;
         }
-        shown(value / self.index.told_in().1)
+        format_number(value / self.index.display_unit().size)
     }
 }
 
@@ -159,9 +159,9 @@ impl Report {
         };
         let tests: Vec<TestReport> = tested.iter().map(test).collect();
         let limits = || tests.iter().flat_map(|test| &test.limits);
-        let field = |(name, text): &(String, String)| Field {
-            name: name.clone(),
-            text: text.clone(),
+        let field = |field: &dashpot_files::sheet::Field| Field {
+            name: field.name.clone(),
+            text: field.text.clone(),
         };
         Self {
             title: sheet.title.clone(),
@@ -198,7 +198,7 @@ impl Report {
         for test in &report.tests {
             writeln!(out, "\n{}: {}", test.name, test.motion())?;
             for (index, value) in &test.indices {
-                let (unit, _) = index.told_in();
+                let unit = index.display_unit().symbol;
                 let mut limits = test.limits.iter().filter(|limit| limit.index == *index);
                 write!(out, "  {:<38}{unit:<8}", index.name())?;
                 match limits.next() {

@@ -5,7 +5,7 @@ use plotters::style::RGBColor;
 
 use super::{Drawn, HEIGHT};
 use crate::commands::failure::Outcome;
-use dashpot_files::study::{Axis, Sweep, Value, shown};
+use dashpot_files::study::{Axis, Sweep, Value, format_number};
 use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::sheet::Panel;
@@ -163,7 +163,7 @@ fn at_others(sweep: &Sweep, other: u64) -> String {
 /// Formats a value in the unit of the figure.
 fn in_unit(axis: &Axis, value: &Value) -> String {
     match value {
-        Value::Number(number) => shown(number * axis.factor),
+        Value::Number(number) => format_number(number * axis.factor),
         Value::Word(word) => word.clone(),
     }
 }

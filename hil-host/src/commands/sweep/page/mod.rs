@@ -10,8 +10,8 @@ use maud::{Markup, html};
 use super::report::Report;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::progress;
-use dashpot_files::nearest;
-use dashpot_files::study::{Figure, Shown, Sweep};
+use dashpot_files::did_you_mean;
+use dashpot_files::study::{Figure, FigureContent, Sweep};
 use dashpot_report::page::{document, footer, tiles};
 use dashpot_study::sweep::rows::Rows;
 use dashpot_study::sweep::{Observed, RunError, Shared, Study, VERSION};
@@ -33,19 +33,19 @@ struct Drawn<'a> {
 pub(super) fn check(study: &Study) -> Outcome<()> {
     let shared = Shared::default();
     for figure in &study.parameters.figures {
-        for name in figure.shown.sweeps() {
+        for name in figure.content.sweeps() {
             let Some(sweep) = study.parameters.sweep(name) else {
                 continue;
             };
-            let names = match &figure.shown {
-                Shown::Indices { .. } => continue,
-                Shown::Dampers { dampers, .. } => dampers::signals(dampers),
-                Shown::Signal { signal, .. } => vec![signal.clone()],
-                Shown::Response { damper, .. } => {
+            let names = match &figure.content {
+                FigureContent::Indices { .. } => continue,
+                FigureContent::Dampers { dampers, .. } => dampers::signals(dampers),
+                FigureContent::Signal { signal, .. } => vec![signal.clone()],
+                FigureContent::Response { damper, .. } => {
                     let case = study.case_with(sweep, None, None)?;
                     if case.damper(damper).is_none() {
                         let names = case.vehicle.dampers().map(|element| element.name.as_str());
-                        let hint = nearest(damper, names);
+                        let hint = did_you_mean(damper, names);
                         return Err(Failure::new(format!(
                             "figure of sweep {name}: no damper `{damper}`{hint}"
                         )));
@@ -114,8 +114,8 @@ impl Drawn<'_> {
             sweep.ok_or_else(|| Failure::new(format!("no sweep `{name}`")))
         };
         let caption = &figure.caption;
-        match &figure.shown {
-            Shown::Indices {
+        match &figure.content {
+            FigureContent::Indices {
                 sweeps,
                 observed,
                 factors,
@@ -130,16 +130,16 @@ impl Drawn<'_> {
                 let observed: Vec<_> = observed.iter().enumerate().filter_map(index).collect();
                 indices::part(self, &sweeps?, &observed, caption)
             }
-            Shown::Dampers {
+            FigureContent::Dampers {
                 sweep: name,
                 dampers,
             } => dampers::part(self, sweep(name)?, dampers, caption),
-            Shown::Signal {
+            FigureContent::Signal {
                 sweep: name,
                 values,
                 signal,
             } => signal::part(self, sweep(name)?, values, signal, caption),
-            Shown::Response {
+            FigureContent::Response {
                 sweep: name,
                 values,
                 damper,

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::{Drawn, HEIGHT, failed};
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_files::study::{Sweep, Value, shown};
+use dashpot_files::study::{Sweep, Value, format_number};
 use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::envelope::thinned;
@@ -108,7 +108,7 @@ fn in_words(signal: &str) -> String {
 pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
     match (value, sweep.axes.first()) {
         (Value::Number(number), Some(axis)) => {
-            let scaled = shown(number * axis.factor);
+            let scaled = format_number(number * axis.factor);
             let (what, unit) = axis.label.rsplit_once(", ").unwrap_or((&axis.label, ""));
             let symbol = what.rsplit(' ').next().unwrap_or(what);
             format!("{symbol} = {scaled} {unit}").trim_end().to_owned()
