@@ -213,7 +213,7 @@ fn errors_say_what_where_and_what_is_allowed() {
         (
             &["--set", "mass_kg=3"],
             2,
-            "--set mass_kg=3: one part and one key; expected part.key=value",
+            "--set mass_kg=3: not one part and one key; expected part.key=value",
         ),
         (
             &["--speed-km-h", "0"],
