@@ -37,7 +37,7 @@ impl Model {
         let tables = contact.tables_in(resources);
         let vehicle = tables.and_then(|tables| Coupled::new(&case, tables));
         let vehicle = vehicle.map_err(|error| error.to_string())?;
-        let saved = vehicle.saved().map_err(|error| error.to_string())?;
+        let saved = vehicle.save().map_err(|error| error.to_string())?;
         Ok(Self {
             saved_bytes: size_of::<u64>() + 2 * saved.len(),
             vehicle,
@@ -59,13 +59,13 @@ impl Model {
     }
 
     pub fn number(&self, variable: u32) -> Option<f64> {
-        self.vehicle.number(Self::place(variable)?)
+        self.vehicle.value(Self::place(variable)?)
     }
 
     /// Behind the last number there is how it ended.
     pub fn integer(&self, variable: u32) -> Option<i32> {
         let is_ending = Self::place(variable)? == self.vehicle.variables().len();
-        is_ending.then(|| self.vehicle.ending_number())
+        is_ending.then(|| self.vehicle.ending_code())
     }
 
     pub fn check(&self, variable: u32, value: f64) -> ModelResult {
@@ -113,7 +113,7 @@ impl Model {
 
     /// How many bytes follow, then those, into zeros. Left as they are where there is no room, which is no state.
     pub fn save(&self, to: &mut [u8]) {
-        let saved = self.vehicle.saved().unwrap_or_default();
+        let saved = self.vehicle.save().unwrap_or_default();
         if let Some((count, content)) = to.split_first_chunk_mut()
             && let Some(content) = content.get_mut(..saved.len())
         {

@@ -12,7 +12,7 @@ use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::NORMAL_DAMPING_S_PER_M;
 use dashpot_files::vehicle::{self, VehicleFileError};
-use dashpot_vehicle_run::contact::ContactOf;
+use dashpot_vehicle_run::contact::ContactSetup;
 use dashpot_vehicle_run::{VehicleRunError, contact, hunting};
 
 /// Axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping, and what moves.
@@ -153,10 +153,10 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
 /// The contact itself, without tables.
 fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Contact> {
     let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
-    let of = ContactOf::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
-    let geometry = of
+    let setup = ContactSetup::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
+    let geometry = setup
         .map_err(VehicleRunError::from)
-        .and_then(|of| of.geometry());
+        .and_then(|setup| setup.geometry());
     let geometry = geometry.map_err(refused)?;
     WheelsetContact::new(
         Arc::new(geometry),
@@ -177,9 +177,7 @@ fn limit_cycle(
     let contact = contact::tabulated(vehicle, friction, NORMAL_DAMPING_S_PER_M).map_err(refused)?;
     let greatest = 1.02 * critical_km_h.unwrap_or(GREATEST_KM_H) / 3.6;
     let hunting = hunting::Hunting::new(vehicle, contact).map_err(refused)?;
-    hunting
-        .critical([0.1 * greatest, greatest])
-        .map_err(refused)
+    hunting.critical(0.1 * greatest..=greatest).map_err(refused)
 }
 
 fn modes_at(

@@ -1,4 +1,4 @@
-//! `dashpot export --lang c` from outside: source and header, compiled for real.
+//! `dashpot export --lang c` as a command: source and header are compiled and run.
 
 use std::path::Path;
 use std::process::Command;
@@ -14,7 +14,7 @@ fn export(more: &[&str], folder: &Path) -> Assert {
     dashpot(&[&EXPORT[..], more].concat(), folder)
 }
 
-/// Warnings as errors, for the oldest languages that the files are for and for newer ones.
+/// Compilers with warnings as errors, for the oldest supported language versions and newer ones.
 const COMPILERS: [(xtask::tools::Tool, [&str; 2]); 4] = [
     (xtask::tools::GCC, ["-xc", "-std=c99"]),
     (xtask::tools::GCC, ["-xc", "-std=c11"]),
@@ -96,7 +96,7 @@ fn the_report_names_the_header() {
 }
 
 #[test]
-fn source_and_header_are_both_written_or_none() {
+fn source_and_header_are_both_written_or_neither() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     std::fs::write(folder.join("x.c"), "kept").unwrap();

@@ -1,4 +1,4 @@
-//! `dashpot response` from outside.
+//! `dashpot response` as a command.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ fn response(arguments: &[&str], folder: &Path) -> Assert {
     dashpot(&[&["response"], arguments].concat(), folder)
 }
 
-/// A row of CSV by its columns.
+/// Row of a CSV file by column name.
 fn rows(text: &str) -> Vec<std::collections::HashMap<String, String>> {
     csv::Reader::from_reader(text.as_bytes())
         .deserialize()
@@ -70,7 +70,7 @@ fn every_value_is_in_the_file_and_in_json() {
         for (key, value) in told.as_object().unwrap() {
             let (cell, value) = (row[key].parse::<f64>().ok(), value.as_f64());
             assert_eq!(cell.is_some(), value.is_some(), "{key}");
-            // The reader of JSON may round its last digit.
+            // The JSON reader may round the last digit.
             let difference = (cell.unwrap_or(0.0) - value.unwrap_or(0.0)).abs();
             assert!(difference <= 1e-15 * cell.unwrap_or(0.0).abs(), "{key}");
         }
@@ -97,7 +97,7 @@ fn every_value_is_in_the_file_and_in_json() {
     assert!(page.contains("Swept beside harmonic") && page.contains("loss angle, °"));
 }
 
-/// The two commands of the help have the dampers of the study `paper`, at the amplitudes of its figures.
+/// The two commands in the help use the dampers of the study `paper`, at the amplitudes of its figures.
 #[test]
 fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
     let folder = tempfile::tempdir().unwrap();
@@ -156,7 +156,7 @@ fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
 }
 
 #[test]
-fn text_tells_each_amplitude_and_what_has_no_force() {
+fn text_lists_each_amplitude_and_those_without_force() {
     let options = [
         "--damper",
         "reduced-vertical",
@@ -172,7 +172,7 @@ fn text_tells_each_amplitude_and_what_has_no_force() {
             .find(|line| line.trim_start().starts_with(start));
         found.unwrap_or_else(|| panic!("{start} in {text}"))
     };
-    // Within its clearance of 1 mm.
+    // An amplitude within the clearance of 1 mm.
     assert!(line("0.5 mm").contains(" - "), "{text}");
     assert!(
         line("2 mm").contains("deg") && line("linearised").contains("deg"),
@@ -181,7 +181,7 @@ fn text_tells_each_amplitude_and_what_has_no_force() {
 }
 
 #[test]
-fn data_on_standard_output_has_its_report_beside() {
+fn data_on_standard_output_moves_the_report_to_standard_error() {
     let folder = tempfile::tempdir().unwrap();
     let options = [
         "--points",
@@ -199,7 +199,7 @@ fn data_on_standard_output_has_its_report_beside() {
 }
 
 #[test]
-fn wrong_options_are_told_and_leave_no_file() {
+fn wrong_options_are_reported_and_leave_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let files = ["--output", "out.csv", "--page", "page.html"];
     for (options, part) in [
@@ -251,7 +251,7 @@ fn wrong_options_are_told_and_leave_no_file() {
     response(&["--output", "a", "--page", "a"], folder.path())
         .code(2)
         .stderr(contains("--output and --page: both are a"));
-    // Found only when it is run: nothing is half-written.
+    // The error occurs while running: no partial file is left.
     let slow = [
         "--damper",
         "reduced-vertical",

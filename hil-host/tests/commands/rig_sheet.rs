@@ -1,4 +1,4 @@
-//! `dashpot rig --sheet` from outside: values, verdicts, the page, and files that are refused.
+//! `dashpot rig --sheet` as a command: values, verdicts, the page, and rejected files.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use predicates::str::{contains, starts_with};
 
 use crate::common::{dashpot, dashpot_reading, files_in, json_beside, json_of, text_of};
 
-/// Two motions, with limits that the test fills in.
+/// Two motions, with limits filled in by each test.
 const SHEET: &str = "title = \"Damper <7>\"
 
 [[field]]
@@ -79,7 +79,7 @@ fn a_test_of_a_sheet_is_the_bench_test() {
 }
 
 #[test]
-fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
+fn a_violated_limit_exits_with_1_and_the_sheet_is_written() {
     let folder = with_sheet("20e3");
     let options = ["--sheet", "sheet.toml", "--page", "page.html"];
     let ended = rig(&options, folder.path())
@@ -106,17 +106,17 @@ fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    // One temperature is none to draw over.
+    // With one temperature there is no curve over temperature.
     assert!(!page.contains("Forces over temperature"));
 }
 
-/// A value that is outside by less than is told has digits until it shows.
+/// A value outside its limit by less than the usual rounding is printed with enough digits to show it.
 #[test]
-fn a_value_just_outside_does_not_look_like_its_limit() {
+fn a_value_just_outside_differs_from_its_limit() {
     let folder = with_sheet("1e3");
     let alone = json_of(&rig(&["--format", "json"], folder.path()).success());
     let force = alone["max_extension_force_n"].as_f64().unwrap();
-    // The least that rounds to what would be told.
+    // Smallest value that the usual rounding would print as the limit.
     let least = (force / 10.0).ceil() * 10.0;
     assert!(least > force && least < force + 10.0);
     let folder = with_sheet(&format!("{:.3}", force + 0.4));
@@ -128,7 +128,7 @@ fn a_value_just_outside_does_not_look_like_its_limit() {
 }
 
 #[test]
-fn the_shipped_sheet_tells_temperatures_and_speeds() {
+fn the_shipped_sheet_lists_temperatures_and_speeds() {
     let folder = tempfile::tempdir().unwrap();
     let options = [
         "--damper",
@@ -147,7 +147,7 @@ fn the_shipped_sheet_tells_temperatures_and_speeds() {
         let test = tests.iter().find(|test| test["name"] == name).unwrap();
         test["indices"]["max_extension_force_n"].as_f64().unwrap()
     };
-    // Cold oil is denser and thicker.
+    // Cold oil is denser and more viscous.
     assert!(force("0.1 m/s, cold") > force("0.1 m/s"));
     assert!(force("0.1 m/s") > force("0.1 m/s, warm"));
     assert!(force("0.2 m/s") > force("0.1 m/s"));
@@ -169,7 +169,7 @@ fn a_sheet_comes_through_standard_input() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place_and_leaves_no_page() {
+fn errors_are_reported_with_their_location_and_leave_no_page() {
     let folder = with_sheet("1e3");
     let page = ["--page", "page.html"];
     let sheet = |text: &str| fs::write(folder.path().join("sheet.toml"), text).unwrap();

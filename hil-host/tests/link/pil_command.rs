@@ -1,4 +1,4 @@
-//! `dashpot pil` against a target on the desk behind a TCP port: its files and its refusals.
+//! `dashpot pil` against a simulated target behind a TCP port: output files and errors.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use predicates::str::contains;
 use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
 use crate::pil_common::{altered, desk, serve_tcp};
 
-/// Half a second to and fro with a gap at the end: 601 ticks.
+/// Half a second of motion forth and back with a gap at the end: 601 ticks.
 const TICKS: usize = 601;
 
 fn recording(folder: &Path) {
@@ -30,7 +30,7 @@ fn pil_with(
 ) -> Assert {
     recording(folder);
     let link = format!("tcp:{}", serve_tcp(target));
-    // On a busy machine an answer may take long; it always comes.
+    // On a busy machine an answer may be slow, but it always arrives.
     let wait = ["--timeout-ms", "60000"];
     let arguments = [
         &["pil", "--link", &link, "--input", "in.csv"],
@@ -92,14 +92,14 @@ fn the_output_has_a_row_for_each_tick() {
         assert!((time_s - (2.0 + index as f64 * 1e-3)).abs() < 1e-9);
         for place in 0..3 {
             let columns = &row[2 + 4 * place..];
-            // Place i is i ticks behind.
+            // Slot i is i ticks behind.
             assert_eq!(columns[0], rows[index.saturating_sub(place)][2]);
             assert_eq!(columns[1], columns[2]);
         }
         assert!(row[15].parse::<u64>().unwrap() > 0);
         assert_eq!(row[16], "");
     }
-    // Dampers of their own.
+    // Different dampers.
     assert!(
         rows.iter()
             .any(|row| row[3] != "0.0" && row[7] != row[3] && row[11] != row[7])
@@ -109,7 +109,7 @@ fn the_output_has_a_row_for_each_tick() {
 #[test]
 fn events_are_named_in_their_rows() {
     let folder = tempfile::tempdir().unwrap();
-    // The one fault that lets nobody wait.
+    // The only fault that does not involve a timeout.
     let faults = ["--faults", "duplicate=0.05"];
     let output = pil(
         &[&faults[..], &["--output", "-", "--format", "json"]].concat(),
@@ -126,7 +126,7 @@ fn events_are_named_in_their_rows() {
 }
 
 #[test]
-fn the_page_shows_each_place_and_the_results() {
+fn the_page_shows_each_slot_and_the_results() {
     let folder = tempfile::tempdir().unwrap();
     let options = [&THREE[..], &["--page", "run.html", "--format", "json"]].concat();
     let output = pil(&options, folder.path()).success();
@@ -144,7 +144,7 @@ fn the_page_shows_each_place_and_the_results() {
     {
         assert!(page.contains(&format!("<h3>Place {place}: {damper}</h3>")));
     }
-    // Forces of three places, clock ticks how often and over time, and round trip.
+    // Forces of three slots, clock ticks as a histogram and over time, and round trip times.
     assert_eq!(page.matches("class=\"plot\"").count(), 6);
     assert_eq!(page.matches("Every force has the host's bits.").count(), 3);
     assert!(!page.contains("Marks on the time axes"));
@@ -205,7 +205,7 @@ fn a_force_that_differs_fails_the_command_and_is_shown() {
 }
 
 #[test]
-fn another_number_of_dampers_than_places_is_wrong_use() {
+fn a_wrong_number_of_dampers_is_wrong_use() {
     let folder = tempfile::tempdir().unwrap();
     let files = ["--output", "out.csv", "--page", "run.html"];
     pil(&[&THREE[..4], &files].concat(), folder.path())
@@ -217,7 +217,7 @@ fn another_number_of_dampers_than_places_is_wrong_use() {
 }
 
 #[test]
-fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
+fn impossible_files_are_refused_before_the_target_is_contacted() {
     for (options, code, part) in [
         (
             &["--page", "none/run.html"][..],
@@ -262,7 +262,7 @@ fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
     ] {
         let folder = tempfile::tempdir().unwrap();
         recording(folder.path());
-        // Nobody listens at this port.
+        // No process listens on this port.
         let command = ["pil", "--link", "tcp:localhost:1", "--input", "in.csv"];
         dashpot(&[&command[..], options].concat(), folder.path())
             .code(code)

@@ -1,12 +1,13 @@
-//! Pages as wide as a phone and as a desk: nothing is too wide, too small or empty, and nothing is asked of a network.
+//! Pages at the width of a phone and of a desktop: nothing is too wide, too small or empty, and nothing is requested
+//! from a network.
 
 use serde_json::Value;
 
 use crate::browser::Browser;
 use crate::shown::all;
 
-/// The page's width, the smallest text, and of each plot: its right edge, its canvas's width, and for each curve how many pixels
-/// have its colour.
+/// Width of the page, smallest text, and for each plot: its right edge, the width of its canvas, and the number of
+/// pixels in the colour of each curve.
 const MEASURE: &str = r#"
     const size = element => parseFloat(getComputedStyle(element).fontSize);
     const text = [...document.querySelectorAll("p, td, th, figcaption, span, footer, .head li")].map(size);
@@ -56,7 +57,7 @@ fn check((name, page, plots, label): (&str, &str, usize, &str), width: u32) {
     assert_eq!(drawn.len(), plots, "{told}");
     for plot in drawn {
         assert!(number(&plot["right"]) <= f64::from(width), "{told}: {plot}");
-        // On a desk up to three stand side by side.
+        // On a desktop, up to three plots are side by side.
         let least = 300.0;
         assert!(
             number(&plot["width"]) >= least && number(&plot["height"]) >= 200.0,

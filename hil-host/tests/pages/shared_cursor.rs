@@ -1,4 +1,4 @@
-//! Under the mouse a plot tells its values, and so does each plot that shares its cursor.
+//! Under the mouse, a plot shows its values, and so does each plot that shares its cursor.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::browser::Browser;
 use crate::shown::VEHICLE;
 
-/// What each plot tells: where the cursor is, its values, and whether its line is seen.
+/// Readout of each plot: cursor position, values, and whether the cursor line is visible.
 const TOLD: &str = "return [...document.querySelectorAll('.panel')].map(panel => {
     const plot = panel.querySelector('.plot').getBoundingClientRect();
     const line = panel.querySelector('.u-cursor-x')?.getBoundingClientRect();
@@ -19,7 +19,7 @@ const TOLD: &str = "return [...document.querySelectorAll('.panel')].map(panel =>
     };
 });";
 
-/// The abscissas (0) or ordinates (1) of a curve of a plot.
+/// Abscissas (0) or ordinates (1) of a curve of a plot.
 fn column(plot: &Value, curve: &Value, number: usize) -> Vec<f32> {
     let place = curve["columns"][number].as_u64().unwrap() as usize;
     let bytes = BASE64_STANDARD.decode(plot["columns"][place].as_str().unwrap());
@@ -30,12 +30,12 @@ fn column(plot: &Value, curve: &Value, number: usize) -> Vec<f32> {
         .collect()
 }
 
-/// A number as the page writes it.
+/// Formats a number like the page.
 fn number(text: &str) -> f32 {
     text.replace('−', "-").parse().unwrap()
 }
 
-/// The value of a curve at its abscissa nearest to `x`.
+/// Value of a curve at its abscissa nearest to `x`.
 fn value_at(plot: &Value, curve: &Value, x: f32) -> f32 {
     let samples = column(plot, curve, 0)
         .into_iter()
@@ -75,7 +75,7 @@ fn check(width: u32) {
         let range = &panel["data"]["y"]["range"];
         let apart = (range[1].as_f64().unwrap() - range[0].as_f64().unwrap()) as f32;
         for (curve, told) in curves.iter().zip(values) {
-            // The time is told to the millisecond: the neighbouring samples are as good.
+            // The time is shown to the millisecond, so neighbouring samples are acceptable too.
             let near =
                 [time - 1e-3, time, time + 1e-3].map(|time| value_at(&panel["data"], curve, time));
             let told = number(told.as_str().unwrap());
@@ -88,7 +88,7 @@ fn check(width: u32) {
         }
     }
     assert!(histories == 8 && loops > 3, "{histories} {loops}");
-    // Away from the plots nothing is told.
+    // With the mouse outside the plots, no values are shown.
     browser.leave();
     browser.wait_for(
         "[...document.querySelectorAll('.at, .value')].every(told => told.textContent === '')",

@@ -1,4 +1,4 @@
-//! An environment with numpy alone, an empty folder, and the examples.
+//! The examples in an environment with only numpy, in an empty folder.
 
 use crate::installed::{alone, package, run, unpacked};
 use xtask::python::have_packages;

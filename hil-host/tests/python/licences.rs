@@ -1,4 +1,4 @@
-//! What may be done with the package is told in it.
+//! The package contains its licences.
 
 use std::fs::{File, read_to_string};
 use std::io::Read;
@@ -44,7 +44,7 @@ fn the_wheel_has_the_licences_of_the_repository() {
             "{metadata}"
         );
     }
-    // What others ask to be kept with their texts is told where those are: none of them is in the package.
+    // Licences of third-party texts are kept with those texts; none of them is in the package.
     let library = bytes("dashpot/_dashpot.");
     for other in ["uPlot", "Modelica Association"] {
         let is_other = |window: &[u8]| window == other.as_bytes();

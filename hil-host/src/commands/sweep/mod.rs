@@ -125,7 +125,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
     let shard = match (arguments.shard, arguments.shards) {
-        (Some(number), Some(of)) if number < of => Some(Shard { number, of }),
+        (Some(number), Some(of)) if number < of => Some(Shard { number, count: of }),
         (Some(number), Some(of)) => {
             return Err(Failure::wrong_use(format!(
                 "--shard {number}, allowed: 0 to {} with --shards {of}",
@@ -145,7 +145,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let folder = arguments.study.folder(arguments.output.as_ref());
     create_folder(&folder)?;
     let name = match shard {
-        Some(Shard { number, of }) => format!("rows-{number}-of-{of}.csv"),
+        Some(Shard { number, count: of }) => format!("rows-{number}-of-{of}.csv"),
         None => "rows.csv".into(),
     };
     let path = folder.join(name);
@@ -168,7 +168,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let took = started.elapsed();
     // Rows of files before and after a change would not be told apart.
     if !study.is_unchanged().unwrap_or(false) {
-        journal.take_away(&study, &missing)?;
+        journal.remove(&study, &missing)?;
         return Err(Failure::new(format!(
             "{}: the study's files were changed while it ran; the rows of this run are not kept",
             study.parameters.file

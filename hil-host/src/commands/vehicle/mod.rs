@@ -31,7 +31,7 @@ use dashpot_realtime::pacing::{Pacer, PacingReport};
 use dashpot_recording::columns;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
-    Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals,
+    Ending, Indexer, RideError, Run, TickRecord, ValidityWatch, check_ride, signals,
 };
 
 /// A vehicle on a track: time histories, indices and a page.
@@ -172,8 +172,8 @@ fn note_missing_ride(case: &Case) {
         return;
     };
     let way_on = match reason {
-        NoRide::Short { .. } => "--duration-s makes it longer",
-        NoRide::Step { .. } => "--step-us sets another step",
+        RideError::Short { .. } => "--duration-s makes it longer",
+        RideError::Step { .. } => "--step-us sets another step",
     };
     let note = format!(
         "note: {reason}; the report will have no Sperling's index and no mean comfort; {way_on}\n"
@@ -234,7 +234,7 @@ fn follow(
                     ticks += 1;
                     let time_s = super::nearest_nanosecond(record.time_s);
                     row.clear();
-                    row.extend(all.iter().map(|signal| signal.of(record, time_s)));
+                    row.extend(all.iter().map(|signal| signal.value(record, time_s)));
                     written = rows.serialize(&row);
                     history.add(&row);
                     indexer.add(record);

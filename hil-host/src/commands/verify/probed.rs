@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use dashpot_reference::probing::{MIN_RMS_FORCE_RATIO, LargestErrors, PROMISED_FACTOR, Worst};
+use dashpot_reference::probing::{LargestErrors, MIN_RMS_FORCE_RATIO, PROMISED_FACTOR, Worst};
 use serde::Serialize;
 
 use super::VerifyArguments;
