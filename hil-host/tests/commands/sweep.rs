@@ -509,7 +509,7 @@ fn errors_are_reported_before_anything_runs() {
         (
             "track = \"straight\"",
             "track = \"ideal\"",
-            "sweep clearance: seeds, but the track",
+            "sweep clearance: seeds are given, but track",
         ),
         (
             "sweeps = [\"clearance\"",
