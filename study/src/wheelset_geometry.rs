@@ -47,8 +47,8 @@ impl From<Jump> for ForceJump {
 }
 
 impl ForceJump {
-    /// Finds the largest jump that prevents contact tables of `pair` at a wheel load of 100 kN. Returns `None` if the force does not jump at
-    /// any of the examined rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20 mrad).
+    /// Finds the largest jump that prevents contact tables of `pair` at a wheel load of 100 kN. Returns `None` if the
+    /// force does not jump at any of the examined rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20 mrad).
     pub fn find(pair: &Pair) -> Option<Self> {
         let grid = Grid::default()
             .with_roll_rad(Axis {

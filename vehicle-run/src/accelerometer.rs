@@ -11,8 +11,9 @@ pub struct Accelerometer {
 }
 
 impl Accelerometer {
-    /// Returns an accelerometer for each ride point of the vehicle. A vehicle without ride points gets points on its first body, the car
-    /// body, at the height of its centre of gravity: one in the middle and one above every other body.
+    /// Returns an accelerometer for each ride point of the vehicle. A vehicle without ride points gets points on its
+    /// first body, the car body, at the height of its centre of gravity: one in the middle and one above every other
+    /// body.
     pub fn all(vehicle: &VehicleParameters) -> Vec<Self> {
         let points = if vehicle.ride_points.is_empty() {
             default_points(&vehicle.bodies)
@@ -41,8 +42,8 @@ impl Accelerometer {
         self.point.at_m
     }
 
-    /// Returns the lateral (right positive) and vertical (down positive) acceleration, m/s^2. `body_acceleration` gives the accelerations of
-    /// a body, in the order of its coordinates.
+    /// Returns the lateral (right positive) and vertical (down positive) acceleration, m/s^2. `body_acceleration` gives
+    /// the accelerations of a body, in the order of its coordinates.
     #[inline]
     pub fn acceleration(&self, body_acceleration: impl Fn(usize) -> [f64; 5]) -> [f64; 2] {
         self.point

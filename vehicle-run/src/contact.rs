@@ -65,7 +65,8 @@ impl ContactSetup {
         Ok(Arc::new(tables))
     }
 
-    /// Loads the contact tables from another folder, under the file name of [`Self::tables_file`]; computes and writes nothing.
+    /// Loads the contact tables from another folder, under the file name of [`Self::tables_file`]; computes and writes
+    /// nothing.
     ///
     /// # Errors
     /// The file is missing or contains other tables.
@@ -83,8 +84,8 @@ impl ContactSetup {
         Ok(cache_folder().join(name))
     }
 
-    /// Builds the contact geometry: S1002 wheels with the first wheelset's radius on UIC 60 rails at 1:40, with the elastic deformation at the
-    /// mean wheel load.
+    /// Builds the contact geometry: S1002 wheels with the first wheelset's radius on UIC 60 rails at 1:40, with the
+    /// elastic deformation at the mean wheel load.
     ///
     /// # Errors
     /// No contact geometry exists for the wheel load.

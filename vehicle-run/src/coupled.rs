@@ -122,8 +122,8 @@ struct OutsideSignals {
 
 /// Vehicle whose dampers outside are computed by another simulation.
 ///
-/// Displacements are available at the end of a tick. A force that is then set acts at the end of the next tick, so it lags the displacement
-/// from which it was computed by one tick.
+/// Displacements are available at the end of a tick. A force that is then set acts at the end of the next tick, so it
+/// lags the displacement from which it was computed by one tick.
 #[derive(Debug, Clone)]
 pub struct Coupled {
     start: Run,
@@ -263,7 +263,8 @@ impl Coupled {
         Ok(())
     }
 
-    /// Simulates up to `ticks` ticks, fewer if the run ends, and returns their number. If the run diverges, the state is that before the call.
+    /// Simulates up to `ticks` ticks, fewer if the run ends, and returns their number. If the run diverges, the state
+    /// is that before the call.
     ///
     /// # Errors
     /// See [`Run::step`].
@@ -298,7 +299,8 @@ impl Coupled {
         Ok(ticks)
     }
 
-    /// Saves the state as bytes for [`Self::restore`]. Their number grows slightly with the tick count, by less than half.
+    /// Saves the state as bytes for [`Self::restore`]. Their number grows slightly with the tick count, by less than
+    /// half.
     ///
     /// # Errors
     /// None are known.
@@ -332,8 +334,8 @@ impl Coupled {
         Ok(())
     }
 
-    /// Ending as a number: 0 not ended, 1 case completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5 beyond the model,
-    /// 6 overturned.
+    /// Ending as a number: 0 not ended, 1 case completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5
+    /// beyond the model, 6 overturned.
     pub fn ending_code(&self) -> i32 {
         match &self.ending {
             None => 0,

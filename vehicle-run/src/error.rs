@@ -36,8 +36,8 @@ pub enum VehicleRunError {
         /// Reason.
         source: OutsideError,
     },
-    /// Two bodies or dampers get the same signal name, because [`slug`](crate::signals::slug) replaces every character other than ASCII letters
-    /// and digits.
+    /// Two bodies or dampers get the same signal name, because [`slug`](crate::signals::slug) replaces every character
+    /// other than ASCII letters and digits.
     #[error(
         "two signals are called {name}; allowed: names that differ in letters A to Z and digits"
     )]

@@ -113,8 +113,8 @@ impl Hunting {
         })
     }
 
-    /// Finds the lowest speed with a limit cycle in a range of speeds (m/s) by bisection to 0.1 m/s, and returns the response there. Returns
-    /// `None` if the motion dies out at the upper end of the range.
+    /// Finds the lowest speed with a limit cycle in a range of speeds (m/s) by bisection to 0.1 m/s, and returns the
+    /// response there. Returns `None` if the motion dies out at the upper end of the range.
     ///
     /// # Errors
     /// See [`Self::push`].

@@ -24,8 +24,8 @@ impl Overturned {
     /// Examines a state whose wheels have left the rails or the contact tables. The vehicle is overturning if
     ///
     /// - on more than half of the wheelsets, the wheel on one side carries no load while the other wheel does;
-    /// - a wheelset is tilted towards the loaded side by at least [`MIN_ROLL_RAD`], with its unloaded wheel raised (a wheel raised by flange
-    ///   climbing carries load); and
+    /// - a wheelset is tilted towards the loaded side by at least [`MIN_ROLL_RAD`], with its unloaded wheel raised (a
+    ///   wheel raised by flange climbing carries load); and
     /// - every other body rolls to the same side.
     pub fn detect(state: &VehicleState) -> Option<Self> {
         (0..2).find_map(|side| Self::to_side(state, side))

@@ -31,8 +31,8 @@ pub fn all_signals(run: &Run, vehicle: &VehicleParameters) -> Vec<Signal> {
     all
 }
 
-/// Runs `run`, which has not been stepped yet, to its end or until `is_cancelled` returns true. Records the named signals, or all if
-/// `names` is `None`.
+/// Runs `run`, which has not been stepped yet, to its end or until `is_cancelled` returns true. Records the named
+/// signals, or all if `names` is `None`.
 ///
 /// # Errors
 /// Unknown signal, a history that does not fit into memory, or an error of [`Run::step`].

@@ -117,7 +117,8 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// True if the run has indices. A run that derailed, overturned, diverged, left the tables or went beyond the model has none.
+    /// True if the run has indices. A run that derailed, overturned, diverged, left the tables or went beyond the model
+    /// has none.
     pub fn has_indices(&self) -> bool {
         matches!(
             self,
@@ -156,8 +157,8 @@ impl fmt::Display for Ending {
                 distance_m,
             } => write!(
                 f,
-                "overturned to the {side} at {time_s:.3} s, {distance_m:.1} m along the track: {unloaded_wheels} of {wheels} wheels of the \
-                 other side carry no load, {wheelset} is tilted by {:.0} mrad",
+                "overturned to the {side} at {time_s:.3} s, {distance_m:.1} m along the track: {unloaded_wheels} \
+                 of {wheels} wheels of the other side carry no load, {wheelset} is tilted by {:.0} mrad",
                 1e3 * roll_rad.abs()
             ),
             Self::BeyondModel {
@@ -169,8 +170,8 @@ impl fmt::Display for Ending {
                 distance_m,
             } => write!(
                 f,
-                "beyond the model at {time_s:.3} s, {distance_m:.1} m along the track: {wheelset}, {side} wheel: load {:.0} kN, {:.0} times \
-                 that at standstill; allowed: {END_LOAD_RATIO:.0} times",
+                "beyond the model at {time_s:.3} s, {distance_m:.1} m along the track: {wheelset}, {side} wheel: \
+                 load {:.0} kN, {:.0} times that at standstill; allowed: {END_LOAD_RATIO:.0} times",
                 1e-3 * load_n,
                 load_n / load_static_n
             ),
@@ -205,7 +206,8 @@ impl Run {
         Self::on(case, contact, Arc::new(case.track.build()?))
     }
 
-    /// Places the vehicle of `case` at its start, with a contact from [`contact::tabulated`] and a built track that several runs can share.
+    /// Places the vehicle of `case` at its start, with a contact from [`contact::tabulated`] and a built track that
+    /// several runs can share.
     ///
     /// # Errors
     /// Invalid vehicle.
@@ -286,7 +288,8 @@ impl Run {
         self.state.ticks() >= self.ticks
     }
 
-    /// Simulates one tick, after applying the faults that are due. Returns the ending if the run ended. Allocates only then.
+    /// Simulates one tick, after applying the faults that are due. Returns the ending if the run ended. Allocates only
+    /// then.
     ///
     /// # Errors
     /// None are known: [`Self::new`] builds the dampers of faults.

@@ -18,7 +18,8 @@ pub struct Spectrum {
     welch: Welch,
 }
 
-/// Returns the names of the signals with a spectrum: accelerations of the ride points, then `Y/Q` of the leading wheelset.
+/// Returns the names of the signals with a spectrum: accelerations of the ride points, then `Y/Q` of the leading
+/// wheelset.
 pub fn signals(vehicle: &VehicleParameters) -> Vec<String> {
     let ride = ride(vehicle).into_iter();
     let leading = vehicle.wheelsets.first().into_iter();
@@ -61,7 +62,8 @@ impl Spectrum {
         self.welch.add(value);
     }
 
-    /// Returns pairs of frequency (Hz) and density (signal unit squared per Hz), or an empty list if the run is shorter than a window.
+    /// Returns pairs of frequency (Hz) and density (signal unit squared per Hz), or an empty list if the run is shorter
+    /// than a window.
     pub fn density(&self) -> Vec<[f64; 2]> {
         if self.welch.windows() == 0 {
             return Vec::new();

@@ -10,12 +10,12 @@ use super::signals::SIDES;
 use dashpot_files::case::Case;
 use dashpot_files::nearest_nanosecond;
 
-/// Wheel load, as a multiple of the load at standstill, above which a warning is given: the model's contact and track are elastic, and its
-/// normal damping was measured at small impacts.
+/// Wheel load, as a multiple of the load at standstill, above which a warning is given: the model's contact and track
+/// are elastic, and its normal damping was measured at small impacts.
 pub const WARN_LOAD_RATIO: f64 = 10.0;
 
-/// Wheel load, as a multiple of the load at standstill, that ends the run: the mean pressure of the elastic contact then exceeds 3 GPa, the
-/// hardness of rail steel.
+/// Wheel load, as a multiple of the load at standstill, that ends the run: the mean pressure of the elastic contact
+/// then exceeds 3 GPa, the hardness of rail steel.
 pub const END_LOAD_RATIO: f64 = 50.0;
 
 /// Duration of wheel lift above which a warning is given, s.
@@ -72,8 +72,8 @@ impl fmt::Display for Warning {
                 ticks,
             } => write!(
                 f,
-                "{wheelset}, {side} wheel: load up to {:.0} kN, {:.1} times that at standstill, at {time_s:.3} s, {distance_m:.1} m along \
-                 the track, and over {WARN_LOAD_RATIO:.0} times in {}: outside the validity of the contact model",
+                "{wheelset}, {side} wheel: load up to {:.0} kN, {:.1} times that at standstill, at {time_s:.3} s, \
+                 {distance_m:.1} m along the track, and over {WARN_LOAD_RATIO:.0} times in {}: outside the validity of the contact model",
                 1e-3 * load_n,
                 load_n / load_static_n,
                 counted(*ticks, "tick")
@@ -87,8 +87,8 @@ impl fmt::Display for Warning {
                 times,
             } => write!(
                 f,
-                "{wheelset}, {side} wheel: without load for {duration_s:.3} s from {time_s:.3} s on, {distance_m:.1} m along the track, \
-                 and for more than {WARN_LIFT_S} s {}: a vehicle near derailment",
+                "{wheelset}, {side} wheel: without load for {duration_s:.3} s from {time_s:.3} s on, \
+                 {distance_m:.1} m along the track, and for more than {WARN_LIFT_S} s {}: a vehicle near derailment",
                 counted(*times, "time")
             ),
         }
@@ -193,7 +193,8 @@ impl ValidityWatch {
         longest.unwrap_or(0) as f64 * self.step_s
     }
 
-    /// Maximum ratio of a wheel's load to its load at standstill; `None` if the vehicle has no equilibrium at standstill.
+    /// Maximum ratio of a wheel's load to its load at standstill; `None` if the vehicle has no equilibrium at
+    /// standstill.
     pub fn greatest_load_ratio(&self) -> Option<f64> {
         let ratio = |wheel: &Wheel| Some(wheel.max_load.load_n / wheel.load_static_n?);
         self.wheels.iter().filter_map(ratio).reduce(f64::max)

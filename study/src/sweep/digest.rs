@@ -1,4 +1,5 @@
-//! Digests of the cases of a study, which keep rows of different studies apart, and of a row, which reveals altered cells.
+//! Digests of the cases of a study, which keep rows of different studies apart, and of a row, which reveals altered
+//! cells.
 
 use std::fmt::Debug;
 
@@ -9,8 +10,8 @@ use dashpot_files::input;
 use dashpot_files::track::IrregularityParameters;
 use dashpot_files::{FileError, study::StudyFileError};
 
-/// Computes the digest of the cells of a row before the digest itself: the first 16 hexadecimal digits of the SHA-256 over the length and
-/// text of each cell.
+/// Computes the digest of the cells of a row before the digest itself: the first 16 hexadecimal digits of the SHA-256
+/// over the length and text of each cell.
 ///
 /// ```
 /// use dashpot_study::sweep::digest_of_cells;

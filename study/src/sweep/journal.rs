@@ -11,7 +11,8 @@ use super::study::{Shard, Study};
 use dashpot_files::FileError;
 use dashpot_files::output::cannot_write;
 
-/// Rows computed so far, and the file to which new ones are added: the file of rows with `.partial` appended to its name.
+/// Rows computed so far, and the file to which new ones are added: the file of rows with `.partial` appended to its
+/// name.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -21,8 +22,8 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the rows of the file at `path` and of an interrupted run. With `restart`, starts without rows and renames an existing file to
-    /// `.old`.
+    /// Opens the rows of the file at `path` and of an interrupted run. With `restart`, starts without rows and renames
+    /// an existing file to `.old`.
     ///
     /// # Errors
     /// A file cannot be read or written or contains rows of another study or shard, or another process is adding rows.
@@ -163,7 +164,8 @@ fn locked(path: &Path) -> Result<File, FileError> {
             }
             Err(TryLockError::Error(error)) => return Err(cannot_write(path, error)),
         }
-        // Between opening and locking, a finishing process may have removed the file, and another may have created a new one.
+        // Between opening and locking, a finishing process may have removed the file, and another may have created a
+        // new one.
         if is_at(&file, path) {
             return Ok(file);
         }

@@ -1,5 +1,5 @@
-//! Studies: sweeps of vehicle runs over many cases, one row of indices per case. The results are bit-identical for any order and number of
-//! threads.
+//! Studies: sweeps of vehicle runs over many cases, one row of indices per case. The results are bit-identical for any
+//! order and number of threads.
 
 mod arithmetic;
 mod check;

@@ -168,7 +168,8 @@ pub const OBSERVED: [Observed; 24] = [
     },
     Observed {
         name: "wheel_load_over_static",
-        meaning: "wheel load over that at standstill, maximum of all wheels; values over 10 are outside the validity of the model",
+        meaning: "wheel load over that at standstill, maximum of all wheels; values over 10 are outside the \
+                  validity of the model",
         extract: |run| run.wheel_load_over_static,
     },
     Observed {

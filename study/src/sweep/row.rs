@@ -53,7 +53,8 @@ pub enum RowError {
     },
     /// The digest does not match the cells.
     #[error(
-        "column {ROW_DIGEST}: `{found}`, but the digest of this row's cells is {computed}: a cell was altered or damaged"
+        "column {ROW_DIGEST}: `{found}`, but the digest of this row's cells is {computed}: a cell was \
+         altered or damaged"
     )]
     Altered {
         /// Digest in the row.

@@ -95,8 +95,8 @@ impl RunError {
     }
 }
 
-/// Runs the cases with these numbers on a pool of `threads` threads, and passes each row to `on_row` as soon as it is complete. Cases
-/// interrupted by `is_cancelled` have no row.
+/// Runs the cases with these numbers on a pool of `threads` threads, and passes each row to `on_row` as soon as it is
+/// complete. Cases interrupted by `is_cancelled` have no row.
 ///
 /// A row depends on its case only, so neither the order nor the number of threads changes it.
 ///

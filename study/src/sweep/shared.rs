@@ -65,7 +65,8 @@ impl<K, V> Default for Cache<K, V> {
 }
 
 impl<K: PartialEq + Clone, V: Clone> Cache<K, V> {
-    /// Returns the value of `key`; builds it if necessary, and drops the least recently used of more than `max_entries`.
+    /// Returns the value of `key`; builds it if necessary, and drops the least recently used of more than
+    /// `max_entries`.
     fn get<E>(
         &self,
         max_entries: usize,

@@ -51,7 +51,8 @@ impl Study {
     /// Checks every value of each axis once, with the other axes at their first value.
     ///
     /// # Errors
-    /// Unknown index, runs too short for an observed index, invalid value or case (with file and line), or too many cases.
+    /// Unknown index, runs too short for an observed index, invalid value or case (with file and line), or too many
+    /// cases.
     ///
     /// ```
     /// use dashpot_files::study::StudyParameters;

@@ -14,7 +14,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Estimates the mean relative change in percent from each value to that of the same seed. Pairs with a missing value are skipped.
+    /// Estimates the mean relative change in percent from each value to that of the same seed. Pairs with a missing
+    /// value are skipped.
     ///
     /// ```
     /// use dashpot_study::sweep::Estimate;
@@ -28,8 +29,8 @@ impl Estimate {
         Self::of(&changes)
     }
 
-    /// Estimates the mean of independent values: `mean +- t s / sqrt(n)` with the sample standard deviation `s` and Student's `t` for `n - 1`
-    /// degrees of freedom. Returns `None` without values.
+    /// Estimates the mean of independent values: `mean +- t s / sqrt(n)` with the sample standard deviation `s` and
+    /// Student's `t` for `n - 1` degrees of freedom. Returns `None` without values.
     ///
     /// ```
     /// use dashpot_study::sweep::Estimate;

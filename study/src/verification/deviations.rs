@@ -225,8 +225,8 @@ fn normalized_error(series: &[f64], expected: &[f64]) -> f64 {
     rms_error(series, expected) / root_mean_square(expected.iter().map(|value| value - mean))
 }
 
-/// Returns the compared indices: accelerations and ride of the bodies, forces of the wheelsets, and `Y/Q` of the wheels as root mean square.
-/// Indices that can be almost zero are left out, because their relative error is meaningless.
+/// Returns the compared indices: accelerations and ride of the bodies, forces of the wheelsets, and `Y/Q` of the wheels
+/// as root mean square. Indices that can be almost zero are left out, because their relative error is meaningless.
 fn compared_indices(indices: &Indices) -> Vec<NamedIndex> {
     let mut compared = Vec::new();
     let mut add = |value: f64, name: String| compared.push(NamedIndex { value, name });

@@ -53,8 +53,8 @@ pub struct Forces {
 }
 
 impl InsideComparison {
-    /// Starts with a run that has not been stepped yet and whose dampers are still inside; `dampers` are the indices of those that will be
-    /// outside.
+    /// Starts with a run that has not been stepped yet and whose dampers are still inside; `dampers` are the indices of
+    /// those that will be outside.
     pub fn new(run: &Run, case: &Case, dampers: Vec<usize>) -> Self {
         Self {
             start: run.clone(),
@@ -77,7 +77,8 @@ impl InsideComparison {
         }
     }
 
-    /// Runs the same case with all dampers inside and compares both over the shorter duration. Returns `None` if no tick was added.
+    /// Runs the same case with all dampers inside and compares both over the shorter duration. Returns `None` if no
+    /// tick was added.
     ///
     /// # Errors
     /// See [`Run::step`].

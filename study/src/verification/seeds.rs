@@ -14,7 +14,8 @@ pub const SEEDS: u64 = 8;
 /// Relative tolerance of the reference; its error is far below the differences between seeds.
 const TOLERANCE: f64 = 1e-6;
 
-/// Maximum difference of two means in standard errors. With about a hundred indices, chance exceeds four in about one of a hundred cases.
+/// Maximum difference of two means in standard errors. With about a hundred indices, chance exceeds four in about one
+/// of a hundred cases.
 pub const STANDARD_ERRORS: f64 = 4.0;
 
 /// Largest difference of mean indices over seeds between the step and the reference.
@@ -60,8 +61,8 @@ struct Pair {
     reference: Vec<NamedIndex>,
 }
 
-/// Runs a case with seeds 1 to [`SEEDS`] of its irregularity, on all cores. Returns `None` if the irregularity has no seed or a run does not
-/// complete.
+/// Runs a case with seeds 1 to [`SEEDS`] of its irregularity, on all cores. Returns `None` if the irregularity has no
+/// seed or a run does not complete.
 ///
 /// # Errors
 /// See [`reference()`].

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::sums::Statistics;
 
-/// Accelerations of a body at its centre of gravity, across the track, as measured by an accelerometer: in a curve they include the
-/// unbalanced acceleration.
+/// Accelerations of a body at its centre of gravity, across the track, as measured by an accelerometer: in a curve they
+/// include the unbalanced acceleration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodyIndices {
     /// Name of the body.
@@ -20,8 +20,8 @@ pub struct BodyIndices {
     pub vertical_greatest_m_per_s2: f64,
 }
 
-/// Unbalanced lateral acceleration of the track layout under the first body, the car body: `V^2 k cos p - g sin p` with the speed `V`, the
-/// curvature `k` and the cant angle `p`. It does not depend on the vehicle's motion.
+/// Unbalanced lateral acceleration of the track layout under the first body, the car body: `V^2 k cos p - g sin p` with
+/// the speed `V`, the curvature `k` and the cant angle `p`. It does not depend on the vehicle's motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct UnbalancedIndices {
     /// Root mean square, m/s^2.

@@ -65,9 +65,11 @@ pub struct Indexer {
 /// Values of one tick from which indices are computed.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a, A: Fn(usize) -> [f64; 5]> {
-    /// Returns the accelerations of a body, in the order of its coordinates, m/s^2 and rad/s^2; see [`VehicleTick::acceleration`].
+    /// Returns the accelerations of a body, in the order of its coordinates, m/s^2 and rad/s^2; see
+    /// [`VehicleTick::acceleration`].
     pub acceleration: A,
-    /// Unbalanced lateral acceleration of the track under the first body, m/s^2; see [`VehicleTick::unbalanced_m_per_s2`].
+    /// Unbalanced lateral acceleration of the track under the first body, m/s^2; see
+    /// [`VehicleTick::unbalanced_m_per_s2`].
     pub unbalanced_m_per_s2: f64,
     /// Contact forces of each wheelset.
     pub contacts: &'a [WheelsetForces],

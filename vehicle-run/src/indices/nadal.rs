@@ -29,8 +29,8 @@ impl Nadal {
     }
 }
 
-/// Flange angle of the S1002 profile, rad. It does not depend on the wheel radius. It is computed once, because building the profile pair
-/// takes longer than simulating one second.
+/// Flange angle of the S1002 profile, rad. It does not depend on the wheel radius. It is computed once, because
+/// building the profile pair takes longer than simulating one second.
 fn flange_angle_rad() -> f64 {
     static ANGLE: OnceLock<Result<f64, PairError>> = OnceLock::new();
     let angle = ANGLE.get_or_init(|| {

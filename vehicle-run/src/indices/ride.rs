@@ -67,7 +67,8 @@ pub struct RideIndices {
     pub sperling_vertical: Option<f64>,
     /// Corner frequencies of the band of mean comfort, Hz.
     pub comfort_band_hz: [f64; 2],
-    /// Mean comfort `N_MV` of EN 12299 from the 95th percentiles of the windows, dimensionless. The longitudinal acceleration is zero.
+    /// Mean comfort `N_MV` of EN 12299 from the 95th percentiles of the windows, dimensionless. The longitudinal
+    /// acceleration is zero.
     pub mean_comfort: Option<f64>,
 }
 

@@ -100,7 +100,8 @@ impl Windowed {
         self.is_full.then_some(self.means)
     }
 
-    /// Maximum magnitude of the mean over a window, or the magnitude of the mean of all values before the first whole window.
+    /// Maximum magnitude of the mean over a window, or the magnitude of the mean of all values before the first whole
+    /// window.
     pub fn max_mean_magnitude(&self) -> f64 {
         let magnitude = |means: Range| means.max.max(-means.min);
         let overall = || (self.sum / self.next.max(1) as f64).abs();
@@ -143,7 +144,8 @@ mod tests {
         assert_eq!(ramp.statistics().max_magnitude(), 99.0);
     }
 
-    /// A pulse of 3 ticks in a window of 4 ticks gives three quarters of its height; negative pulses count by magnitude.
+    /// A pulse of 3 ticks in a window of 4 ticks gives three quarters of its height; negative pulses count by
+    /// magnitude.
     #[test]
     fn window_mean_of_a_short_pulse_is_its_share_of_the_window() {
         let mut pulse = Windowed::new(4);
