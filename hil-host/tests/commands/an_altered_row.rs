@@ -71,15 +71,18 @@ fn a_check_finds_an_altered_cell_with_a_matching_digest() {
     let check = |more: &[&str]| dashpot(&[&merge[..], more].concat(), folder.path());
     // The same seed chooses the same cases; without a seed, the command prints the one it used.
     let four = ["--check", "4", "--check-seed", "7"];
-    let told = text_of(&check(&four).success());
+    let output = text_of(&check(&four).success());
     assert!(
-        told.contains("4 cases run again (--check-seed 7), the same bits: "),
-        "{told}"
+        output.contains("4 cases run again (--check-seed 7), the same bits: "),
+        "{output}"
     );
     let again = text_of(&check(&four).success());
-    assert_eq!(told, again);
-    let told = text_of(&check(&["--check", "99"]).success());
-    assert!(told.contains("12 cases run again (--check-seed "), "{told}");
+    assert_eq!(output, again);
+    let output = text_of(&check(&["--check", "99"]).success());
+    assert!(
+        output.contains("12 cases run again (--check-seed "),
+        "{output}"
+    );
     fs::remove_dir_all(folder.path().join("merged")).unwrap();
     // All twelve cases are run, including the altered one.
     let row = rest.lines().nth(3).unwrap();

@@ -6,7 +6,7 @@ use std::process::Command;
 use assert_cmd::assert::Assert;
 use predicates::str::contains;
 
-use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, files_in, json_of, json_on_stderr, text_of};
 
 const EXPORT: [&str; 5] = ["export", "--damper", "in-service", "--lang", "c"];
 
@@ -90,7 +90,7 @@ fn the_report_names_the_header() {
     let output = export(&["--output", "b.c", "--format", "json"], folder.path());
     assert_eq!(json_of(&output)["header"], "b.h");
     let output = export(&["--output", "-", "--format", "json"], folder.path());
-    let report = json_beside(&output);
+    let report = json_on_stderr(&output);
     assert_eq!(report.get("header"), None, "{report}");
     assert_eq!(files_in(folder.path()), ["a.cpp", "a.h", "b.c", "b.h"]);
 }

@@ -182,14 +182,17 @@ fn hunting_begins_at_the_critical_speed() {
 /// At low speed, the wheelsets hold the bogies as at standstill, so the body moves as at standstill.
 #[test]
 fn at_walking_pace_the_body_moves_as_at_standstill() {
-    let of = |arguments: &[&str], words: &str| {
+    let frequency_hz = |arguments: &[&str], words: &str| {
         let report = json_of(&modes(&[arguments, &["--format", "json"]].concat()).success());
         let rows = report["modes"].as_array().unwrap().clone();
         let row = rows.iter().find(|row| row["mode"] == words).unwrap();
         row["undamped_hz"].as_f64().unwrap()
     };
     for words in ["body bounce", "body pitch", "body lower sway", "body yaw"] {
-        let (slow, still) = (of(&["--speed-km-h", "5"], words), of(&[], words));
+        let (slow, still) = (
+            frequency_hz(&["--speed-km-h", "5"], words),
+            frequency_hz(&[], words),
+        );
         assert!((slow / still - 1.0).abs() < 0.01, "{words}: {slow} {still}");
     }
 }

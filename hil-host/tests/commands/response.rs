@@ -9,7 +9,7 @@ use dashpot_testbench::response::{at_amplitude, frequencies};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::{contains, starts_with};
 
-use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, files_in, json_of, json_on_stderr, text_of};
 
 fn response(arguments: &[&str], folder: &Path) -> Assert {
     dashpot(&[&["response"], arguments].concat(), folder)
@@ -57,17 +57,17 @@ fn every_value_is_in_the_file_and_in_json() {
         ["harmonic", "swept", "harmonic", "swept", "linearised"]
     );
     assert_eq!(rows.len(), 25);
-    let told = series.iter().flat_map(|series| {
-        let of = move |row| (series, row);
-        series["rows"].as_array().unwrap().iter().map(of)
+    let reported = series.iter().flat_map(|series| {
+        let with_series = move |row| (series, row);
+        series["rows"].as_array().unwrap().iter().map(with_series)
     });
-    for (row, (series, told)) in rows.iter().zip(told) {
+    for (row, (series, reported)) in rows.iter().zip(reported) {
         assert_eq!(row["response"], series["response"].as_str().unwrap());
         assert_eq!(
             row["amplitude_m"].parse().ok(),
             series["amplitude_m"].as_f64()
         );
-        for (key, value) in told.as_object().unwrap() {
+        for (key, value) in reported.as_object().unwrap() {
             let (cell, value) = (row[key].parse::<f64>().ok(), value.as_f64());
             assert_eq!(cell.is_some(), value.is_some(), "{key}");
             // The JSON reader may round the last digit.
@@ -104,7 +104,7 @@ fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
     let help = text_of(&response(&["--help"], folder.path()).success());
     let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
     let case = Case::load("straight-180").unwrap();
-    for (name, of, key, values, amplitude_m) in [
+    for (name, damper_name, key, values, amplitude_m) in [
         (
             "reduced-vertical",
             "front vertical damper 1",
@@ -143,7 +143,8 @@ fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
         assert_eq!(harmonic.len(), 9);
         for (row, value) in harmonic.chunks(3).zip(values.split(',')) {
             let change = [format!("{key}={value}")];
-            let damper = damper::change(of, case.damper(of).unwrap(), &change).unwrap();
+            let damper =
+                damper::change(damper_name, case.damper(damper_name).unwrap(), &change).unwrap();
             let amplitude = amplitude_m.parse().unwrap();
             let expected = at_amplitude(&damper, amplitude, &frequencies(0.1, 20.0, 3)).unwrap();
             for (row, expected) in row.iter().zip(&expected) {
@@ -194,7 +195,7 @@ fn data_on_standard_output_moves_the_report_to_standard_error() {
         "json",
     ];
     let ended = response(&options, folder.path()).success();
-    assert_eq!(json_beside(&ended)["files"][0], "standard output");
+    assert_eq!(json_on_stderr(&ended)["files"][0], "standard output");
     assert!(text_of(&ended).starts_with("response,amplitude_m,frequency_hz,"));
 }
 

@@ -88,11 +88,11 @@ fn the_published_damper_agrees_with_the_reference() {
     let damper = damper::load("paper", &[]).unwrap();
     let forces = Reference::new(&damper).unwrap().forces(&times, &x).unwrap();
     let settled = &forces[3125..];
-    let most = |sign: f64| settled.iter().fold(0.0, |m: f64, f| m.max(sign * f));
+    let peak = |sign: f64| settled.iter().fold(0.0, |m: f64, f| m.max(sign * f));
     let energy: f64 = (3125..4687)
         .map(|i| 0.5 * (forces[i] + forces[i + 1]) * (x[i + 1] - x[i]))
         .sum();
-    for (found, expected) in [(extension, most(1.0)), (compression, most(-1.0))] {
+    for (found, expected) in [(extension, peak(1.0)), (compression, peak(-1.0))] {
         assert!((found / expected - 1.0).abs() < 2e-5, "{found} {expected}");
     }
     // The third cycle ends half a sample after the last one: 3e-4 of it at the fastest motion.

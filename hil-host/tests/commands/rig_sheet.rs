@@ -7,7 +7,7 @@ use assert_cmd::assert::Assert;
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::{contains, starts_with};
 
-use crate::common::{dashpot, dashpot_reading, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, dashpot_reading, files_in, json_of, json_on_stderr, text_of};
 
 /// Two motions, with limits filled in by each test.
 const SHEET: &str = "title = \"Damper <7>\"
@@ -35,10 +35,10 @@ fn rig(arguments: &[&str], folder: &Path) -> Assert {
     dashpot(&[&["rig"], arguments].concat(), folder)
 }
 
-/// A folder with the sheet, whose limit is `least` (N).
-fn with_sheet(least: &str) -> tempfile::TempDir {
+/// A folder with the sheet, whose limit is `limit_n` (N).
+fn with_sheet(limit_n: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let text = SHEET.replace("LEAST", least);
+    let text = SHEET.replace("LEAST", limit_n);
     fs::write(folder.path().join("sheet.toml"), text).unwrap();
     folder
 }
@@ -116,15 +116,15 @@ fn a_value_just_outside_differs_from_its_limit() {
     let folder = with_sheet("1e3");
     let alone = json_of(&rig(&["--format", "json"], folder.path()).success());
     let force = alone["max_extension_force_n"].as_f64().unwrap();
-    // Smallest value that the usual rounding would print as the limit.
-    let least = (force / 10.0).ceil() * 10.0;
-    assert!(least > force && least < force + 10.0);
+    // The force rounded up to the usual resolution of 10 N.
+    let rounded_n = (force / 10.0).ceil() * 10.0;
+    assert!(rounded_n > force && rounded_n < force + 10.0);
     let folder = with_sheet(&format!("{:.3}", force + 0.4));
     let ended = rig(&["--sheet", "sheet.toml"], folder.path()).code(1);
     let text = text_of(&ended);
     let line = text.lines().find(|line| line.contains("drawing")).unwrap();
-    let told: f64 = line.split_whitespace().nth(4).unwrap().parse().unwrap();
-    assert!(told * 1e3 < force + 0.4, "{line}");
+    let printed_kn: f64 = line.split_whitespace().nth(4).unwrap().parse().unwrap();
+    assert!(printed_kn * 1e3 < force + 0.4, "{line}");
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn the_shipped_sheet_lists_temperatures_and_speeds() {
         "json",
     ];
     let ended = rig(&options, folder.path()).success();
-    let report = json_beside(&ended);
+    let report = json_on_stderr(&ended);
     let tests = report["tests"].as_array().unwrap();
     let force = |name: &str| {
         let test = tests.iter().find(|test| test["name"] == name).unwrap();

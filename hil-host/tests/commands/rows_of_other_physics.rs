@@ -66,11 +66,11 @@ fn rows_of_an_earlier_dashpot_are_refused_with_a_remedy() {
         "{error}"
     );
     assert!(error.contains("start over with --anew"), "{error}");
-    let anew = dashpot(
+    let restarted = dashpot(
         &[&sweep[..], &["--anew", "--format", "json"]].concat(),
         folder.path(),
     );
-    let report = json_of(&anew.success());
+    let report = json_of(&restarted.success());
     assert_eq!(report["physics"], physics(Arithmetic::here()));
     assert_eq!(read(folder.path(), "one/rows.csv"), text);
 }

@@ -124,9 +124,9 @@ fn a_preload_leaves_the_scale_readable() {
             &format!("valves.foot_compression.preload_pa={preload_pa}"),
         ]);
         let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
-        let least = numbers.iter().filter(|number| **number > 0.0);
-        let least = least.fold(f64::MAX, |least, number| least.min(*number));
-        assert!((1e-5..1e-2).contains(&least), "{preload_pa}: {words:?}");
+        let min = numbers.iter().filter(|number| **number > 0.0);
+        let min = min.fold(f64::MAX, |min, number| min.min(*number));
+        assert!((1e-5..1e-2).contains(&min), "{preload_pa}: {words:?}");
     }
 }
 

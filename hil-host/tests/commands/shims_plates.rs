@@ -114,8 +114,11 @@ fn a_preload_is_no_lift_but_stress() {
 
 #[test]
 fn bonded_discs_act_as_one() {
-    let of = |report: Value| report["valves"][2].clone();
-    let (sliding, bonded) = (of(report(&[])), of(report(&["--bonded"])));
+    let second_valve = |report: Value| report["valves"][2].clone();
+    let (sliding, bonded) = (
+        second_valve(report(&[])),
+        second_valve(report(&["--bonded"])),
+    );
     near(&sliding["equivalent_thickness_m"], 2.0 * 0.305e-3, 1e-9);
     near(&bonded["equivalent_thickness_m"], 8.0 * 0.305e-3, 1e-9);
     // s = 6 M/h^2 for one disc of 8 h, against M/8 on each disc of h.

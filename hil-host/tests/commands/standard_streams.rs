@@ -6,7 +6,7 @@ use assert_cmd::assert::OutputAssertExt;
 use predicates::str::contains;
 
 use crate::common::{
-    command, dashpot, dashpot_reading, error_of, files_in, json_beside, json_of, text_of,
+    command, dashpot, dashpot_reading, error_of, files_in, json_of, json_on_stderr, text_of,
 };
 
 const MOTION: &[u8] = b"time_s,displacement_m\n0,0\n0.001,0.001\n0.002,0.003\n0.003,0.002\n";
@@ -31,7 +31,7 @@ fn replay_reads_and_writes_streams() {
     let output = dashpot_reading(MOTION, &by_streams, folder.path()).success();
     assert_eq!(text_of(&output), expected);
     // Standard output is reserved for the data.
-    assert_eq!(json_beside(&output)["ticks"], 4);
+    assert_eq!(json_on_stderr(&output)["ticks"], 4);
     assert_eq!(files_in(folder.path()), ["in.csv", "out.csv"]);
 
     dashpot_reading(MOTION, &by_streams[..5], folder.path())

@@ -149,8 +149,8 @@ fn rows_are_those_of_the_vehicle_command() {
     let wheels = wheels.flat_map(|wheelset| wheelset["wheels"].as_array().unwrap());
     let greatest = wheels.map(|wheel| wheel["derailment_greatest"].as_f64().unwrap());
     assert_eq!(number("derailment_greatest"), greatest.fold(0.0, f64::max));
-    let of = |row: usize| rows[row]["body_vertical_rms_m_per_s2"].clone();
-    assert_ne!(of(8), of(10), "a worn damper is felt");
+    let index_of_row = |row: usize| rows[row]["body_vertical_rms_m_per_s2"].clone();
+    assert_ne!(index_of_row(8), index_of_row(10), "a worn damper is felt");
 }
 
 #[test]
@@ -168,8 +168,12 @@ fn threads_and_shards_give_the_same_bits() {
     assert_eq!(read(folder.path(), "many/rows.csv"), expected);
     let mut shards = Vec::new();
     for shard in ["0", "1", "2", "3", "4"] {
-        let of = ["--shard", shard, "--shards", "5", "--output", "parts"];
-        dashpot(&[&["sweep", "study.toml"][..], &of].concat(), folder.path()).success();
+        let options = ["--shard", shard, "--shards", "5", "--output", "parts"];
+        dashpot(
+            &[&["sweep", "study.toml"][..], &options].concat(),
+            folder.path(),
+        )
+        .success();
         shards.push(format!("parts/rows-{shard}-of-5.csv"));
     }
     // Shards may be merged in any order.
@@ -178,7 +182,7 @@ fn threads_and_shards_give_the_same_bits() {
     let shards: Vec<&str> = shards.iter().map(String::as_str).collect();
     dashpot(&[&merge[..], &shards].concat(), folder.path()).success();
     assert_eq!(read(folder.path(), "merged/rows.csv"), expected);
-    let page = |of: &str| read(folder.path(), &format!("{of}/report.html"));
+    let page = |folder_name: &str| read(folder.path(), &format!("{folder_name}/report.html"));
     assert_eq!(page("merged"), page("many"));
 }
 

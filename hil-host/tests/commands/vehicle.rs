@@ -57,12 +57,12 @@ fn a_case_writes_histories_indices_and_a_page() {
     // The indices agree with the history.
     let lateral = column(&history, "body_lateral_acceleration_m_per_s2");
     let rms = (lateral.iter().map(|a| a * a).sum::<f64>() / lateral.len() as f64).sqrt();
-    let told = number(&report["indices"]["bodies"][0]["lateral_rms_m_per_s2"]);
-    assert!((rms / told - 1.0).abs() < 1e-9, "{rms} {told}");
+    let reported = number(&report["indices"]["bodies"][0]["lateral_rms_m_per_s2"]);
+    assert!((rms / reported - 1.0).abs() < 1e-9, "{rms} {reported}");
     let loads = column(&history, "wheelset_1_right_load_n");
-    let least = loads.iter().copied().fold(f64::MAX, f64::min);
+    let min_load_n = loads.iter().copied().fold(f64::MAX, f64::min);
     assert_eq!(
-        least,
+        min_load_n,
         number(&report["indices"]["wheelsets"][0]["wheels"][1]["load_least_n"])
     );
     // Above the front bogie, 5.39 m ahead, the pitch of the body counts; there are two windows of 5 s.
@@ -74,9 +74,12 @@ fn a_case_writes_histories_indices_and_a_page() {
         (3, &"body, over the front bogie".into())
     );
     assert_eq!(ride[0]["windows"], 2);
-    let told = number(&ride[0]["sperling_vertical"]);
-    assert!((told / middle - 1.0).abs() < 1e-9, "{told} {middle}");
-    assert!(number(&ride[1]["sperling_vertical"]) > told);
+    let reported = number(&ride[0]["sperling_vertical"]);
+    assert!(
+        (reported / middle - 1.0).abs() < 1e-9,
+        "{reported} {middle}"
+    );
+    assert!(number(&ride[1]["sperling_vertical"]) > reported);
     // The history has the acceleration of an accelerometer above the front bogie.
     let over = column(
         &history,
@@ -260,10 +263,11 @@ fn the_step_is_within_its_bounds_of_the_reference() {
     ];
     let report = json_of(&dashpot(&arguments, Path::new(".")).success());
     assert_eq!(report["is_within_bounds"], true);
-    let of = |row: &str, what: &str| number(&report[row][what]["deviation"]);
-    assert!(of("deviations", "load_n") < 700.0 && of("deviations", "load_n") > 0.0);
+    let deviation = |row: &str, what: &str| number(&report[row][what]["deviation"]);
+    assert!(deviation("deviations", "load_n") < 700.0 && deviation("deviations", "load_n") > 0.0);
     // Half the step size gives about a quarter of the error.
-    let ratio = of("deviations", "lateral_m") / of("with_half_the_inner_step", "lateral_m");
+    let ratio =
+        deviation("deviations", "lateral_m") / deviation("with_half_the_inner_step", "lateral_m");
     assert!((2.5..6.0).contains(&ratio), "{ratio}");
 }
 

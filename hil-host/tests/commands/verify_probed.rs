@@ -23,7 +23,7 @@ fn each_step_and_scalar_has_its_largest_errors_and_promised_bounds() {
     assert_eq!(number(&report, "top_speed_m_per_s"), 0.6);
     let factor = number(&report, "promised_factor");
     let rows = report["errors"].as_array().unwrap();
-    let of: Vec<(String, f64)> = rows
+    let combinations: Vec<(String, f64)> = rows
         .iter()
         .map(|row| {
             (
@@ -34,7 +34,7 @@ fn each_step_and_scalar_has_its_largest_errors_and_promised_bounds() {
         .collect();
     let expected = [("f64", 1e-3), ("f32", 1e-3), ("f64", 2e-3), ("f32", 2e-3)];
     assert_eq!(
-        of,
+        combinations,
         expected.map(|(scalar, step_s)| (scalar.to_owned(), step_s))
     );
     for row in rows {

@@ -59,7 +59,7 @@ pub fn json_of(ended: &Assert) -> serde_json::Value {
 }
 
 /// Parses the report of a command whose data went to standard output: the only JSON object on standard error.
-pub fn json_beside(ended: &Assert) -> serde_json::Value {
+pub fn json_on_stderr(ended: &Assert) -> serde_json::Value {
     json(&ended.get_output().stderr)
 }
 
@@ -96,12 +96,12 @@ pub fn are_as_their_readme_says(folder: &Path) {
         let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         assert_eq!(digest, row[3], "{}", row[1]);
     }
-    let mut told: Vec<&str> = rows.iter().map(|row| row[1]).chain(["README.md"]).collect();
+    let mut listed: Vec<&str> = rows.iter().map(|row| row[1]).chain(["README.md"]).collect();
     let mut there: Vec<String> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
-    told.sort_unstable();
+    listed.sort_unstable();
     there.sort_unstable();
-    assert_eq!(there, told);
+    assert_eq!(there, listed);
 }

@@ -104,10 +104,10 @@ fn with_the_velocity_the_force_is_not_late() {
             let at_ends: Vec<f64> = exact.iter().copied().skip(steps).step_by(steps).collect();
             let error = |forces: Vec<f64>| {
                 let pairs = forces.iter().zip(&at_ends);
-                let most = pairs.fold(0.0_f64, |most, (force, exact)| {
-                    most.max((force - exact).abs())
+                let max = pairs.fold(0.0_f64, |max, (force, exact)| {
+                    max.max((force - exact).abs())
                 });
-                most / largest
+                max / largest
             };
             let count = steps.to_string();
             let with = error(hexadecimal(&driver.run(&fmu, &["rate", &count], "")));
@@ -131,7 +131,7 @@ fn with_the_velocity_the_force_is_not_late() {
 fn saved_states_are_restored_to_the_bit() {
     for fmi in ["2", "3"] {
         let text = Driver::new(fmi).run(&Unpacked::new(fmi, &[]), &["states"], "");
-        let told: Vec<&str> = text
+        let printed: Vec<&str> = text
             .lines()
             .filter(|line| !line.starts_with("log "))
             .collect();
@@ -145,7 +145,7 @@ fn saved_states_are_restored_to_the_bit() {
             "no state: 2",
             "then: equal",
         ];
-        assert_eq!(told, expected, "FMI {fmi}");
+        assert_eq!(printed, expected, "FMI {fmi}");
     }
 }
 

@@ -110,10 +110,10 @@ fn fmpy_finds_no_problem_and_the_same_forces() {
         ] {
             let fmu = Unpacked::new(fmi, more);
             fs::write(fmu.path("x.txt"), &text).unwrap();
-            let (told, forces) = judged(&python, &fmu, flag);
+            let (message, forces) = judged(&python, &fmu, flag);
             // The first row is the start; a force belongs to the displacement one communication step earlier.
             assert_eq!(bits(&forces[1..]), bits(&expected), "FMI {fmi} {more:?}");
-            assert!(told.contains("status 0"), "{told}");
+            assert!(message.contains("status 0"), "{message}");
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::source;
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
-        let told = cargo_output(&[
+        let printed = cargo_output(&[
             "build",
             "--locked",
             "--package",
@@ -27,7 +27,9 @@ fn library() -> &'static Path {
             "json-render-diagnostics",
         ])
         .unwrap();
-        let messages = told.lines().map(|line| serde_json::from_str(line).unwrap());
+        let messages = printed
+            .lines()
+            .map(|line| serde_json::from_str(line).unwrap());
         let files = messages.flat_map(|message: serde_json::Value| {
             let files = message["filenames"].as_array().cloned().unwrap_or_default();
             files
@@ -95,8 +97,8 @@ fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
             .env("PATH", &path)
             .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
         let output = shell.output().unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{line}: {told}");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{line}: {message}");
     };
     // Lines of the Python block are not commands.
     for line in lines.filter(|line| {
@@ -161,7 +163,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let text = "name = \"too fast\"\nvehicle = \"locomotive\"\ntrack = \"curve-r200\"\nspeed_km_h = 200\nduration_s = 5.0003\n";
     fs::write(folder.path().join("fast.toml"), text).unwrap();
-    let mut told = Vec::new();
+    let mut outputs = Vec::new();
     for fmi in ["2", "3"] {
         let outside = ["front lateral damper 1", "rear vertical damper 2"];
         export(folder.path(), fmi, "fast.toml", &outside);
@@ -172,16 +174,16 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
         let output = judge.current_dir(folder.path()).output().unwrap();
         let text = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "FMI {fmi}: {text}");
-        told.push(String::from_utf8(output.stdout).unwrap());
+        outputs.push(String::from_utf8(output.stdout).unwrap());
     }
     for line in [
         "case.json b' ' case.json: not the case that this FMU was exported with\n",
         ".tables b' ' : damaged, or tables of another version\n",
         ".tables None : No such file or directory",
     ] {
-        assert!(told[0].contains(line), "{line} in {}", told[0]);
+        assert!(outputs[0].contains(line), "{line} in {}", outputs[0]);
     }
-    assert_eq!(told[0], told[1]);
+    assert_eq!(outputs[0], outputs[1]);
     // Without dampers outside, the command gives the same result.
     fs::write(
         folder.path().join("none.csv"),
@@ -203,7 +205,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     )
     .code(1);
     let error = error_of(&run);
-    let time_s = told[0]
+    let time_s = outputs[0]
         .split_once("ended at ")
         .unwrap()
         .1
@@ -213,7 +215,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     assert!(
         error.contains(&format!("overturned to the left at {time_s} s")),
         "{error} {}",
-        told[0]
+        outputs[0]
     );
 }
 

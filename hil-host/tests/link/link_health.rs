@@ -35,15 +35,16 @@ fn model(name: &str) -> HealthModel {
 }
 
 /// Reading printed by the command, with all bits.
-fn told(reading: &HealthReading, time_s: Option<f64>) -> Value {
+fn expected_reading(reading: &HealthReading, time_s: Option<f64>) -> Value {
     // JSON has the shortest digits of a number in single precision.
     let number = |number: f32| -> Value {
         serde_json::from_str(&serde_json::to_string(&number).unwrap()).unwrap()
     };
-    let estimate = |of: Estimate| json!({"value": number(of.value), "sd": number(of.sd)});
+    let estimate =
+        |estimate: Estimate| json!({"value": number(estimate.value), "sd": number(estimate.sd)});
     let names = reading.status.iter_names();
     let status: Vec<String> = names.map(|(name, _)| name.to_lowercase()).collect();
-    let mut told = json!({
+    let mut expected_reading = json!({
         "flow_factor": estimate(reading.flow_factor),
         "damping_factor": estimate(reading.damping_factor()),
         "stiffness_n_per_m": estimate(reading.stiffness_n_per_m),
@@ -58,9 +59,9 @@ fn told(reading: &HealthReading, time_s: Option<f64>) -> Value {
         "status": status,
     });
     if let Some(time_s) = time_s {
-        told["time_s"] = json!(time_s);
+        expected_reading["time_s"] = json!(time_s);
     }
-    told
+    expected_reading
 }
 
 const MODEL: [&str; 8] = [
@@ -94,7 +95,7 @@ fn a_measurement_gives_the_desks_readings() {
     assert_eq!(history.readings.len(), times_s.len());
     let pairs = history.readings.iter().zip(times_s);
     let expected: Vec<Value> = pairs
-        .map(|(reading, time_s)| told(&reading.reading, Some(time_s)))
+        .map(|(reading, time_s)| expected_reading(&reading.reading, Some(time_s)))
         .collect();
     assert_eq!(report["readings"], json!(expected));
     assert_eq!(
@@ -104,11 +105,11 @@ fn a_measurement_gives_the_desks_readings() {
     // The target keeps the model, so another measurement continues with it.
     let last = history.last().unwrap();
     let now = rig.json(&["health", "--place", "1"]);
-    assert_eq!(now["readings"], json!([told(last, None)]));
+    assert_eq!(now["readings"], json!([expected_reading(last, None)]));
     let more = rig.json(&["health", "--place", "1", "--input", "run.csv"]);
     let twice = samples.iter().chain(&samples).copied();
     let history = watch(&model("in-service"), twice, 100.0);
-    let expected = told(history.last().unwrap(), Some(5.0));
+    let expected = expected_reading(history.last().unwrap(), Some(5.0));
     assert_eq!(more["readings"], json!([expected]));
 }
 

@@ -7,7 +7,7 @@ use dashpot_core::link::Response;
 use dashpot_host_link::Link;
 use predicates::str::contains;
 
-use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, files_in, json_of, json_on_stderr, text_of};
 use crate::pil_common::{altered, desk, serve_tcp};
 
 /// Half a second of motion forth and back with a gap at the end: 601 ticks.
@@ -116,7 +116,7 @@ fn events_are_named_in_their_rows() {
         folder.path(),
     )
     .success();
-    let report = json_beside(&output);
+    let report = json_on_stderr(&output);
     let rows = rows(&text_of(&output));
     assert_eq!(rows.len(), TICKS);
     let named = rows.iter().filter(|row| row[16] == "duplicate").count() as u64;
@@ -157,7 +157,7 @@ fn a_paced_run_reports_missed_deadlines() {
         "--paced", "--ticks", "30", "--output", "-", "--page", "run.html", "--format", "json",
     ];
     let output = pil(&options, folder.path()).success();
-    let report = json_beside(&output);
+    let report = json_on_stderr(&output);
     let missed = report["pacing"]["missed_deadlines"].as_u64().unwrap();
     assert_eq!(report["pacing"]["response"]["count"], 30);
     let late = rows(&text_of(&output))

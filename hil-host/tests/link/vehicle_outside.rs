@@ -114,7 +114,8 @@ fn the_effect_is_the_difference_from_the_run_with_the_damper_inside() {
     let effect = &report["outside"]["effect"];
     let rms =
         |values: &[f64]| (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt();
-    let is_near = |told: &Value, number: f64| (told.as_f64().unwrap() / number - 1.0).abs() < 1e-9;
+    let is_near =
+        |reported: &Value, number: f64| (reported.as_f64().unwrap() / number - 1.0).abs() < 1e-9;
     let difference = |name: &str| -> Vec<f64> {
         let [with, without] = [&with, &without].map(|folder| column(name, folder.path()));
         with.iter().zip(without).map(|(a, b)| a - b).collect()

@@ -16,8 +16,8 @@ fn check(width: u32) {
     browser.wait_for(&format!("{VALUES}.every(value => value !== '')"));
     let values = browser.find(&format!("return {VALUES}"));
     let forces = [0, 1].map(|panel| {
-        let told = values[panel].as_str().unwrap().replace('−', "-");
-        let (_, force) = told.split_once("; ").unwrap();
+        let values_text = values[panel].as_str().unwrap().replace('−', "-");
+        let (_, force) = values_text.split_once("; ").unwrap();
         force.parse::<f64>().unwrap()
     });
     // Velocities start one tick after displacements.

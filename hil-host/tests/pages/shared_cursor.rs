@@ -8,7 +8,7 @@ use crate::browser::Browser;
 use crate::shown::VEHICLE;
 
 /// Readout of each plot: cursor position, values, and whether the cursor line is visible.
-const TOLD: &str = "return [...document.querySelectorAll('.panel')].map(panel => {
+const READOUTS: &str = "return [...document.querySelectorAll('.panel')].map(panel => {
     const plot = panel.querySelector('.plot').getBoundingClientRect();
     const line = panel.querySelector('.u-cursor-x')?.getBoundingClientRect();
     return {
@@ -51,10 +51,10 @@ fn check(width: u32) {
     browser.open(&VEHICLE, width);
     browser.point(1, [0.4, 0.6]);
     browser.wait_for("document.querySelectorAll('.at')[0].textContent !== ''");
-    let told = browser.find(TOLD);
-    let told = told.as_array().unwrap();
+    let readouts = browser.find(READOUTS);
+    let readouts = readouts.as_array().unwrap();
     let (mut histories, mut loops) = (0, 0);
-    for panel in told {
+    for panel in readouts {
         if panel["data"]["x"]["label"] != "time, s" {
             loops += 1;
             assert_eq!((&panel["at"], &panel["line"]), (&"".into(), &false.into()));
@@ -63,7 +63,7 @@ fn check(width: u32) {
         histories += 1;
         assert_eq!(
             (&panel["at"], &panel["line"]),
-            (&told[1]["at"], &true.into()),
+            (&readouts[1]["at"], &true.into()),
             "{width}"
         );
         let at = panel["at"].as_str().unwrap();
@@ -74,15 +74,17 @@ fn check(width: u32) {
         assert_eq!(curves.len(), values.len());
         let range = &panel["data"]["y"]["range"];
         let apart = (range[1].as_f64().unwrap() - range[0].as_f64().unwrap()) as f32;
-        for (curve, told) in curves.iter().zip(values) {
+        for (curve, shown) in curves.iter().zip(values) {
             // The time is shown to the millisecond, so neighbouring samples are acceptable too.
             let near =
                 [time - 1e-3, time, time + 1e-3].map(|time| value_at(&panel["data"], curve, time));
-            let told = number(told.as_str().unwrap());
-            let is_near = near.iter().any(|value| (value - told).abs() < 2e-3 * apart);
+            let shown = number(shown.as_str().unwrap());
+            let is_near = near
+                .iter()
+                .any(|value| (value - shown).abs() < 2e-3 * apart);
             assert!(
                 is_near,
-                "{width}, {}: {told}, {near:?}",
+                "{width}, {}: {shown}, {near:?}",
                 panel["data"]["y"]["label"]
             );
         }
@@ -91,7 +93,7 @@ fn check(width: u32) {
     // With the mouse outside the plots, no values are shown.
     browser.leave();
     browser.wait_for(
-        "[...document.querySelectorAll('.at, .value')].every(told => told.textContent === '')",
+        "[...document.querySelectorAll('.at, .value')].every(readout => readout.textContent === '')",
     );
 }
 

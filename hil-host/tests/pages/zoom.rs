@@ -19,7 +19,7 @@ fn written_after(browser: &Browser, act: impl FnOnce()) -> Vec<String> {
     serde_json::from_value(written).unwrap()
 }
 
-fn told(browser: &Browser, plot: usize) -> f64 {
+fn shown_at_cursor(browser: &Browser, plot: usize) -> f64 {
     browser.point(plot, [0.5, 0.5]);
     let at = format!("document.querySelectorAll('.at')[{plot}].textContent");
     browser.wait_for(&format!("{at} !== ''"));
@@ -38,7 +38,7 @@ fn check_histories(width: u32) {
         return;
     };
     browser.open(&VEHICLE, width);
-    let middle = told(&browser, 0);
+    let middle = shown_at_cursor(&browser, 0);
     assert!((middle - 2.5).abs() < 0.02, "{middle}");
     let zoomed = written_after(&browser, || browser.drag(0, [0.2, 0.5], [0.4, 0.52]));
     assert!(
@@ -47,12 +47,15 @@ fn check_histories(width: u32) {
     );
     // From 1 to 2 s, in the other panel and in the other figures too.
     for plot in [0, 1, 4] {
-        let middle = told(&browser, plot);
+        let middle = shown_at_cursor(&browser, plot);
         assert!((middle - 1.5).abs() < 0.02, "{width}, {plot}: {middle}");
     }
     written_after(&browser, || browser.double_click(4));
     for plot in [0, 1, 4] {
-        assert!((told(&browser, plot) - 2.5).abs() < 0.02, "{width}, {plot}");
+        assert!(
+            (shown_at_cursor(&browser, plot) - 2.5).abs() < 0.02,
+            "{width}, {plot}"
+        );
     }
 }
 

@@ -36,9 +36,9 @@ fn the_wheel_has_the_licences_of_the_repository() {
         "{metadata}"
     );
     for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
-        let told = text(&format!(".dist-info/licenses/{licence}"));
+        let packaged = text(&format!(".dist-info/licenses/{licence}"));
         let ours = package().join("..").join(licence);
-        assert_eq!(told, read_to_string(ours).unwrap());
+        assert_eq!(packaged, read_to_string(ours).unwrap());
         assert!(
             metadata.contains(&format!("License-File: {licence}")),
             "{metadata}"

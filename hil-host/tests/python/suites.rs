@@ -21,10 +21,10 @@ fn suite(name: &str) {
         "--pattern",
         name,
     ];
-    let told = run(&python, folder.path(), Some(path.path()), &arguments);
+    let output = run(&python, folder.path(), Some(path.path()), &arguments);
     assert!(
-        told.contains("\nOK\n") && !told.contains("Ran 0 tests"),
-        "{told}"
+        output.contains("\nOK\n") && !output.contains("Ran 0 tests"),
+        "{output}"
     );
 }
 
@@ -78,13 +78,13 @@ fn the_stubs_agree_with_the_package() {
     };
     let path = unpacked(&python);
     let folder = tempfile::tempdir().unwrap();
-    let told = run(
+    let output = run(
         &python,
         folder.path(),
         Some(path.path()),
         &["-m", "mypy.stubtest", "dashpot"],
     );
-    assert!(told.contains("Success: no issues found"), "{told}");
+    assert!(output.contains("Success: no issues found"), "{output}");
     // Checks that the stubs are used to type-check a user's code.
     let example = folder.path().join("example.py");
     std::fs::write(
@@ -93,9 +93,9 @@ fn the_stubs_agree_with_the_package() {
     )
     .unwrap();
     let arguments = ["-m", "mypy", "--strict", "example.py"];
-    let told = run(&python, folder.path(), Some(path.path()), &arguments);
+    let output = run(&python, folder.path(), Some(path.path()), &arguments);
     assert!(
-        told.contains("\"builtins.float\"") || told.contains("\"float\""),
-        "{told}"
+        output.contains("\"builtins.float\"") || output.contains("\"float\""),
+        "{output}"
     );
 }

@@ -149,7 +149,7 @@ pub fn compare_invalid(folder: &Path) {
         let is_marked = |row: usize| row % 100 == 10;
         let left: Vec<_> = (0..expected.len()).filter(|row| !is_marked(*row)).collect();
         assert_eq!(found.len(), left.len());
-        let times = |of: &MeasuredSample| of.time_s;
+        let times = |sample: &MeasuredSample| sample.time_s;
         assert!(
             left.iter()
                 .map(|row| times(&expected[*row]))

@@ -249,7 +249,7 @@ fn ride_is_computed_at_the_points_of_the_vehicle_file() {
 /// Curve of 300 m radius at 70 km/h with 0.12 m of cant over 1.5 m, on ideal track: the unbalanced acceleration is `V^2
 /// k cos p - g sin p`, and the wheel loads carry weight and centripetal force.
 #[test]
-fn a_curve_leaves_what_the_cant_does_not_balance() {
+fn a_curve_has_the_acceleration_that_cant_does_not_balance() {
     let folder = tempdir().unwrap();
     let track = "name = \"curve\"\n[[part]]\nkind = \"straight\"\nlength_m = 20\n[[part]]\n\
                  kind = \"transition\"\nlength_m = 50\n[[part]]\nkind = \"circular\"\nlength_m = 400\nradius_m = 300\ncant_m = 0.12\n";
