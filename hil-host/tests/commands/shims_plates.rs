@@ -114,10 +114,10 @@ fn a_preload_is_no_lift_but_stress() {
 
 #[test]
 fn bonded_discs_act_as_one() {
-    let second_valve = |report: Value| report["valves"][2].clone();
+    let third_valve = |report: Value| report["valves"][2].clone();
     let (sliding, bonded) = (
-        second_valve(report(&[])),
-        second_valve(report(&["--bonded"])),
+        third_valve(report(&[])),
+        third_valve(report(&["--bonded"])),
     );
     near(&sliding["equivalent_thickness_m"], 2.0 * 0.305e-3, 1e-9);
     near(&bonded["equivalent_thickness_m"], 8.0 * 0.305e-3, 1e-9);
