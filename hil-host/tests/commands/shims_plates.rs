@@ -115,10 +115,7 @@ fn a_preload_is_no_lift_but_stress() {
 #[test]
 fn bonded_discs_act_as_one() {
     let third_valve = |report: Value| report["valves"][2].clone();
-    let (sliding, bonded) = (
-        third_valve(report(&[])),
-        third_valve(report(&["--bonded"])),
-    );
+    let (sliding, bonded) = (third_valve(report(&[])), third_valve(report(&["--bonded"])));
     near(&sliding["equivalent_thickness_m"], 2.0 * 0.305e-3, 1e-9);
     near(&bonded["equivalent_thickness_m"], 8.0 * 0.305e-3, 1e-9);
     // s = 6 M/h^2 for one disc of 8 h, against M/8 on each disc of h.
