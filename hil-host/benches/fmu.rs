@@ -1,6 +1,7 @@
-//! A step through the interface of an FMU, in a library made for this platform, beside the step alone in the same run.
+//! Time of a step through the interface of an FMU, in a library built for this platform, compared with the step alone
+//! in the same run.
 //!
-//! An element is what an importer does at a communication point: set the displacement, step, get the force.
+//! One element is the work of an importer at a communication point: set the displacement, step, get the force.
 
 use std::f64::consts::TAU;
 use std::ffi::{CString, c_char, c_int, c_void};
@@ -49,7 +50,7 @@ type DoStep = unsafe extern "C" fn(
 
 const TICKS: u32 = 10_000;
 
-/// Whole periods, so that it goes on from the start.
+/// A whole number of periods, so that the motion can be repeated without a jump.
 fn displacement(tick: u32) -> f64 {
     5e-3 * (16.0 * TAU * f64::from(tick) / f64::from(TICKS)).sin()
 }
@@ -79,8 +80,8 @@ fn fmu(criterion: &mut Criterion) {
     let path = folder.path().join("it.so");
     std::fs::write(&path, compile(&fmu).expect("a C compiler").content).expect("a temporary file");
     let token = CString::new(fmu.token()).expect("a token");
-    // SAFETY: the library is the one just made, its functions have the types of fmi3FunctionTypes.h, and each gets an instance of its own
-    // with pointers to as many elements as it is told.
+    // SAFETY: the library was just built, its functions have the types of fmi3FunctionTypes.h, and each gets its own
+    // instance with pointers to the stated number of elements.
     unsafe {
         let library = Library::new(&path).expect("the library just made");
         let instantiate: Symbol<'_, Instantiate> = library

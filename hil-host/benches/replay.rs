@@ -1,7 +1,8 @@
-//! `replay` by parts and by what the file is, beside the step alone in the same run: reading, with ticks and step, and with its output
-//! in the same form.
+//! Time of the parts of `replay` for each file format, compared with the step alone in the same run: reading, reading
+//! with ticks and step, and all of it with output in the same format.
 //!
-//! Elements are rows, of which each is a tick. What a replay takes over the step alone is what the step does not limit.
+//! One element is a row, which is also a tick. The difference between a replay and the step alone is the cost of
+//! reading and writing.
 
 use std::hint::black_box;
 use std::io;
@@ -30,7 +31,7 @@ const TIME: ColumnName = ("time_s", "s");
 const DISPLACEMENT: ColumnName = ("displacement_m", "m");
 const FORCE: ColumnName = ("force_n", "N");
 
-/// Time (s) and displacement (m) of a row, to the digits that a logger has.
+/// Time (s) and displacement (m) of a row, with the digits of a logger.
 fn row(number: u32) -> [f64; 2] {
     let time_s = f64::from(number) / 1e3;
     let x = 1e-2 * (8.8 * time_s).sin() + 2e-3 * (31.1 * time_s).sin();

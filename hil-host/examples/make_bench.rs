@@ -1,5 +1,5 @@
-//! Writes data/bench/bench_made.mf4 and data/bench/worn_made.mf4: a bench test of a damper whose numbers are known, as a rig would have
-//! recorded it, and a ride on which that damper wears.
+//! Writes data/bench/bench_made.mf4, a bench test of a damper with known parameters as a rig would have recorded it,
+//! and data/bench/worn_made.mf4, a ride during which the same damper wears.
 //!
 //! `cargo run --release --package dashpot-hil --example make_bench`
 
@@ -15,7 +15,7 @@ use dashpot_testbench::excitation::Excitation;
 use dashpot_testbench::health::Noise;
 use dashpot_testbench::verification::reference_forces;
 
-/// What the damper differs in from the preset `in-service`: a calibration has to find these numbers.
+/// Parameters in which the damper differs from the preset `in-service`; a calibration has to find them.
 const TRUTH: [&str; 4] = [
     "orifice.discharge_coefficient=0.68",
     "valves.piston_extension.preload_pa=7e5",
@@ -23,10 +23,10 @@ const TRUTH: [&str; 4] = [
     "mount.clearance_m=0.6e-3",
 ];
 
-/// What it differs in when it is worn: 1 mm more clearance.
+/// Change of the worn damper: 1 mm more clearance.
 const WORN: &str = "mount.clearance_m=1.6e-3";
 
-/// Amplitude (m), frequency (Hz) and duration (s) of the tests, one after the other.
+/// Amplitude (m), frequency (Hz) and duration (s) of consecutive tests.
 const TESTS: [(f64, f64, f64); 4] = [
     (12.5e-3, 0.2, 12.0),
     (25e-3, 0.64, 5.0),
@@ -34,13 +34,13 @@ const TESTS: [(f64, f64, f64); 4] = [
     (24.5e-3, 1.9, 4.0),
 ];
 
-/// Seconds between the tests.
+/// Pause between two tests, s.
 const PAUSE_S: f64 = 5.0;
 
-/// Interval of the samples (s); the force is recorded one of them later.
+/// Sampling interval (s); the force is recorded one sample late.
 const INTERVAL_S: f64 = 2e-3;
 
-/// Noise of either signal, of its rms.
+/// Noise of both signals, relative to their rms.
 const NOISE: f64 = 0.01;
 
 const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         start_s += duration_s + PAUSE_S;
     }
     write(Path::new("data/bench/bench_made.mf4"), &bench)?;
-    // Ten seconds healthy, then ten seconds worn; both begin at rest.
+    // Ten seconds healthy, then ten seconds worn; both start at rest.
     let x = Excitation::Ride.displacements_m(INTERVAL_S);
     let mut back: Vec<f64> = x.iter().rev().copied().collect();
     back.dedup();
@@ -71,7 +71,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     write(Path::new("data/bench/worn_made.mf4"), &ride)
 }
 
-/// The damper, with `changes`, on the displacements `x` (m) from `start_s` (s) on, as it is recorded with noise of this seed.
+/// Simulates the damper with `changes` on the displacements `x` (m) from `start_s` (s) on, with noise of this seed.
 fn recorded(start_s: f64, x: &[f64], changes: &[&str], seed: u64) -> Result<Rows, Box<dyn Error>> {
     let set = TRUTH.iter().chain(changes).map(|set| (*set).to_owned());
     let damper = damper::load("in-service", &set.collect::<Vec<_>>())?;

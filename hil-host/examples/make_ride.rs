@@ -1,10 +1,10 @@
-//! Prints data/excitations/ride_made.csv: the made ride as a logger would have recorded it.
+//! Prints data/excitations/ride_made.csv: the synthetic ride as a logger would have recorded it.
 //!
 //! `cargo run --package dashpot-hil --example make_ride > data/excitations/ride_made.csv`
 
 use dashpot_testbench::excitation::Excitation;
 
-/// Grid of the time stamps [s].
+/// Grid of the time stamps, s.
 const GRID_S: f64 = 1e-4;
 
 fn main() {

@@ -124,8 +124,8 @@ pub fn contact(
         let (wheel, _) = profile::load(&wheel, Body::Wheel, &of_wheel)?;
         let (rail, _) = profile::load(&rail, Body::Rail, &of_rail)?;
         let pair = Pair::new(wheel, &rail, installation)?;
-        let geometry = WheelsetGeometry::of(&pair)?;
-        let force_jump = ForceJump::of(&pair);
+        let geometry = WheelsetGeometry::new(&pair)?;
+        let force_jump = ForceJump::find(&pair);
         Ok::<_, Refusal>((pair, geometry, force_jump))
     })?;
     let conicities = geometry.conicities(&pair);

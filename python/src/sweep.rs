@@ -219,7 +219,7 @@ impl Study {
     ) -> Outcome<Bound<'py, PyDict>> {
         let shard = match shard {
             Some((Whole::Count(number), Whole::Count(of))) if number < of => {
-                Some(Shard { number, of })
+                Some(Shard { number, count: of })
             }
             Some((number, of)) => {
                 return refuse(format!(

@@ -1,4 +1,4 @@
-//! The geometry of a wheelset over its lateral shift: contacts of rigid wheels and rails, rolling radii, equivalent conicity.
+//! Wheelset geometry as a function of lateral shift: rigid contact, rolling radii, equivalent conicity.
 
 use dashpot_rail::contact::{
     Axis, ContactGeometry, Grid, Jump, MAX_JUMP, Pair, RigidContact, Steel, Tables,
@@ -6,30 +6,30 @@ use dashpot_rail::contact::{
 use dashpot_rail::indices::{RollingRadiusDifference, RollingRadiusError};
 use serde::Serialize;
 
-/// Largest lateral shift that is evaluated, m.
-const LARGEST_SHIFT_M: f64 = 0.012;
-/// Cells of the rolling radius difference from left to right: 25 um each, which locates its jumps as well.
+/// Maximum evaluated lateral shift, m.
+const MAX_SHIFT_M: f64 = 0.012;
+/// Number of cells of the rolling radius difference from left to right, 25 um each; fine enough to locate its jumps.
 const CELLS: usize = 960;
-/// Amplitudes that equivalent conicity is told of, each half millimetre.
+/// Number of amplitudes with an equivalent conicity, 0.5 mm apart.
 const AMPLITUDES: u32 = 16;
 
-/// Load of a wheel under which jumps of the force are looked for, N.
+/// Wheel load at which force jumps are searched for, N.
 const LOAD_N: f64 = 100e3;
 
-/// A jump of the force of the contact, for which tables of a pair are refused.
+/// Jump of the contact force that is too large for contact tables.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ForceJump {
-    /// Lateral shift of the right wheel over its rail, to the field side, m.
+    /// Lateral shift of the right wheel on its rail, positive to the field side, m.
     pub lateral_m: f64,
     /// Roll of the wheel, rad.
     pub roll_rad: f64,
     /// Yaw of the wheel, rad.
     pub yaw_rad: f64,
-    /// Load of the wheel there, N.
+    /// Wheel load at the jump, N.
     pub load_n: f64,
     /// Jump of the vertical force, N.
     pub jump_n: f64,
-    /// What the stiffness of the contact allows, N.
+    /// Jump that the stiffness of the contact allows, N.
     pub allowed_n: f64,
 }
 
@@ -47,9 +47,9 @@ impl From<Jump> for ForceJump {
 }
 
 impl ForceJump {
-    /// The greatest jump of a pair whose contact tables are refused under a wheel load of 100 kN; `None` if its force does not jump at any
-    /// of the looked-at rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20 mrad).
-    pub fn of(pair: &Pair) -> Option<Self> {
+    /// Finds the largest jump that prevents contact tables of `pair` at a wheel load of 100 kN. Returns `None` if the
+    /// force does not jump at any of the examined rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20 mrad).
+    pub fn find(pair: &Pair) -> Option<Self> {
         let grid = Grid::default()
             .with_roll_rad(Axis {
                 ends: [-12e-3, -12e-3, 12e-3, 12e-3],
@@ -65,29 +65,29 @@ impl ForceJump {
     }
 }
 
-/// Rigid contacts of a wheelset, from left to right.
+/// Rigid contact of a wheelset over its lateral shift, from left to right.
 pub struct WheelsetGeometry {
-    /// At each lateral shift, 25 um apart from -12 mm to 12 mm.
+    /// Contact at each lateral shift from -12 mm to 12 mm, 25 um apart.
     pub contacts: Vec<RigidContact>,
-    /// Of the right less the left wheel.
+    /// Rolling radius difference, right wheel minus left wheel.
     pub rolling: RollingRadiusDifference,
 }
 
-/// Equivalent conicity at an amplitude.
+/// Equivalent conicity at one amplitude.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Conicity {
     /// Amplitude, m.
     pub amplitude_m: f64,
-    /// Conicity by EN 15302; none where the wheelset finds no closed path.
+    /// Equivalent conicity according to EN 15302; `None` if the wheelset has no periodic motion.
     pub equivalent_conicity: Option<f64>,
 }
 
-/// The rigid wheelset at a lateral shift.
+/// Rigid wheelset at one lateral shift.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Shift {
-    /// Lateral shift at the rails' top, to the right, m.
+    /// Lateral shift at the height of the top of the rails, positive to the right, m.
     pub lateral_shift_m: f64,
-    /// Rolling radius of the right wheel less that of the left one, m.
+    /// Rolling radius of the right wheel minus that of the left wheel, m.
     pub rolling_radius_difference_m: f64,
     /// Roll of the wheelset, rad.
     pub roll_rad: f64,
@@ -95,9 +95,9 @@ pub struct Shift {
     pub contact_angle_left_rad: f64,
     /// Contact angle of the right wheel, rad.
     pub contact_angle_right_rad: f64,
-    /// Where the left wheel is touched, from the tread datum to the field side, m.
+    /// Contact position on the left wheel from the tread datum, positive to the field side, m.
     pub wheel_place_left_m: f64,
-    /// Where the right wheel is touched, m.
+    /// Contact position on the right wheel from the tread datum, positive to the field side, m.
     pub wheel_place_right_m: f64,
 }
 
@@ -116,14 +116,14 @@ impl From<&RigidContact> for Shift {
 }
 
 impl WheelsetGeometry {
-    /// Of a wheel and a rail.
+    /// Computes the geometry for a wheel and rail pair.
     ///
     /// # Errors
-    /// Contacts that make no rolling radius difference.
-    pub fn of(pair: &Pair) -> Result<Self, RollingRadiusError> {
+    /// The contacts do not define a rolling radius difference.
+    pub fn new(pair: &Pair) -> Result<Self, RollingRadiusError> {
         let mut scratch = Vec::new();
         let contacts: Vec<RigidContact> = (0..=CELLS)
-            .map(|i| LARGEST_SHIFT_M * (2.0 * i as f64 / CELLS as f64 - 1.0))
+            .map(|i| MAX_SHIFT_M * (2.0 * i as f64 / CELLS as f64 - 1.0))
             .map(|shift| pair.rigid_contact(shift, 0.0, &mut scratch))
             .collect();
         let rolling = RollingRadiusDifference::new(
@@ -136,7 +136,7 @@ impl WheelsetGeometry {
         Ok(Self { contacts, rolling })
     }
 
-    /// Equivalent conicity at amplitudes from 0.5 mm to 8 mm.
+    /// Computes the equivalent conicity at amplitudes from 0.5 mm to 8 mm.
     pub fn conicities(&self, pair: &Pair) -> Vec<Conicity> {
         let radius_m = pair.installation().wheel_radius_m;
         (1..=AMPLITUDES)

@@ -41,8 +41,8 @@ fn signals(fault: Option<&str>) -> (Vec<Signals>, dashpot_core::DamperParameters
     while run.step().unwrap().is_none() {
         let time_s = run.time_s();
         for ([x, force], (displacements, forces)) in watched.iter().zip(&mut samples) {
-            displacements.push(x.of(run.state(), time_s));
-            forces.push(force.of(run.state(), time_s));
+            displacements.push(x.value(run.state(), time_s));
+            forces.push(force.value(run.state(), time_s));
         }
     }
     (samples, case.damper(WATCHED[0]).unwrap().clone())

@@ -12,7 +12,7 @@ const BUGS: [(&str, &str, &str); 14] = [
     (
         "a target reset while its dampers were loaded stopped the run",
         "hil-host/tests/link/pil_bank.rs",
-        "after_a_reset_each_place_has_its_damper_again",
+        "after_a_reset_each_slot_has_its_damper_again",
     ),
     (
         "C: a state that lies in its damper, or forces in the states, were written",
@@ -37,7 +37,7 @@ const BUGS: [(&str, &str, &str); 14] = [
     (
         "a tick over TCP took 44 ms, because the peer waited for acknowledgements",
         "hil-host/tests/link/pil_tcp.rs",
-        "what_was_received_is_acknowledged_at_once",
+        "received_data_is_acknowledged_at_once",
     ),
     (
         "`pil` ended by a signal left its emulator running",
@@ -47,12 +47,12 @@ const BUGS: [(&str, &str, &str); 14] = [
     (
         "a command ended by a signal left its temporary file",
         "hil-host/tests/commands/interruption.rs",
-        "an_interrupted_replay_ends_by_the_signal_and_leaves_what_was_there",
+        "an_interrupted_replay_ends_by_the_signal_and_keeps_existing_files",
     ),
     (
         "energy of a replay was that of the recorded motion instead of the followed one",
         "hil-host/tests/commands/replay.rs",
-        "energy_is_of_the_motion_followed",
+        "energy_is_that_of_the_motion_followed",
     ),
     (
         "lines of recordings that end in CRLF were counted twice",

@@ -37,7 +37,7 @@ impl Model {
         let tables = contact.tables_in(resources);
         let vehicle = tables.and_then(|tables| Coupled::new(&case, tables));
         let vehicle = vehicle.map_err(|error| error.to_string())?;
-        let saved = vehicle.saved().map_err(|error| error.to_string())?;
+        let saved = vehicle.save().map_err(|error| error.to_string())?;
         Ok(Self {
             saved_bytes: size_of::<u64>() + 2 * saved.len(),
             vehicle,
@@ -59,13 +59,13 @@ impl Model {
     }
 
     pub fn number(&self, variable: u32) -> Option<f64> {
-        self.vehicle.number(Self::index(variable)?)
+        self.vehicle.value(Self::index(variable)?)
     }
 
     /// Reads an integer variable: the one after the last real variable says how the run ended.
     pub fn integer(&self, variable: u32) -> Option<i32> {
         let is_ending = Self::index(variable)? == self.vehicle.variables().len();
-        is_ending.then(|| self.vehicle.ending_number())
+        is_ending.then(|| self.vehicle.ending_code())
     }
 
     pub fn check(&self, variable: u32, value: f64) -> ModelResult {
@@ -114,7 +114,7 @@ impl Model {
     /// Writes the length and the bytes of the state into `to`, which contains zeros. Without enough room `to` stays
     /// zero, which is not a valid state.
     pub fn save(&self, to: &mut [u8]) {
-        let saved = self.vehicle.saved().unwrap_or_default();
+        let saved = self.vehicle.save().unwrap_or_default();
         if let Some((count, content)) = to.split_first_chunk_mut()
             && let Some(content) = content.get_mut(..saved.len())
         {

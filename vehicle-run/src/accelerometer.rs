@@ -1,55 +1,57 @@
-//! Where the ride of a vehicle is told of.
+//! Ride measurement points of a vehicle.
 
 use dashpot_rail::vehicle::{Body, RidePoint, VehicleParameters};
 
-/// A point of a body where the ride is told of.
+/// Accelerometer fixed to a body at a ride measurement point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accelerometer {
     point: RidePoint,
     body: Body,
-    /// Number of the body.
-    number: usize,
+    body_index: usize,
 }
 
 impl Accelerometer {
-    /// Those at the ride points of a vehicle; where it gives none, at the height of the centre of gravity of its first body, which is the
-    /// car body, in the middle and over every other body.
+    /// Returns an accelerometer for each ride point of the vehicle. A vehicle without ride points gets points on its
+    /// first body, the car body, at the height of its centre of gravity: one in the middle and one above every other
+    /// body.
     pub fn all(vehicle: &VehicleParameters) -> Vec<Self> {
         let points = if vehicle.ride_points.is_empty() {
-            usual_points(&vehicle.bodies)
+            default_points(&vehicle.bodies)
         } else {
             vehicle.ride_points.clone()
         };
-        let placed = |point: RidePoint| {
+        let mount = |point: RidePoint| {
             let mut bodies = vehicle.bodies.iter();
-            let number = bodies.position(|body| body.name == point.on)?;
+            let body_index = bodies.position(|body| body.name == point.on)?;
             Some(Self {
                 point,
-                body: vehicle.bodies[number].clone(),
-                number,
+                body: vehicle.bodies[body_index].clone(),
+                body_index,
             })
         };
-        points.into_iter().filter_map(placed).collect()
+        points.into_iter().filter_map(mount).collect()
     }
 
-    /// Name.
+    /// Name of the point.
     pub fn name(&self) -> &str {
         &self.point.name
     }
 
-    /// Place: x forward from the middle of the vehicle, y right, height above the rails' top, m.
+    /// Coordinates, m: x forward from the middle of the vehicle, y to the right, height above the top of the rails.
     pub fn at_m(&self) -> [f64; 3] {
         self.point.at_m
     }
 
-    /// Acceleration to the right and down, m/s^2, from that of bodies in the order of their coordinates.
+    /// Returns the lateral (right positive) and vertical (down positive) acceleration, m/s^2. `body_acceleration` gives
+    /// the accelerations of a body, in the order of its coordinates.
     #[inline]
-    pub fn acceleration(&self, of_body: impl Fn(usize) -> [f64; 5]) -> [f64; 2] {
-        self.point.acceleration(&self.body, of_body(self.number))
+    pub fn acceleration(&self, body_acceleration: impl Fn(usize) -> [f64; 5]) -> [f64; 2] {
+        self.point
+            .acceleration(&self.body, body_acceleration(self.body_index))
     }
 }
 
-fn usual_points(bodies: &[Body]) -> Vec<RidePoint> {
+fn default_points(bodies: &[Body]) -> Vec<RidePoint> {
     let Some((body, others)) = bodies.split_first() else {
         return Vec::new();
     };

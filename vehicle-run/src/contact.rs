@@ -1,4 +1,4 @@
-//! The contact of a vehicle's wheels: standard profiles under its mean wheel load.
+//! Wheel-rail contact of a vehicle: standard profiles under its mean wheel load.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,20 +11,28 @@ use dashpot_rail::vehicle::{Standstill, VehicleError, VehicleParameters};
 
 use super::VehicleRunError;
 
-/// What the contact of a vehicle follows from.
+/// Inputs that determine the contact tables.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactOf {
-    wheel_radius_m: f64,
-    mean_wheel_load_n: f64,
+pub struct TablesKey {
+    /// Wheel radius of the first wheelset, m.
+    pub wheel_radius_m: f64,
+    /// Mean wheel load of the vehicle at standstill, N.
+    pub mean_wheel_load_n: f64,
+}
+
+/// Inputs that determine the contact of a vehicle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSetup {
+    tables: TablesKey,
     friction: f64,
     normal_damping_s_per_m: f64,
 }
 
-impl ContactOf {
-    /// Of a vehicle with friction and normal damping.
+impl ContactSetup {
+    /// Derives the setup from a vehicle, a friction coefficient and the normal damping (s/m).
     ///
     /// # Errors
-    /// A vehicle that is refused or has no wheelset.
+    /// Invalid vehicle, or one without wheelsets.
     pub fn new(
         vehicle: &VehicleParameters,
         friction: f64,
@@ -34,95 +42,99 @@ impl ContactOf {
         let loads = standstill.axle_loads_n();
         let first = vehicle.wheelsets.first();
         Ok(Self {
-            wheel_radius_m: first.ok_or(VehicleError::NoWheelset)?.radius_m,
-            mean_wheel_load_n: loads.iter().sum::<f64>() / (2 * loads.len()) as f64,
+            tables: TablesKey {
+                wheel_radius_m: first.ok_or(VehicleError::NoWheelset)?.radius_m,
+                mean_wheel_load_n: loads.iter().sum::<f64>() / (2 * loads.len()) as f64,
+            },
             friction,
             normal_damping_s_per_m,
         })
     }
 
-    /// What the tables follow from: others may have another friction or damping.
-    pub fn geometry_key(&self) -> [f64; 2] {
-        [self.wheel_radius_m, self.mean_wheel_load_n]
+    /// Inputs of the contact tables. Setups that differ only in friction or damping share their tables.
+    pub fn tables_key(&self) -> TablesKey {
+        self.tables
     }
 
-    /// The tables, some 43 MB. They are kept in the user's cache folder, so that they are computed once.
+    /// Returns the contact tables, about 43 MB. They are computed once and kept in the user's cache folder.
     ///
     /// # Errors
-    /// A load that wheel and rail do not carry; a cache folder that cannot be used.
+    /// No contact geometry exists for the wheel load, or the cache folder cannot be used.
     pub fn tables(&self) -> Result<Arc<Tables>, VehicleRunError> {
         let tables = Tables::cached(&cache_folder(), self.geometry()?, Grid::default())?;
         Ok(Arc::new(tables))
     }
 
-    /// Those in a file called as that of [`Self::tables`] is, in another folder; nothing is computed or written.
+    /// Loads the contact tables from another folder, under the file name of [`Self::tables_file`]; computes and writes
+    /// nothing.
     ///
     /// # Errors
-    /// A file that is not there or not these tables.
+    /// The file is missing or contains other tables.
     pub fn tables_in(&self, folder: &Path) -> Result<Arc<Tables>, VehicleRunError> {
         let tables = Tables::kept(folder, self.geometry()?, Grid::default())?;
         Ok(Arc::new(tables))
     }
 
-    /// The file in which [`Self::tables`] keeps them.
+    /// File in which [`Self::tables`] keeps the contact tables.
     ///
     /// # Errors
-    /// As [`Self::geometry`].
+    /// See [`Self::geometry`].
     pub fn tables_file(&self) -> Result<PathBuf, VehicleRunError> {
         let name = Tables::file_name(&self.geometry()?, &Grid::default());
         Ok(cache_folder().join(name))
     }
 
-    /// S1002 wheels of the first wheelset's radius on UIC 60 rails at 1:40, their softness that of the vehicle's mean wheel load.
+    /// Builds the contact geometry: S1002 wheels with the first wheelset's radius on UIC 60 rails at 1:40, with the
+    /// elastic deformation at the mean wheel load.
     ///
     /// # Errors
-    /// A load that wheel and rail do not carry.
+    /// No contact geometry exists for the wheel load.
     pub fn geometry(&self) -> Result<ContactGeometry, VehicleRunError> {
-        let installation = Installation::default().with_wheel_radius_m(self.wheel_radius_m);
+        let installation = Installation::default().with_wheel_radius_m(self.tables.wheel_radius_m);
         let pair = Pair::standard(installation)?;
-        let load_n = self.mean_wheel_load_n;
+        let load_n = self.tables.mean_wheel_load_n;
         Ok(ContactGeometry::new(pair, Steel::default(), load_n)?)
     }
 }
 
-/// Constant friction with a coefficient.
+/// Friction with a constant coefficient.
 pub fn friction(coefficient: f64) -> Friction {
     Friction::constant(coefficient)
 }
 
-/// Tabulated contact of a vehicle.
+/// Builds the tabulated contact of a vehicle; computes and caches its tables if necessary.
 ///
 /// # Errors
-/// As [`ContactOf::new`], [`ContactOf::tables`] and [`with`].
+/// See [`ContactSetup::new`], [`ContactSetup::tables`] and [`from_tables`].
 pub fn tabulated(
     vehicle: &VehicleParameters,
     friction_coefficient: f64,
     normal_damping_s_per_m: f64,
 ) -> Result<Arc<WheelsetContact<KalkerBook>>, VehicleRunError> {
-    let of = ContactOf::new(vehicle, friction_coefficient, normal_damping_s_per_m)?;
-    with(of.tables()?, &of)
+    let setup = ContactSetup::new(vehicle, friction_coefficient, normal_damping_s_per_m)?;
+    from_tables(setup.tables()?, &setup)
 }
 
-/// Tabulated contact with the book of creep forces.
+/// Builds the tabulated contact from existing tables, with creep forces from Kalker's book.
 ///
 /// # Errors
-/// A friction or damping out of bounds.
-pub fn with(
+/// Friction or damping is out of bounds.
+pub fn from_tables(
     tables: Arc<Tables>,
-    contact: &ContactOf,
+    setup: &ContactSetup,
 ) -> Result<Arc<WheelsetContact<KalkerBook>>, VehicleRunError> {
-    let friction = friction(contact.friction);
-    let made = WheelsetContact::new(tables, KalkerBook::new(), friction)?;
-    let damping = contact.normal_damping_s_per_m;
-    Ok(Arc::new(made.with_normal_damping(damping)?))
+    let friction = friction(setup.friction);
+    let contact = WheelsetContact::new(tables, KalkerBook::new(), friction)?;
+    let damping = setup.normal_damping_s_per_m;
+    Ok(Arc::new(contact.with_normal_damping(damping)?))
 }
 
-/// `dashpot` in the folder of the user's caches; beside temporary files where there is none.
+/// Folder `dashpot` in the user's cache folder, or in the folder for temporary files if there is no home folder.
 fn cache_folder() -> PathBuf {
-    let given = std::env::var_os("XDG_CACHE_HOME").map(PathBuf::from);
-    let given = given.filter(|folder| folder.is_absolute());
+    let configured = std::env::var_os("XDG_CACHE_HOME").map(PathBuf::from);
+    let configured = configured.filter(|folder| folder.is_absolute());
     let home = || Some(std::env::home_dir()?.join(".cache"));
-    given
+    configured
         .or_else(home)
         .unwrap_or_else(std::env::temp_dir)
         .join("dashpot")

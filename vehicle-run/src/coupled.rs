@@ -1,4 +1,4 @@
-//! A vehicle as a part of another simulation: forces of the dampers outside go in, ticks are taken, signals come out.
+//! Vehicle as part of another simulation: forces of the dampers outside are inputs, signals are outputs.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -8,39 +8,39 @@ use dashpot_rail::vehicle::VehicleState;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-use super::contact::{self, ContactOf};
+use super::contact::{self, ContactSetup};
 use super::recorded::all_signals;
 use super::signals::{Signal, slug};
-use super::{Ending, Run, VehicleRunError, number_outside};
+use super::{Ending, Run, VehicleRunError, outside_index};
 use dashpot_files::case::Case;
 
-/// What a coupled vehicle is made of but for the tables of its contact; whole when it is written by serde.
+/// Everything that defines a coupled vehicle except its contact tables; can be serialized completely.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CoupledCase {
-    /// Version of Dashpot that it was written by, and is read by.
+    /// Version of Dashpot that wrote it; only this version can read it.
     pub version: String,
-    /// The case; its track needs no other file.
+    /// Case whose track refers to no other file.
     pub case: Case,
     /// Names of the dampers outside.
     pub outside: Vec<String>,
 }
 
 impl CoupledCase {
-    /// Name of the file that holds it in the resources of an FMU.
+    /// Name of the file that contains it in the resources of an FMU.
     pub const FILE: &str = "case.json";
 
-    /// SHA-256 of the content of [`Self::FILE`], in hexadecimal: the library of an FMU refuses any other case.
+    /// SHA-256 of the content of [`Self::FILE`], in hexadecimal. The library of an FMU rejects any other case.
     pub fn digest(content: &[u8]) -> String {
         let digest = Sha256::digest(content);
         digest.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// Of a case, with these dampers outside.
+    /// Selects the dampers outside of a case by name.
     ///
     /// # Errors
-    /// A damper that cannot be outside; a track that is refused.
+    /// A damper that cannot be outside, or an invalid track.
     pub fn new(case: &Case, outside: &[String]) -> Result<Self, VehicleRunError> {
-        numbers_outside(case, outside)?;
+        outside_indices(case, outside)?;
         Ok(Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             case: Case {
@@ -51,14 +51,14 @@ impl CoupledCase {
         })
     }
 
-    /// What the tables of the contact follow from.
+    /// Returns the inputs that determine the contact and its tables.
     ///
     /// # Errors
-    /// A vehicle that is refused.
-    pub fn contact(&self) -> Result<ContactOf, VehicleRunError> {
+    /// Invalid vehicle.
+    pub fn contact(&self) -> Result<ContactSetup, VehicleRunError> {
         let case = &self.case;
         let damping_s_per_m = case.normal_damping_s_per_m;
-        Ok(ContactOf::new(
+        Ok(ContactSetup::new(
             &case.vehicle,
             case.friction,
             damping_s_per_m,
@@ -66,62 +66,69 @@ impl CoupledCase {
     }
 }
 
-/// Numbers of the dampers of these names.
-fn numbers_outside(case: &Case, names: &[String]) -> Result<Vec<usize>, VehicleRunError> {
-    let mut numbers = Vec::new();
+/// Returns the indices of the dampers with these names.
+fn outside_indices(case: &Case, names: &[String]) -> Result<Vec<usize>, VehicleRunError> {
+    let mut indices = Vec::new();
     for name in names {
-        let number = number_outside(case, name, &numbers).map_err(|source| {
+        let index = outside_index(case, name, &indices).map_err(|source| {
             let name = name.clone();
             VehicleRunError::Outside { name, source }
         })?;
-        numbers.push(number);
+        indices.push(index);
     }
-    Ok(numbers)
+    Ok(indices)
 }
 
-/// A number of a coupled vehicle.
+/// Input or output variable of a coupled vehicle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoupledVariable {
-    /// That of the signal, with the unit.
+    /// Name of the signal, which ends in the unit.
     pub name: String,
-    /// Where it goes or comes from.
+    /// Source or destination of its value.
     role: Role,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum Role {
-    /// Force of a damper outside, by its place among them.
+    /// Force of a damper outside, by its index among them.
     Force(usize),
-    /// Rate of its displacement over the last tick.
+    /// Mean rate of displacement of a damper outside over the last tick, by its index among them.
     Velocity(usize),
     Output(Signal),
 }
 
 impl CoupledVariable {
-    /// Whether it is the force of a damper outside, which others set.
+    /// True if this is the force of a damper outside, which is an input.
     pub fn is_force(&self) -> bool {
         matches!(self.role, Role::Force(_))
     }
 }
 
-/// A damper outside.
+/// Damper outside.
 #[derive(Debug, Clone)]
 struct Outside {
-    number: usize,
+    /// Index of the damper in the vehicle.
+    index: usize,
+    signals: OutsideSignals,
+}
+
+/// Changing values of a damper outside.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct OutsideSignals {
     force_n: f64,
-    /// Displacement a tick ago, m.
+    /// Displacement one tick ago, m.
     last_m: f64,
 }
 
-/// A vehicle whose dampers outside are others' to compute.
+/// Vehicle whose dampers outside are computed by another simulation.
 ///
-/// The displacement of a tick is told at its end; a force that is set acts at the end of the next: one tick after the displacement that
-/// it answers, as with `dashpot vehicle --outside`.
+/// Displacements are available at the end of a tick. A force that is then set acts at the end of the next tick, so it
+/// lags the displacement from which it was computed by one tick.
 #[derive(Debug, Clone)]
 pub struct Coupled {
     start: Run,
     run: Run,
-    /// Before the ticks that are taken at once.
+    /// State before the ticks of the current call of [`Coupled::step`].
     before: VehicleState,
     variables: Arc<[CoupledVariable]>,
     outside: Vec<Outside>,
@@ -129,62 +136,64 @@ pub struct Coupled {
 }
 
 impl Coupled {
-    /// At the start of its case, with the contact that [`CoupledCase::contact`] says and its tables.
+    /// Places the vehicle at the start of its case. `tables` are those of [`CoupledCase::contact`].
     ///
     /// # Errors
-    /// A case of another version; a vehicle that is refused; a damper that is not the vehicle's; two signals of one name.
-    pub fn new(of: &CoupledCase, tables: Arc<Tables>) -> Result<Self, VehicleRunError> {
-        if of.version != env!("CARGO_PKG_VERSION") {
-            let version = of.version.clone();
+    /// Case of another version, invalid vehicle, unknown damper, or two signals with the same name.
+    pub fn new(coupled: &CoupledCase, tables: Arc<Tables>) -> Result<Self, VehicleRunError> {
+        if coupled.version != env!("CARGO_PKG_VERSION") {
+            let version = coupled.version.clone();
             return Err(VehicleRunError::Version { version });
         }
-        let case = &of.case;
-        let contact = contact::with(tables, &of.contact()?)?;
+        let case = &coupled.case;
+        let contact = contact::from_tables(tables, &coupled.contact()?)?;
         let mut run = Run::on(case, contact, Arc::new(case.track.build()?))?;
         let names: Vec<String> = run.vehicle().damper_names().map(str::to_owned).collect();
-        let numbers = numbers_outside(&of.case, &of.outside)?;
-        let outside: Vec<Outside> = numbers
+        let indices = outside_indices(case, &coupled.outside)?;
+        let outside: Vec<Outside> = indices
             .into_iter()
-            .map(|number| {
-                run.state_mut().set_outside_force_n(number, Some(0.0))?;
+            .map(|index| {
+                run.state_mut().set_outside_force_n(index, Some(0.0))?;
                 Ok(Outside {
-                    number,
-                    force_n: 0.0,
-                    last_m: run.state().damper_displacements_m()[number],
+                    index,
+                    signals: OutsideSignals {
+                        force_n: 0.0,
+                        last_m: run.state().damper_displacements_m()[index],
+                    },
                 })
             })
             .collect::<Result<_, VehicleRunError>>()?;
         let mut variables = Vec::new();
-        for (place, damper) in outside.iter().enumerate() {
-            let name = slug(&names[damper.number]);
+        for (slot, damper) in outside.iter().enumerate() {
+            let name = slug(&names[damper.index]);
             let roles = [
-                ("force_n", Role::Force(place)),
-                ("velocity_m_per_s", Role::Velocity(place)),
+                ("force_n", Role::Force(slot)),
+                ("velocity_m_per_s", Role::Velocity(slot)),
             ];
-            variables.extend(roles.map(|(what, role)| CoupledVariable {
-                name: format!("{name}_{what}"),
+            variables.extend(roles.map(|(suffix, role)| CoupledVariable {
+                name: format!("{name}_{suffix}"),
                 role,
             }));
         }
         let is_outside = |signal: &Signal| {
             outside
                 .iter()
-                .any(|damper| signal.is_force_of(damper.number))
+                .any(|damper| signal.is_force_of(damper.index))
         };
-        for signal in all_signals(&run, &of.case.vehicle) {
+        for signal in all_signals(&run, &case.vehicle) {
             let name = signal.name().to_owned();
-            // The simulation around it has the time.
+            // The surrounding simulation supplies the time.
             if name != "time_s" && !is_outside(&signal) {
                 let role = Role::Output(signal);
                 variables.push(CoupledVariable { name, role });
             }
         }
         let mut names = HashSet::new();
-        if let Some(twice) = variables
+        if let Some(duplicate) = variables
             .iter()
             .find(|variable| !names.insert(&variable.name))
         {
-            let name = twice.name.clone();
+            let name = duplicate.name.clone();
             return Err(VehicleRunError::SameName { name });
         }
         Ok(Self {
@@ -197,83 +206,90 @@ impl Coupled {
         })
     }
 
-    /// Its numbers: force and velocity of each damper outside, then every signal of the vehicle but the time.
+    /// Variables: force and velocity of each damper outside, then all signals of the vehicle except the time.
     pub fn variables(&self) -> &[CoupledVariable] {
         &self.variables
     }
 
-    /// Step of the case, s.
+    /// Step size of the case, s.
     pub fn step_s(&self) -> f64 {
         self.run.vehicle().step_s()
     }
 
-    /// When the case is over, s after its start.
+    /// Duration of the case, s.
     pub fn duration_s(&self) -> f64 {
         self.run.ticks() as f64 * self.step_s()
     }
 
-    /// At the start again, without forces outside.
+    /// Returns to the start of the case, with all forces of the dampers outside zero.
     pub fn reset(&mut self) {
         self.run.clone_from(&self.start);
         self.ending = None;
         let displacements_m = self.run.state().damper_displacements_m();
         for damper in &mut self.outside {
-            damper.force_n = 0.0;
-            damper.last_m = displacements_m[damper.number];
+            damper.signals = OutsideSignals {
+                force_n: 0.0,
+                last_m: displacements_m[damper.index],
+            };
         }
     }
 
-    /// The number of a variable, by its place.
-    pub fn number(&self, place: usize) -> Option<f64> {
-        Some(match &self.variables.get(place)?.role {
-            Role::Force(outside) => self.outside[*outside].force_n,
-            Role::Velocity(outside) => {
-                let damper = &self.outside[*outside];
+    /// Value of the variable with index `index`; `None` if there is no such variable.
+    pub fn value(&self, index: usize) -> Option<f64> {
+        Some(match &self.variables.get(index)?.role {
+            Role::Force(slot) => self.outside[*slot].signals.force_n,
+            Role::Velocity(slot) => {
+                let damper = &self.outside[*slot];
                 let displacements_m = self.run.state().damper_displacements_m();
-                (displacements_m[damper.number] - damper.last_m) / self.step_s()
+                (displacements_m[damper.index] - damper.signals.last_m) / self.step_s()
             }
-            Role::Output(signal) => signal.of(self.run.state(), self.run.time_s()),
+            Role::Output(signal) => signal.value(self.run.state(), self.run.time_s()),
         })
     }
 
-    /// Sets the force of a damper outside, N, by the variable's place, for all ticks that come.
+    /// Sets the force of a damper outside, N, for all following ticks; `index` is that of the variable.
     ///
     /// # Errors
-    /// A variable that is not the force of a damper outside, a force that is not finite; then nothing changes.
-    pub fn set_force_n(&mut self, place: usize, force_n: f64) -> Result<(), VehicleRunError> {
-        let role = self.variables.get(place).map(|variable| &variable.role);
-        let Some(Role::Force(outside)) = role else {
-            return Err(VehicleRunError::NotAForce { variable: place });
+    /// The variable is not the force of a damper outside, or the force is not finite. Nothing changes then.
+    pub fn set_force_n(&mut self, index: usize, force_n: f64) -> Result<(), VehicleRunError> {
+        let role = self.variables.get(index).map(|variable| &variable.role);
+        let Some(Role::Force(slot)) = role else {
+            return Err(VehicleRunError::NotAForce { variable: index });
         };
-        let damper = &mut self.outside[*outside];
+        let damper = &mut self.outside[*slot];
         let state = self.run.state_mut();
-        state.set_outside_force_n(damper.number, Some(force_n))?;
-        damper.force_n = force_n;
+        state.set_outside_force_n(damper.index, Some(force_n))?;
+        damper.signals.force_n = force_n;
         Ok(())
     }
 
-    /// Takes up to `ticks` ticks, fewer where the run ends: how many it took. One that diverges stays where it was before the call.
+    /// Simulates up to `ticks` ticks, fewer if the run ends, and returns their number. If the run diverges, the state
+    /// is that before the call.
     ///
     /// # Errors
-    /// As [`Run::step`].
+    /// See [`Run::step`].
     pub fn step(&mut self, ticks: u64) -> Result<u64, VehicleRunError> {
         self.before.clone_from(self.run.state());
-        let last_m: Vec<f64> = self.outside.iter().map(|damper| damper.last_m).collect();
+        let before: Vec<f64> = self
+            .outside
+            .iter()
+            .map(|damper| damper.signals.last_m)
+            .collect();
         for tick in 0..ticks {
             if self.ending.is_some() {
                 return Ok(tick);
             }
             let displacements_m = self.run.state().damper_displacements_m();
             for damper in &mut self.outside {
-                damper.last_m = displacements_m[damper.number];
+                damper.signals.last_m = displacements_m[damper.index];
             }
             self.ending = self.run.step()?;
             match self.ending {
                 Some(Ending::Completed) => return Ok(tick),
                 Some(Ending::Diverged { .. }) => {
                     self.run.state_mut().clone_from(&self.before);
-                    for (damper, last_m) in self.outside.iter_mut().zip(last_m) {
-                        damper.last_m = last_m;
+                    for (damper, last_m) in self.outside.iter_mut().zip(before) {
+                        damper.signals.last_m = last_m;
                     }
                     return Ok(0);
                 }
@@ -283,30 +299,31 @@ impl Coupled {
         Ok(ticks)
     }
 
-    /// All that changes, as bytes for [`Self::restore`]; their number grows with the numbers of ticks, by less than half.
+    /// Saves the state as bytes for [`Self::restore`]. Their number grows slightly with the tick count, by less than
+    /// half.
     ///
     /// # Errors
-    /// None that is known.
-    pub fn saved(&self) -> Result<Vec<u8>, postcard::Error> {
-        let of_damper = |damper: &Outside| [damper.force_n, damper.last_m];
-        let outside: Vec<[f64; 2]> = self.outside.iter().map(of_damper).collect();
-        postcard::to_stdvec(&(self.run.state(), outside, self.ending_number()))
+    /// None are known.
+    pub fn save(&self) -> Result<Vec<u8>, postcard::Error> {
+        let outside: Vec<OutsideSignals> =
+            self.outside.iter().map(|damper| damper.signals).collect();
+        postcard::to_stdvec(&(self.run.state(), outside, self.ending_code()))
     }
 
-    /// Goes on from bytes that a vehicle of the same case has saved.
+    /// Resumes from bytes saved by a vehicle of the same case.
     ///
     /// # Errors
-    /// Bytes that are no state of this vehicle; then nothing changes.
+    /// The bytes are not a state of this vehicle. Nothing changes then.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), postcard::Error> {
-        let (state, outside, ending): (VehicleState, Vec<[f64; 2]>, i32) =
+        let (state, outside, ending): (VehicleState, Vec<OutsideSignals>, i32) =
             postcard::from_bytes(bytes)?;
-        let refused = |_| postcard::Error::DeserializeBadEncoding;
+        let invalid = |_| postcard::Error::DeserializeBadEncoding;
         if outside.len() != self.outside.len() {
             return Err(postcard::Error::DeserializeBadEncoding);
         }
-        self.run.restore(&self.start, state).map_err(refused)?;
-        for (damper, [force_n, last_m]) in self.outside.iter_mut().zip(outside) {
-            (damper.force_n, damper.last_m) = (force_n, last_m);
+        self.run.restore(&self.start, state).map_err(invalid)?;
+        for (damper, signals) in self.outside.iter_mut().zip(outside) {
+            damper.signals = signals;
         }
         self.ending = match ending {
             0 => None,
@@ -317,9 +334,9 @@ impl Coupled {
         Ok(())
     }
 
-    /// How it ended in a number: 0 not yet, 1 the case is over, 2 derailed, 3 outside the tables of the contact, 4 diverged, 5 beyond the
-    /// model, 6 overturned.
-    pub fn ending_number(&self) -> i32 {
+    /// Ending as a number: 0 not ended, 1 case completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5
+    /// beyond the model, 6 overturned.
+    pub fn ending_code(&self) -> i32 {
         match &self.ending {
             None => 0,
             Some(Ending::Completed | Ending::Interrupted { .. } | Ending::OutsideLost { .. }) => 1,
@@ -331,7 +348,7 @@ impl Coupled {
         }
     }
 
-    /// How it ended, if it did.
+    /// Ending of the run, if it has ended.
     pub fn ending(&self) -> Option<&Ending> {
         self.ending.as_ref()
     }

@@ -1,4 +1,4 @@
-//! Why a case is not run.
+//! Errors from building or stepping a run.
 
 use dashpot_rail::contact::{CacheError, GeometryError, PairError, SurfaceError};
 use dashpot_rail::vehicle::VehicleError;
@@ -6,72 +6,73 @@ use dashpot_rail::vehicle::VehicleError;
 use super::OutsideError;
 use dashpot_files::FileError;
 
-/// Why a case is not run.
+/// Error from building or stepping a run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VehicleRunError {
-    /// The vehicle is refused.
+    /// Invalid vehicle parameters.
     #[error(transparent)]
     Vehicle(#[from] VehicleError),
-    /// The track's irregularity is refused.
+    /// Invalid or unreadable track irregularity.
     #[error(transparent)]
     Track(#[from] FileError),
-    /// The wheels do not fit the rails.
+    /// The wheel profiles do not fit the rail profiles.
     #[error(transparent)]
     Pair(#[from] PairError),
-    /// There is no contact under the wheel load.
-    #[error("contact of wheel and rail: {0}")]
+    /// No contact geometry exists for this wheel load.
+    #[error("wheel-rail contact: {0}")]
     Geometry(#[from] GeometryError),
-    /// Friction or damping of the surfaces is refused.
-    #[error("contact of wheel and rail: {0}")]
+    /// Invalid friction coefficient or normal damping.
+    #[error("wheel-rail contact: {0}")]
     Surface(#[from] SurfaceError),
-    /// The tables of the contact cannot be made or kept.
-    #[error("tables of the contact: {0}")]
+    /// The contact tables cannot be computed or cached.
+    #[error("contact tables: {0}")]
     Tables(#[from] CacheError),
-    /// A damper that cannot be outside.
-    #[error("`{name}` outside: {source}")]
+    /// A damper's force cannot come from outside.
+    #[error("damper `{name}` outside: {source}")]
     Outside {
-        /// Its name.
+        /// Name of the damper.
         name: String,
-        /// Why.
+        /// Reason.
         source: OutsideError,
     },
-    /// Two bodies or dampers that have one name in signals, where all but letters and digits of ASCII is an underscore.
+    /// Two bodies or dampers get the same signal name, because [`slug`](crate::signals::slug) replaces every character
+    /// other than ASCII letters and digits.
     #[error(
-        "two signals are called {name}, allowed: names that differ in letters A to Z and digits"
+        "two signals are called {name}; allowed: names that differ in letters A to Z and digits"
     )]
     SameName {
-        /// The name.
+        /// Signal name.
         name: String,
     },
-    /// A case that another version has written.
-    #[error("a case written by Dashpot {version}, allowed: {}", env!("CARGO_PKG_VERSION"))]
+    /// The case was written by another version.
+    #[error("the case was written by Dashpot {version}; allowed: {}", env!("CARGO_PKG_VERSION"))]
     Version {
-        /// The version.
+        /// Version that wrote it.
         version: String,
     },
-    /// A variable of a coupled vehicle that is not the force of a damper outside.
-    #[error("variable {variable}: allowed: the force of a damper outside")]
+    /// A variable that cannot be set, because it is not the force of a damper outside.
+    #[error("variable {variable} cannot be set; allowed: the force of a damper outside")]
     NotAForce {
-        /// The variable's place.
+        /// Index of the variable.
         variable: usize,
     },
-    /// A signal that the vehicle has not.
+    /// Unknown signal.
     #[error("no signal `{name}`{near}")]
     NoSignal {
-        /// Its name.
+        /// Requested name.
         name: String,
-        /// The nearest one, in words.
+        /// Suggestion with the nearest name, or empty.
         near: String,
     },
-    /// A history does not fit into memory.
+    /// The history does not fit into memory.
     #[error(
-        "{signals} signals of {ticks} ticks: no memory, allowed: fewer signals or a shorter run"
+        "{signals} signals over {ticks} ticks do not fit into memory; allowed: fewer signals or a shorter run"
     )]
     Memory {
-        /// Ticks of the run.
+        /// Number of ticks in the run.
         ticks: u64,
-        /// Signals.
+        /// Number of signals.
         signals: usize,
     },
 }

@@ -1,5 +1,6 @@
-//! The nonlinear critical speed: the least at which a push grows into, or stays, a limit cycle of hunting.
+//! Nonlinear critical speed: the lowest speed at which a lateral disturbance leads to a limit cycle of hunting.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use dashpot_rail::contact::WheelsetContact;
@@ -10,42 +11,44 @@ use serde::Serialize;
 
 use super::VehicleRunError;
 
-/// Step, s.
+/// Step size, s.
 const STEP_S: f64 = 1e-3;
 
-/// By how much all wheelsets and the bogies are pushed aside at the start, m: to the flange.
+/// Initial lateral displacement of the bogies and wheelsets, m: up to flange contact.
 const PUSH_M: f64 = 6e-3;
 
-/// Time until a motion has settled, s, and over which its amplitude is taken then.
+/// Settling time, s, and length of each of the two windows that follow, in which the amplitude is measured, s.
 const SETTLING_S: f64 = 12.0;
 const WINDOW_S: f64 = 3.0;
 
-/// Least amplitude of a limit cycle, m, and least ratio of its amplitude to that of the window before: what falls faster dies away.
-const AMPLITUDE_M: f64 = 0.5e-3;
-const KEPT: f64 = 0.99;
+/// Minimum amplitude of a limit cycle, m.
+const MIN_AMPLITUDE_M: f64 = 0.5e-3;
+/// Minimum ratio of the amplitude to that in the window before; a motion that decays faster dies out.
+const MIN_AMPLITUDE_RATIO: f64 = 0.99;
 
-/// What becomes of a push at one speed.
+/// Response to the initial displacement at one speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Outcome {
     /// Speed, m/s.
     pub speed_m_per_s: f64,
-    /// Greatest lateral displacement of a wheelset in the last 3 of 18 s, m.
+    /// Maximum lateral displacement of a wheelset in the last 3 s of 18 s, m.
     pub amplitude_m: f64,
-    /// The same in the 3 s before.
+    /// Maximum lateral displacement of a wheelset in the 3 s before, m.
     pub amplitude_before_m: f64,
 }
 
 impl Outcome {
-    /// Whether the wheelsets go on hunting.
+    /// True if the wheelsets keep hunting.
     pub fn is_limit_cycle(&self) -> bool {
-        self.amplitude_m > AMPLITUDE_M && self.amplitude_m >= KEPT * self.amplitude_before_m
+        self.amplitude_m > MIN_AMPLITUDE_M
+            && self.amplitude_m >= MIN_AMPLITUDE_RATIO * self.amplitude_before_m
     }
 }
 
-/// Moves all bodies but the first, which is the car body, to the right.
+/// Displaces all bodies except the first, the car body, to the right by `by_m`.
 ///
 /// # Errors
-/// A state of another vehicle, more than 10 m.
+/// State of another vehicle, or displacement over 10 m.
 pub(super) fn push_aside(
     vehicle: &Vehicle<KalkerBook>,
     state: &mut VehicleState,
@@ -58,17 +61,17 @@ pub(super) fn push_aside(
     Ok(())
 }
 
-/// A vehicle that is pushed, on straight ideal track.
+/// Search for hunting of a vehicle on straight ideal track.
 pub struct Hunting {
     vehicle: Vehicle<KalkerBook>,
     track: Track,
 }
 
 impl Hunting {
-    /// Of a vehicle with `contact`.
+    /// Builds the vehicle with `contact`.
     ///
     /// # Errors
-    /// A vehicle that is refused.
+    /// Invalid vehicle parameters.
     pub fn new(
         parameters: &VehicleParameters,
         contact: Arc<WheelsetContact<KalkerBook>>,
@@ -79,15 +82,15 @@ impl Hunting {
         })
     }
 
-    /// Pushes every wheelset and what carries it aside, and runs on.
+    /// Displaces the bogies and wheelsets laterally by 6 mm and simulates the response.
     ///
     /// # Errors
-    /// A speed out of bounds.
+    /// Speed out of bounds.
     pub fn push(&self, speed_m_per_s: f64) -> Result<Outcome, VehicleRunError> {
         let vehicle = &self.vehicle;
         let mut state = vehicle.at_rest(&self.track, 0.0, speed_m_per_s)?;
         push_aside(vehicle, &mut state, &self.track, PUSH_M)?;
-        let wheelsets = vehicle.names().len() - vehicle.wheelsets();
+        let bodies = vehicle.names().len() - vehicle.wheelsets();
         let mut amplitudes = [0.0_f64; 2];
         let ticks = |seconds: f64| (seconds / STEP_S) as u64;
         for tick in 0..ticks(SETTLING_S + 2.0 * WINDOW_S) {
@@ -97,7 +100,7 @@ impl Hunting {
                 break;
             }
             if tick >= ticks(SETTLING_S) {
-                let lateral = state.coordinates()[wheelsets..].iter().map(|q| q[0].abs());
+                let lateral = state.coordinates()[bodies..].iter().map(|q| q[0].abs());
                 let window = usize::from(tick >= ticks(SETTLING_S + WINDOW_S));
                 amplitudes[window] = lateral.fold(amplitudes[window], f64::max);
             }
@@ -110,28 +113,28 @@ impl Hunting {
         })
     }
 
-    /// The least speed with a limit cycle from `least` to `greatest`, m/s, halved to 0.1 m/s, and the cycle there; none where a push dies
-    /// away at the greatest.
+    /// Finds the lowest speed with a limit cycle in a range of speeds (m/s) by bisection to 0.1 m/s, and returns the
+    /// response there. Returns `None` if the motion dies out at the upper end of the range.
     ///
     /// # Errors
-    /// As [`Self::push`].
+    /// See [`Self::push`].
     pub fn critical(
         &self,
-        [least, greatest]: [f64; 2],
+        speeds_m_per_s: RangeInclusive<f64>,
     ) -> Result<Option<Outcome>, VehicleRunError> {
-        let mut growing = self.push(greatest)?;
-        if !growing.is_limit_cycle() {
+        let mut unstable = self.push(*speeds_m_per_s.end())?;
+        if !unstable.is_limit_cycle() {
             return Ok(None);
         }
-        let mut dying = least;
-        while growing.speed_m_per_s - dying > 0.1 {
-            let outcome = self.push(0.5 * (growing.speed_m_per_s + dying))?;
+        let mut stable_m_per_s = *speeds_m_per_s.start();
+        while unstable.speed_m_per_s - stable_m_per_s > 0.1 {
+            let outcome = self.push(0.5 * (unstable.speed_m_per_s + stable_m_per_s))?;
             if outcome.is_limit_cycle() {
-                growing = outcome;
+                unstable = outcome;
             } else {
-                dying = outcome.speed_m_per_s;
+                stable_m_per_s = outcome.speed_m_per_s;
             }
         }
-        Ok(Some(growing))
+        Ok(Some(unstable))
     }
 }

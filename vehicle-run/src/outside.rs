@@ -1,61 +1,61 @@
-//! Dampers of a case whose force comes from elsewhere.
+//! Selection of dampers whose force comes from outside the model.
 
 use dashpot_files::case::Case;
 use dashpot_files::did_you_mean;
 
-/// Why a damper cannot be outside.
+/// Error from selecting a damper whose force comes from outside.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutsideError {
-    /// The vehicle has none of this name.
-    #[error("no damper `{name}`{near}, allowed: {allowed}")]
+    /// Unknown damper name.
+    #[error("no damper `{name}`{near}; allowed: {allowed}")]
     NoDamper {
-        /// The name.
+        /// Requested name.
         name: String,
-        /// The nearest one, in words.
+        /// Suggestion with the nearest name, or empty.
         near: String,
-        /// All there are.
+        /// All damper names of the vehicle.
         allowed: String,
     },
-    /// It is outside already.
-    #[error("the damper is given twice, allowed: once")]
+    /// The damper was selected twice.
+    #[error("the damper is given twice; allowed: once")]
     Twice,
-    /// It changes on the way.
-    #[error("the case changes this damper at {time_s} s, allowed: dampers without faults")]
+    /// The case has a fault of this damper.
+    #[error("the case changes this damper at {time_s} s; allowed: dampers without faults")]
     Changed {
-        /// When, s.
+        /// Time of the fault, s.
         time_s: f64,
     },
 }
 
-/// The number of the damper called `name` among those of the vehicle, to be outside beside those of the numbers `others`.
+/// Returns the index of the damper `name` in the vehicle; `selected` lists the indices that are already outside.
 ///
 /// # Errors
-/// A damper that there is not, is one of the others, or has a fault on the way.
+/// Unknown damper, damper in `selected`, or damper with a fault in the case.
 ///
 /// ```
 /// use dashpot_files::case::Case;
-/// use dashpot_vehicle_run::number_outside;
+/// use dashpot_vehicle_run::outside_index;
 /// let case = Case::load("straight-180")?;
-/// assert_eq!(number_outside(&case, "front lateral damper 1", &[])?, 8);
+/// assert_eq!(outside_index(&case, "front lateral damper 1", &[])?, 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn number_outside(case: &Case, name: &str, others: &[usize]) -> Result<usize, OutsideError> {
+pub fn outside_index(case: &Case, name: &str, selected: &[usize]) -> Result<usize, OutsideError> {
     let names = || case.vehicle.dampers().map(|element| element.name.as_str());
-    let number = names()
+    let index = names()
         .position(|other| other == name)
         .ok_or_else(|| OutsideError::NoDamper {
             name: name.to_owned(),
             near: did_you_mean(name, names()),
             allowed: names().collect::<Vec<_>>().join(", "),
         })?;
-    if others.contains(&number) {
+    if selected.contains(&index) {
         return Err(OutsideError::Twice);
     }
     match case.faults.iter().find(|fault| fault.damper == name) {
         Some(fault) => Err(OutsideError::Changed {
             time_s: fault.time_s,
         }),
-        None => Ok(number),
+        None => Ok(index),
     }
 }

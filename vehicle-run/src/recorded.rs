@@ -1,4 +1,4 @@
-//! A run with all that is recorded of it in memory.
+//! Runs a case to its end and records its signals in memory.
 
 use dashpot_rail::vehicle::VehicleParameters;
 
@@ -8,49 +8,50 @@ use dashpot_files::case::Case;
 use dashpot_files::did_you_mean;
 use dashpot_files::nearest_nanosecond;
 
-/// Ticks between two looks whether the run is still wanted.
-const TICKS_A_LOOK: u64 = 256;
+/// Ticks between checks for cancellation.
+const TICKS_PER_CHECK: u64 = 256;
 
-/// Signals of a run, tick by tick, its ending and its indices.
+/// Recorded run: its signals tick by tick, ending, indices and warnings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recorded {
-    /// How it ended.
+    /// How the run ended.
     pub ending: Ending,
-    /// Name of each signal and its number after each tick.
+    /// Name of each signal and its value after each tick.
     pub history: Vec<(String, Vec<f64>)>,
-    /// `None` where [`Ending::has_indices`] is false.
+    /// `None` if [`Ending::has_indices`] is false.
     pub indices: Option<Indices>,
-    /// What the run computed beyond what the model means.
+    /// Results outside the validity of the model.
     pub warnings: Vec<Warning>,
 }
 
-/// Every signal of a run of this vehicle, in the order of a history.
+/// Returns all signals of a run of `vehicle`, in the order of a history.
 pub fn all_signals(run: &Run, vehicle: &VehicleParameters) -> Vec<Signal> {
     let mut all = signals::all(run.vehicle());
-    all.extend(signals::of_ride(vehicle));
+    all.extend(signals::ride(vehicle));
     all
 }
 
-/// Runs a case that has not begun to its end, or until it is unwanted, and records the signals of these names; all where none are given.
+/// Runs `run`, which has not been stepped yet, to its end or until `is_cancelled` returns true. Records the named
+/// signals, or all if `names` is `None`.
 ///
 /// # Errors
-/// A signal that there is not, more than there is memory for, or as [`Run::step`].
+/// Unknown signal, a history that does not fit into memory, or an error of [`Run::step`].
 pub fn record(
     case: &Case,
     mut run: Run,
     names: Option<&[String]>,
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Recorded, VehicleRunError> {
     let mut chosen = all_signals(&run, &case.vehicle);
     if let Some(names) = names {
-        let named = |name: &String| match chosen.iter().find(|signal| signal.name() == name) {
+        let find = |name: &String| match chosen.iter().find(|signal| signal.name() == name) {
             Some(signal) => Ok(signal.clone()),
             None => Err(VehicleRunError::NoSignal {
                 name: name.clone(),
                 near: did_you_mean(name, chosen.iter().map(Signal::name)),
             }),
         };
-        chosen = names.iter().map(named).collect::<Result<_, _>>()?;
+        chosen = names.iter().map(find).collect::<Result<_, _>>()?;
     }
     let ticks = run.ticks();
     let mut columns: Vec<Vec<f64>> = chosen.iter().map(|_| Vec::new()).collect();
@@ -71,14 +72,14 @@ pub fn record(
         }
         let time_s = nearest_nanosecond(run.time_s());
         for (column, signal) in columns.iter_mut().zip(&chosen) {
-            column.push(signal.of(run.state(), time_s));
+            column.push(signal.value(run.state(), time_s));
         }
         indexer.add(run.state());
         watch.add(run.state());
         if let Some(ended) = ended {
             break ended;
         }
-        if run.state().ticks().is_multiple_of(TICKS_A_LOOK) && is_unwanted() {
+        if run.state().ticks().is_multiple_of(TICKS_PER_CHECK) && is_cancelled() {
             break run.interrupted();
         }
     };

@@ -1,4 +1,4 @@
-//! A run of a case, tick by tick.
+//! Run of a case, tick by tick.
 
 use std::fmt;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use super::validity::END_LOAD_RATIO;
 use super::{VehicleRunError, contact};
 use dashpot_files::case::{Case, Fault};
 
-/// A vehicle on its track, before or between ticks.
+/// Run of a vehicle on its track, before or between ticks.
 #[derive(Debug, Clone)]
 pub struct Run {
     vehicle: Vehicle<KalkerBook>,
@@ -27,7 +27,7 @@ pub struct Run {
     ticks: u64,
 }
 
-/// A fault whose damper is built before the run, so that no tick has to build one.
+/// Fault with its damper built in advance, so that no tick has to build one.
 #[derive(Debug, Clone)]
 struct BuiltFault {
     time_s: f64,
@@ -35,89 +35,90 @@ struct BuiltFault {
     built: Damper<f64>,
 }
 
-/// Why a run ended.
+/// Reason why a run ended.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case", tag = "reason")]
 pub enum Ending {
-    /// After its time.
+    /// The whole duration was simulated.
     Completed,
-    /// A wheel's flange has run over the rail's top, or its tread off it.
+    /// A wheel's flange ran over the top of the rail, or its tread ran off the rail.
     Derailed {
-        /// Wheelset.
+        /// Name of the wheelset.
         wheelset: String,
-        /// When, s.
+        /// Time, s.
         time_s: f64,
-        /// Where the middle of the vehicle was, m.
+        /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
-    /// A wheelset moved beyond what the tables of the contact know.
+    /// A wheelset moved outside the range of the contact tables.
     OutsideTables {
-        /// Wheelset.
+        /// Name of the wheelset.
         wheelset: String,
-        /// When, s.
+        /// Time, s.
         time_s: f64,
-        /// Where the middle of the vehicle was, m.
+        /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
-    /// The vehicle tipped over to one side: the wheels of the other side have left the rail and its wheelsets are tilted.
+    /// The vehicle tipped over to one side: the wheels on the other side lifted off the rail and the wheelsets tilted.
     Overturned {
-        /// The side that it fell to, `left` or `right`.
+        /// Side to which it fell, `left` or `right`.
         side: &'static str,
-        /// Wheels of the other side without load.
+        /// Number of unloaded wheels on the other side.
         unloaded_wheels: usize,
-        /// All wheels of that side.
+        /// Number of wheels on that side.
         wheels: usize,
-        /// The most tilted wheelset.
+        /// Name of the most tilted wheelset.
         wheelset: String,
-        /// Its roll, the right side down positive, rad.
+        /// Roll of that wheelset, positive with the right side down, rad.
         roll_rad: f64,
-        /// When, s.
+        /// Time, s.
         time_s: f64,
-        /// Where the middle of the vehicle was, m.
+        /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
-    /// A wheel was loaded far beyond what the contact of this model means.
+    /// A wheel load was far outside the validity of the contact model; see [`END_LOAD_RATIO`].
     BeyondModel {
-        /// Wheelset.
+        /// Name of the wheelset.
         wheelset: String,
-        /// Its wheel, `left` or `right`.
+        /// Side of the wheel, `left` or `right`.
         side: &'static str,
         /// Load, N.
         load_n: f64,
         /// Load of this wheel at standstill, N.
         load_static_n: f64,
-        /// When, s.
+        /// Time, s.
         time_s: f64,
-        /// Where the middle of the vehicle was, m.
+        /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
-    /// Displacements grew beyond all bounds.
+    /// Displacements diverged.
     Diverged {
-        /// When, s.
+        /// Time, s.
         time_s: f64,
-        /// Where, m.
+        /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
-    /// A damper outside gave no force any more.
+    /// A damper outside stopped delivering forces.
     OutsideLost {
-        /// The link that it is behind, and why.
+        /// Link to the damper, and the reason.
         message: String,
-        /// When, s.
+        /// Time, s.
         time_s: f64,
-        /// Where, m.
+        /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
-    /// The user did not want to wait.
+    /// Interrupted by the user.
     Interrupted {
-        /// When, s.
+        /// Time, s.
         time_s: f64,
-        /// Where, m.
+        /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
 }
 
 impl Ending {
-    /// True if the run has indices. A run that derailed, overturned, diverged, left the tables or went beyond the model has none.
+    /// True if the run has indices. A run that derailed, overturned, diverged, left the tables or went beyond the model
+    /// has none.
     pub fn has_indices(&self) -> bool {
         matches!(
             self,
@@ -156,8 +157,8 @@ impl fmt::Display for Ending {
                 distance_m,
             } => write!(
                 f,
-                "overturned to the {side} at {time_s:.3} s, {distance_m:.1} m along the track: {unloaded_wheels} of {wheels} wheels of the \
-                 other side carry no load, {wheelset} is tilted by {:.0} mrad",
+                "overturned to the {side} at {time_s:.3} s, {distance_m:.1} m along the track: {unloaded_wheels} \
+                 of {wheels} wheels of the other side carry no load, {wheelset} is tilted by {:.0} mrad",
                 1e3 * roll_rad.abs()
             ),
             Self::BeyondModel {
@@ -169,8 +170,8 @@ impl fmt::Display for Ending {
                 distance_m,
             } => write!(
                 f,
-                "beyond the model at {time_s:.3} s, {distance_m:.1} m along the track: {wheelset}, {side} wheel: load {:.0} kN, {:.0} times \
-                 that at standstill; allowed: {END_LOAD_RATIO:.0} times",
+                "beyond the model at {time_s:.3} s, {distance_m:.1} m along the track: {wheelset}, {side} wheel: \
+                 load {:.0} kN, {:.0} times that at standstill; allowed: {END_LOAD_RATIO:.0} times",
                 1e-3 * load_n,
                 load_n / load_static_n
             ),
@@ -195,20 +196,21 @@ impl fmt::Display for Ending {
 }
 
 impl Run {
-    /// The vehicle of `case` at its start.
+    /// Places the vehicle of `case` at its start; computes and caches the contact tables if necessary.
     ///
     /// # Errors
-    /// A vehicle, track or contact that is refused.
+    /// Invalid vehicle, track or contact.
     pub fn new(case: &Case) -> Result<Self, VehicleRunError> {
         let contact =
             contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
         Self::on(case, contact, Arc::new(case.track.build()?))
     }
 
-    /// As [`Self::new`], with the contact of [`contact::tabulated`] and the built track, which runs may share.
+    /// Places the vehicle of `case` at its start, with a contact from [`contact::tabulated`] and a built track that
+    /// several runs can share.
     ///
     /// # Errors
-    /// A vehicle that is refused.
+    /// Invalid vehicle.
     pub fn on(
         case: &Case,
         contact: Arc<WheelsetContact<KalkerBook>>,
@@ -242,7 +244,7 @@ impl Run {
         })
     }
 
-    /// Ticks of the whole run.
+    /// Number of ticks of the whole run.
     pub fn ticks(&self) -> u64 {
         self.ticks
     }
@@ -257,39 +259,40 @@ impl Run {
         &self.vehicle
     }
 
-    /// Where it is.
+    /// Current state of the vehicle.
     pub fn state(&self) -> &VehicleState {
         &self.state
     }
 
-    /// Where it is, for a force from outside.
+    /// Current state of the vehicle, for setting the force of a damper outside.
     pub fn state_mut(&mut self) -> &mut VehicleState {
         &mut self.state
     }
 
-    /// Goes on from a state that this run has had; `start` is the run before its first tick.
+    /// Resumes from an earlier state of this run; `start` is the run before its first tick.
     ///
     /// # Errors
-    /// A state of another vehicle; then nothing changes.
+    /// State of another vehicle. The run is then unchanged.
     pub fn restore(&mut self, start: &Self, state: VehicleState) -> Result<(), VehicleRunError> {
         if !start.vehicle.can_step(&state) {
             return Err(VehicleError::OtherVehicle.into());
         }
-        // The next tick makes the faults until then again, which leaves a damper that has had one as it is.
+        // The next tick applies all earlier faults again. Replacing a damper by the one it already has changes nothing.
         self.clone_from(start);
         self.state = state;
         Ok(())
     }
 
-    /// True when every tick has been taken.
+    /// True if all ticks have been simulated.
     pub fn is_over(&self) -> bool {
         self.state.ticks() >= self.ticks
     }
 
-    /// One tick, with the faults that are due; how the run ended, if it did. Allocates only when it ends.
+    /// Simulates one tick, after applying the faults that are due. Returns the ending if the run ended. Allocates only
+    /// then.
     ///
     /// # Errors
-    /// None that is known: the dampers of faults are built by [`Self::new`].
+    /// None are known: [`Self::new`] builds the dampers of faults.
     pub fn step(&mut self) -> Result<Option<Ending>, VehicleRunError> {
         if self.is_over() {
             return Ok(Some(Ending::Completed));
@@ -305,7 +308,7 @@ impl Run {
         Ok(self.ending())
     }
 
-    /// The run ends here because the user wants it to.
+    /// Ending of a run that the user interrupts now.
     pub fn interrupted(&self) -> Ending {
         Ending::Interrupted {
             time_s: self.time_s(),
@@ -313,7 +316,7 @@ impl Run {
         }
     }
 
-    /// The run ends here because a damper outside gives no force.
+    /// Ending of a run whose damper outside has stopped delivering forces.
     pub fn outside_lost(&self, message: String) -> Ending {
         Ending::OutsideLost {
             message,
@@ -322,7 +325,7 @@ impl Run {
         }
     }
 
-    /// The run ends here because displacements grow beyond all bounds.
+    /// Ending of a run whose displacements diverge.
     pub(super) fn diverged(&self) -> Ending {
         Ending::Diverged {
             time_s: self.time_s(),
@@ -330,7 +333,7 @@ impl Run {
         }
     }
 
-    /// How the state ends the run, if it does.
+    /// Returns the ending that the current state implies, if any.
     pub(super) fn ending(&self) -> Option<Ending> {
         let (time_s, distance_m) = (self.time_s(), self.state.distance_m());
         if self.state.is_diverged() {
@@ -342,12 +345,12 @@ impl Run {
             .iter()
             .enumerate()
             .max_by_key(|(_, contact)| contact.status);
-        let (number, contact) = worst?;
+        let (index, contact) = worst?;
         if contact.status < Status::PastTip {
             return self.beyond_model();
         }
-        let wheelset = self.wheelset_name(number);
-        if let Some(found) = Overturned::of(&self.state) {
+        let wheelset = self.wheelset_name(index);
+        if let Some(found) = Overturned::detect(&self.state) {
             return Some(Ending::Overturned {
                 side: SIDES[found.side],
                 unloaded_wheels: found.unloaded_wheels,
@@ -365,7 +368,7 @@ impl Run {
                 distance_m,
             });
         }
-        // A load far too high presses a wheel deeper into the rail than the tables go.
+        // A far too high load presses the wheel deeper into the rail than the tables cover.
         self.beyond_model().or(Some(Ending::OutsideTables {
             wheelset,
             time_s,
@@ -373,15 +376,15 @@ impl Run {
         }))
     }
 
-    /// The run ends here because a wheel's load is beyond the model, if one is.
+    /// Returns the ending if a wheel load is beyond the model.
     fn beyond_model(&self) -> Option<Ending> {
         let loads_n = self.state.greatest_wheel_loads_n().iter();
         let mut wheels = loads_n.zip(self.vehicle.axle_loads_n()).enumerate();
-        wheels.find_map(|(number, (loads_n, axle_load_n))| {
+        wheels.find_map(|(index, (loads_n, axle_load_n))| {
             let load_static_n = 0.5 * axle_load_n;
             let side = (0..2).find(|side| loads_n[*side] > END_LOAD_RATIO * load_static_n)?;
             Some(Ending::BeyondModel {
-                wheelset: self.wheelset_name(number),
+                wheelset: self.wheelset_name(index),
                 side: SIDES[side],
                 load_n: loads_n[side],
                 load_static_n,
@@ -391,8 +394,8 @@ impl Run {
         })
     }
 
-    fn wheelset_name(&self, number: usize) -> String {
+    fn wheelset_name(&self, index: usize) -> String {
         let first = self.vehicle.names().len() - self.vehicle.wheelsets();
-        self.vehicle.names()[first + number].clone()
+        self.vehicle.names()[first + index].clone()
     }
 }

@@ -1,4 +1,4 @@
-//! What is recorded of a vehicle: one number a tick for each signal, called by body, wheelset or damper, and unit.
+//! Recorded signals of a vehicle: one value per tick, named after the body, wheelset or damper, with the unit.
 
 use dashpot_rail::contact::{PatchSource, WheelsetForces};
 use dashpot_rail::creep::CreepLaw;
@@ -6,7 +6,7 @@ use dashpot_rail::vehicle::{Vehicle, VehicleParameters};
 
 use super::{Accelerometer, VehicleTick};
 
-/// A number of a state.
+/// Origin of a signal's value.
 #[derive(Debug, Clone, PartialEq)]
 enum Source {
     Time,
@@ -21,7 +21,7 @@ enum Source {
     DamperForce(usize),
 }
 
-/// A signal.
+/// One recorded signal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Signal {
     name: String,
@@ -40,17 +40,28 @@ const ACCELERATIONS: [&str; 2] = [
     "vertical_acceleration_m_per_s2",
 ];
 
-/// The sides of a wheelset.
+/// Sides of a wheelset, in the order of its wheels.
 pub const SIDES: [&str; 2] = ["left", "right"];
 
-/// What a body, wheelset or damper is called in the names of its signals: with underscores.
+/// Form of a name used in signal names: every character other than ASCII letters and digits becomes an underscore.
+///
+/// ```
+/// use dashpot_vehicle_run::signals::slug;
+/// assert_eq!(slug("front lateral damper 1"), "front_lateral_damper_1");
+/// ```
 pub fn slug(name: &str) -> String {
     name.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
 }
 
-/// Every signal of a vehicle: time and distance; displacements of bodies and wheelsets from where they stand, relative to the track;
-/// accelerations of bodies as an accelerometer across the track has them; loads `Q` of wheels, down on the rail; lateral forces `Y`, of
-/// the rail on the wheel towards the middle of the track; `Y/Q`; displacement and force of dampers.
+/// Returns all signals of a vehicle except those of the ride points ([`ride`]):
+///
+/// - time and distance;
+/// - displacements of bodies and wheelsets from standstill, relative to the track;
+/// - accelerations of bodies as measured by an accelerometer, across the track;
+/// - wheel loads `Q`, positive down on the rail;
+/// - lateral forces `Y` of the rail on the wheel, positive towards the middle of the track;
+/// - `Y/Q`;
+/// - displacements and forces of dampers.
 pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> {
     let mut signals = Vec::new();
     let mut add = |name: String, source: Source| signals.push(Signal { name, source });
@@ -59,18 +70,18 @@ pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> 
     let bodies = vehicle.names().len() - vehicle.wheelsets();
     for (body, name) in vehicle.names().iter().enumerate() {
         let name = slug(name);
-        for (coordinate, what) in COORDINATES.iter().enumerate() {
+        for (coordinate, suffix) in COORDINATES.iter().enumerate() {
             // A wheelset's pitch is its spin.
             if body < bodies || coordinate != 3 {
                 add(
-                    format!("{name}_{what}"),
+                    format!("{name}_{suffix}"),
                     Source::Coordinate { body, coordinate },
                 );
             }
         }
-        for (coordinate, what) in ACCELERATIONS.iter().enumerate() {
+        for (coordinate, suffix) in ACCELERATIONS.iter().enumerate() {
             add(
-                format!("{name}_{what}"),
+                format!("{name}_{suffix}"),
                 Source::Acceleration { body, coordinate },
             );
         }
@@ -103,13 +114,13 @@ pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> 
     signals
 }
 
-/// Accelerations of a vehicle's ride points: of each the lateral one, then the vertical one.
-pub fn of_ride(vehicle: &VehicleParameters) -> Vec<Signal> {
-    let of_point = |at: Accelerometer| {
-        // "body, middle" is body_middle.
+/// Returns the accelerations of a vehicle's ride points: lateral, then vertical, for each point.
+pub fn ride(vehicle: &VehicleParameters) -> Vec<Signal> {
+    let point_signals = |at: Accelerometer| {
+        // "body, middle" becomes "body_middle".
         let name = slug(&at.name().replace(", ", " "));
-        let signal = |(across, what): (usize, &&str)| Signal {
-            name: format!("{name}_{what}"),
+        let signal = |(across, suffix): (usize, &&str)| Signal {
+            name: format!("{name}_{suffix}"),
             source: Source::Ride {
                 at: at.clone(),
                 across,
@@ -120,23 +131,23 @@ pub fn of_ride(vehicle: &VehicleParameters) -> Vec<Signal> {
     };
     Accelerometer::all(vehicle)
         .into_iter()
-        .flat_map(of_point)
+        .flat_map(point_signals)
         .collect()
 }
 
 impl Signal {
-    /// Name with the unit.
+    /// Name, which ends in the unit.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Whether it is the force of the damper of this number.
+    /// True if this is the force of the damper with index `damper`.
     pub fn is_force_of(&self, damper: usize) -> bool {
         self.source == Source::DamperForce(damper)
     }
 
-    /// Its number after a tick that ended at `time_s`.
-    pub fn of(&self, state: &impl VehicleTick, time_s: f64) -> f64 {
+    /// Value after a tick that ended at `time_s`.
+    pub fn value(&self, state: &impl VehicleTick, time_s: f64) -> f64 {
         match &self.source {
             Source::Time => time_s,
             Source::Distance => state.distance_m(),
@@ -158,13 +169,13 @@ impl Signal {
     }
 }
 
-/// Load `Q` of a wheel, down on the rail, N.
+/// Load `Q` of a wheel, positive down on the rail, N.
 pub fn load_n(contact: &WheelsetForces, side: usize) -> f64 {
-    // A lifted wheel has none, without a sign.
+    // Subtracting from zero avoids -0.0 for a lifted wheel.
     0.0 - contact.wheels[side].force_n[2]
 }
 
-/// Lateral force `Y` of the rail on a wheel, towards the middle of the track, N.
+/// Lateral force `Y` of the rail on a wheel, positive towards the middle of the track, N.
 pub fn lateral_n(contact: &WheelsetForces, side: usize) -> f64 {
     let outward = if side == 0 { 1.0 } else { -1.0 };
     outward * contact.wheels[side].force_n[1]

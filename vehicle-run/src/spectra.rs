@@ -1,26 +1,27 @@
-//! Power spectral densities of a run: of the accelerations at its ride points and of `Y/Q` of the leading wheels.
+//! Power spectral densities of the ride point accelerations and of `Y/Q` on the leading wheelset.
 
 use dashpot_rail::indices::{SpectrumError, Welch};
 use dashpot_rail::vehicle::VehicleParameters;
 
-use super::signals::{SIDES, of_ride, slug};
+use super::signals::{SIDES, ride, slug};
 
-/// Length of the windows, s: lines are 0.5 Hz apart.
+/// Length of a window, s; spectral lines are therefore 0.5 Hz apart.
 pub const WINDOW_S: f64 = 2.0;
 
-/// Highest frequency that figures show, Hz.
+/// Highest frequency shown in figures, Hz.
 pub const SHOWN_HZ: f64 = 40.0;
 
-/// Density of a signal.
+/// Power spectral density of one signal.
 #[derive(Debug, Clone)]
 pub struct Spectrum {
     signal: String,
     welch: Welch,
 }
 
-/// Names of the signals that densities are of: accelerations of the ride points, then `Y/Q` of the first wheelset's wheels.
+/// Returns the names of the signals with a spectrum: accelerations of the ride points, then `Y/Q` of the leading
+/// wheelset.
 pub fn signals(vehicle: &VehicleParameters) -> Vec<String> {
-    let ride = of_ride(vehicle).into_iter();
+    let ride = ride(vehicle).into_iter();
     let leading = vehicle.wheelsets.first().into_iter();
     let derailment = leading.flat_map(|wheelset| {
         let name = slug(&wheelset.name);
@@ -32,10 +33,10 @@ pub fn signals(vehicle: &VehicleParameters) -> Vec<String> {
 }
 
 impl Spectrum {
-    /// Of a signal, by its name, sampled every `step_s`.
+    /// Starts the spectrum of a signal sampled every `step_s` seconds.
     ///
     /// # Errors
-    /// A step out of bounds.
+    /// `step_s` is out of bounds.
     pub fn new(signal: String, step_s: f64) -> Result<Self, SpectrumError> {
         Ok(Self {
             signal,
@@ -43,25 +44,26 @@ impl Spectrum {
         })
     }
 
-    /// The signal.
+    /// Name of the signal.
     pub fn signal(&self) -> &str {
         &self.signal
     }
 
-    /// What the density is called: the signal with the unit squared per Hz.
+    /// Name of the density: that of the signal, with its unit squared per Hz.
     pub fn name(&self) -> String {
         match self.signal.strip_suffix("_m_per_s2") {
-            Some(what) => format!("{what}_m2_per_s4_per_hz"),
+            Some(stem) => format!("{stem}_m2_per_s4_per_hz"),
             None => format!("{}_per_hz", self.signal),
         }
     }
 
-    /// Adds a number.
+    /// Adds a sample.
     pub fn add(&mut self, value: f64) {
         self.welch.add(value);
     }
 
-    /// Frequency, Hz, and density, the signal's unit squared per Hz; nothing of a run shorter than a window.
+    /// Returns pairs of frequency (Hz) and density (signal unit squared per Hz), or an empty list if the run is shorter
+    /// than a window.
     pub fn density(&self) -> Vec<[f64; 2]> {
         if self.welch.windows() == 0 {
             return Vec::new();

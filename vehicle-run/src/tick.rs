@@ -1,25 +1,25 @@
-//! What is reported of a vehicle after a tick: of its state, or of a copy that another thread reads.
+//! Read access to a vehicle after a tick: its state itself, or a copy for another thread.
 
 use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::VehicleState;
 
-/// A vehicle after a tick. Bodies come in the order of the parameters, wheelsets after them.
+/// Vehicle after a tick. Bodies are in the order of the parameters; wheelsets follow them.
 pub trait VehicleTick {
-    /// Distance of the middle of the vehicle along the track, m.
+    /// Position of the vehicle's middle along the track, m.
     fn distance_m(&self) -> f64;
-    /// As [`VehicleState::coordinates`].
+    /// Returns the coordinates of each body and wheelset; see [`VehicleState::coordinates`].
     fn coordinates(&self) -> &[[f64; 5]];
-    /// As [`VehicleState::acceleration`].
+    /// Returns the accelerations of a body, m/s^2 and rad/s^2; see [`VehicleState::acceleration`].
     fn acceleration(&self, body: usize) -> [f64; 5];
-    /// Unbalanced lateral acceleration of the track under the first body, m/s^2.
+    /// Unbalanced lateral acceleration of the track under the first body, positive to the right, m/s^2.
     fn unbalanced_m_per_s2(&self) -> f64;
-    /// As [`VehicleState::contacts`].
+    /// Returns the contact forces of each wheelset; see [`VehicleState::contacts`].
     fn contacts(&self) -> &[WheelsetForces];
-    /// As [`VehicleState::greatest_wheel_loads_n`].
+    /// Maximum load of each wheel within the tick, N; see [`VehicleState::greatest_wheel_loads_n`].
     fn greatest_wheel_loads_n(&self) -> &[[f64; 2]];
-    /// As [`VehicleState::damper_displacements_m`].
+    /// Displacement of each damper, m; see [`VehicleState::damper_displacements_m`].
     fn damper_displacements_m(&self) -> &[f64];
-    /// As [`VehicleState::damper_forces_n`].
+    /// Force of each damper, N; see [`VehicleState::damper_forces_n`].
     fn damper_forces_n(&self) -> &[f64];
 }
 
@@ -50,7 +50,7 @@ impl VehicleTick for VehicleState {
     }
 }
 
-/// A copy of what is reported of a tick, some 10 kB for a locomotive.
+/// Copy of the reported values of one tick, about 10 kB for a locomotive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TickRecord {
     /// Time since the start of the run, s.
@@ -66,7 +66,7 @@ pub struct TickRecord {
 }
 
 impl TickRecord {
-    /// Copies a state at a time since the start of its run (s).
+    /// Copies `state`, which belongs to `time_s` after the start of the run.
     pub fn new(time_s: f64, state: &VehicleState) -> Self {
         let bodies = state.coordinates().len();
         Self {
@@ -82,10 +82,10 @@ impl TickRecord {
         }
     }
 
-    /// Overwrites the record with a later state of the same run; allocates nothing.
+    /// Overwrites the record with a later state of the same run, without allocating.
     ///
     /// # Panics
-    /// The record belongs to another vehicle.
+    /// If the record belongs to another vehicle.
     pub fn copy(&mut self, time_s: f64, state: &VehicleState) {
         self.time_s = time_s;
         self.distance_m = state.distance_m();

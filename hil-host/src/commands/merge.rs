@@ -8,7 +8,7 @@ use super::{interruption, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::output::create_folder;
 use dashpot_study::sweep::rows::{self, Rows, RowsError};
-use dashpot_study::sweep::{CheckError, MergeError, Study, check, chosen, merge};
+use dashpot_study::sweep::{CheckError, MergeError, Study, check, choose, merge};
 
 /// Merge the rows of a study's shards, check them against the list of cases, and write the page.
 #[derive(Debug, Clone, clap::Args)]
@@ -67,7 +67,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
 /// Repeats random cases.
 fn check_again(study: &Study, rows: &Rows, count: u32, seed: Option<u64>) -> Outcome<Checked> {
     let seed = seed.unwrap_or_else(|| fastrand::u64(..));
-    let cases = chosen(rows, count as usize, seed);
+    let cases = choose(rows, count as usize, seed);
     let _ends_gently = interruption::end_gently();
     check(
         study,

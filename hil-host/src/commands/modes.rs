@@ -12,7 +12,7 @@ use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::NORMAL_DAMPING_S_PER_M;
 use dashpot_files::vehicle::{self, VehicleFileError};
-use dashpot_vehicle_run::contact::ContactOf;
+use dashpot_vehicle_run::contact::ContactSetup;
 use dashpot_vehicle_run::{VehicleRunError, contact, hunting};
 
 /// Compute axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping and mode shape.
@@ -153,7 +153,7 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
 /// Creates the exact contact, without tables.
 fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Contact> {
     let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
-    let profiles = ContactOf::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
+    let profiles = ContactSetup::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
     let geometry = profiles
         .map_err(VehicleRunError::from)
         .and_then(|profiles| profiles.geometry());
@@ -178,7 +178,7 @@ fn limit_cycle(
     let max_m_per_s = 1.02 * critical_km_h.unwrap_or(MAX_SEARCH_KM_H) / 3.6;
     let hunting = hunting::Hunting::new(vehicle, contact).map_err(refused)?;
     hunting
-        .critical([0.1 * max_m_per_s, max_m_per_s])
+        .critical(0.1 * max_m_per_s..=max_m_per_s)
         .map_err(refused)
 }
 

@@ -1,4 +1,4 @@
-//! An altered index of a row (0.014 to 9.014) went on and merged without a word.
+//! Regression: an altered index in a row (0.014 to 9.014) was accepted silently on resume and merge.
 
 use std::fs;
 
@@ -42,7 +42,7 @@ fn an_altered_cell_is_refused_on_resume_and_merge() {
             assert!(error.contains(way_on), "{error}");
         }
         assert!(!folder.path().join("merged").exists());
-        // The way on.
+        // The recovery that the message names.
         let without: Vec<&str> = whole.lines().filter(|line| *line != altered).collect();
         fs::write(
             folder.path().join("one/rows.csv"),
@@ -56,7 +56,7 @@ fn an_altered_cell_is_refused_on_resume_and_merge() {
 }
 
 #[test]
-fn a_check_finds_what_was_altered_with_its_digest() {
+fn a_check_finds_an_altered_cell_with_a_matching_digest() {
     let folder = folder(STUDY);
     let text = rows(folder.path());
     let (header, rest) = text.split_once('\n').unwrap();
@@ -69,22 +69,22 @@ fn a_check_finds_what_was_altered_with_its_digest() {
         "merged",
     ];
     let check = |more: &[&str]| dashpot(&[&merge[..], more].concat(), folder.path());
-    // A seed chooses the same cases again; without one, the seed of the choice is printed.
+    // The same seed chooses the same cases; without a seed, the command prints the one it used.
     let four = ["--check", "4", "--check-seed", "7"];
-    let told = text_of(&check(&four).success());
+    let output = text_of(&check(&four).success());
     assert!(
-        told.contains("4 cases repeated with bit-identical results (--check-seed 7): "),
-        "{told}"
+        output.contains("4 cases repeated with bit-identical results (--check-seed 7): "),
+        "{output}"
     );
     let again = text_of(&check(&four).success());
-    assert_eq!(told, again);
-    let told = text_of(&check(&["--check", "99"]).success());
+    assert_eq!(output, again);
+    let output = text_of(&check(&["--check", "99"]).success());
     assert!(
-        told.contains("12 cases repeated with bit-identical results (--check-seed "),
-        "{told}"
+        output.contains("12 cases repeated with bit-identical results (--check-seed "),
+        "{output}"
     );
     fs::remove_dir_all(folder.path().join("merged")).unwrap();
-    // All twelve are run: the altered one is among them.
+    // All twelve cases are run, including the altered one.
     let row = rest.lines().nth(3).unwrap();
     let altered = with_its_digest(&altered(row, "derailment_greatest", header, "9.014"));
     fs::write(
@@ -97,6 +97,6 @@ fn a_check_finds_what_was_altered_with_its_digest() {
     assert!(error.contains(expected), "{error}");
     assert!(error.contains("run its shard again with --anew"), "{error}");
     assert!(!folder.path().join("merged").exists(), "nothing is written");
-    // What no run is compared with is not found.
+    // Without a run to compare with, the alteration is not found.
     check(&[]).success();
 }

@@ -1,5 +1,6 @@
-//! From a recorded bench test to a damper, a constant for firmware and a page, and a worn damper found in a replay: the four commands of the
-//! README, and what they refuse. The recordings are made (hil-host/examples/make_bench.rs), so the numbers that must come out are known.
+//! The four commands of README: from a recorded bench test to a damper file, a firmware constant and a page, and the
+//! detection of a worn damper in a replay; and the inputs they reject. The recordings are synthetic
+//! (hil-host/examples/make_bench.rs), so the right values are known.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -54,7 +55,7 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
         "json",
     ];
     let report = json_of(&calibrate(folder, &files).success());
-    // What examples/make_bench.rs made, and the force one sample of 2 ms late.
+    // True values in examples/make_bench.rs; the force is recorded one sample (2 ms) late.
     let truths = [0.68, 7.5e6, 0.6e-3, 7e5, 2e-3];
     let tolerances = [0.01 * 0.68, 0.03 * 7.5e6, 0.05e-3, 0.05 * 7e5, 0.2e-3];
     for ((number, truth), tolerance) in report["numbers"]
@@ -71,7 +72,7 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     }
     for row in report["loops"].as_array().unwrap() {
         let value = |key: &str| row[key].as_f64().unwrap();
-        // 1 % of the rms of both signals was made noise.
+        // The recording has noise of 1 % of the rms of both signals.
         assert!(
             value("missed_after_n") < 0.02 * value("peak_force_n"),
             "{row}"
@@ -100,7 +101,7 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     dashpot(&export, folder).success();
     assert!(folder.join("found.rs").is_file());
 
-    // The bench test itself is of a healthy damper, whatever it did in the pauses between the tests.
+    // The bench test is of a healthy damper, including the pauses between the tests.
     let bench = data("bench/bench_made.mf4");
     let replay = [
         "replay",
@@ -136,7 +137,7 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     let report =
         json_of(&dashpot(&[&replay[..], &["--format", "json"]].concat(), folder).success());
     let health = &report["health"];
-    // From 10 s on there is 1 mm more of clearance than on the bench, and nothing else.
+    // From 10 s on, the clearance is 1 mm larger than on the bench; nothing else changes.
     let clearance_m = health["clearance_m"]["value"].as_f64().unwrap();
     assert!((clearance_m - 1.6e-3).abs() < 0.15e-3, "{health}");
     assert!(
@@ -150,17 +151,17 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     let page = std::fs::read_to_string(folder.join("health.html")).unwrap();
     assert!(page.contains("Alarm: clearance"));
 
-    // Against itself it is not worn.
+    // Compared with itself, the recording shows no wear.
     std::fs::write(folder.join("healthy.json"), report.to_string()).unwrap();
     let again = ["--health-baseline", "healthy.json", "--format", "json"];
     let report = json_of(&dashpot(&[&replay[..], &again].concat(), folder).success());
     let clearance_alarm_s = report["health"]["alarms"][0]["time_s"].as_f64().unwrap();
-    // The healthy half differs from that baseline by as much.
+    // The healthy half differs from that baseline by the same amount.
     assert!(clearance_alarm_s < 10.0, "{report}");
 }
 
 #[test]
-fn outputs_are_whole_apart_and_no_inputs() {
+fn outputs_are_complete_distinct_and_never_inputs() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let to_stdout = ["--vary", "mount.clearance_m", "--output", "-"];
@@ -218,7 +219,7 @@ fn outputs_are_whole_apart_and_no_inputs() {
 }
 
 #[test]
-fn what_is_not_determined_is_refused_and_nothing_is_written() {
+fn undetermined_parameters_are_refused_and_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let more = [
         "--vary",
@@ -240,7 +241,7 @@ fn what_is_not_determined_is_refused_and_nothing_is_written() {
 }
 
 #[test]
-fn what_was_left_out_of_a_recording_is_told() {
+fn omitted_samples_of_a_recording_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let parameters = damper::load("reduced-vertical", &[]).unwrap();
     let damper: Damper<f64> = parameters.build(1e-3).unwrap();
@@ -249,7 +250,7 @@ fn what_was_left_out_of_a_recording_is_told() {
     for tick in 0..3000 {
         let x = 5e-3 * (6.0 * 1e-3 * f64::from(tick)).sin();
         let force = damper.step(&mut state, x);
-        // A second's gap, and 50 samples beyond it.
+        // A gap of one second, and 50 samples after it.
         let time_s = 1e-3 * f64::from(tick) + if tick < 2950 { 0.0 } else { 1.0 };
         writeln!(
             rows,

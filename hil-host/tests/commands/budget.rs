@@ -11,7 +11,7 @@ use dashpot_realtime::pacing::{Clock, Pacer};
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 
-/// Time moves by the work of the ticks and by sleeping.
+/// Clock that advances with the work of the ticks and with sleeping.
 struct SimulatedClock<'a>(&'a Cell<u64>);
 
 impl Clock for SimulatedClock<'_> {
@@ -32,7 +32,7 @@ fn work_ns(number: u64) -> u64 {
     }
 }
 
-/// Runs a budget whose ticks take [`work_ns`], the first tick number 0 of all passes together.
+/// Runs a budget whose ticks take [`work_ns`]; ticks are counted from 0 over all passes.
 fn on_simulated_clock(run: impl FnOnce(SimulatedClock<'_>, &mut dyn FnMut()) -> Run) -> Run {
     let now_ns = Cell::new(0);
     let mut number = 0;
@@ -54,7 +54,7 @@ fn paced_run(length: Length, stop_above_ns: Option<u64>) -> Run {
     })
 }
 
-/// Name, spans, longest span (ns) and its place of each series.
+/// Name, number of spans, longest span (ns) and its index for each series.
 fn spans(run: &Run) -> Vec<(&str, u64, f64, u64)> {
     let series = run.series.iter();
     series
@@ -71,7 +71,7 @@ fn a_free_run_knows_the_tick_of_its_worst_case() {
     let run = free_run(Length::Ticks(250), None);
     assert_eq!(run.ticks, 250);
     assert_eq!(run.missed_deadlines, None);
-    // Less the 30 ns of the clock; three batches of a hundred follow.
+    // Minus the 30 ns of the clock; three batches of a hundred ticks follow.
     assert_eq!(
         spans(&run),
         [("batched", 3, 99.7, 0), ("single", 250, 2_999_970.0, 12)]
@@ -85,7 +85,7 @@ fn a_free_run_knows_the_tick_of_its_worst_case() {
 
 #[test]
 fn a_free_run_lasts_as_long_as_it_is_reported() {
-    // Half of 3.1 ms for ticks alone: tick 12 ends it. Then half for batches of 10 us.
+    // Half of the 3.1 ms is for single ticks: tick 12 uses it up. The other half is for batches of 10 us.
     let run = free_run(Length::Nanoseconds(3_100_000), None);
     let counts: Vec<u64> = run.series.iter().map(|s| s.spans.count()).collect();
     assert_eq!(run.ticks, 13);
@@ -107,14 +107,14 @@ fn a_free_run_stops_at_the_first_tick_above_the_limit() {
         message,
         "stopped: tick 7, 0.007000 s along the motion, took 50.0 us, allowed by --stop-above-ns: 40.0 us"
     );
-    // At the limit is within it.
+    // A tick exactly at the limit is accepted.
     assert_eq!(free_run(Length::Ticks(9), Some(49_970)).stopped, None);
 }
 
 #[test]
 fn a_paced_run_counts_misses_and_fails_on_them_when_asked() {
     let run = paced_run(Length::Ticks(20), None);
-    // Tick 12 works for 3 ms: it, 13 and 14 end after the next tick is due.
+    // Tick 12 works for 3 ms, so ticks 12, 13 and 14 end after the next tick is due.
     assert_eq!(run.missed_deadlines, Some(3));
     assert_eq!(
         spans(&run),
@@ -144,7 +144,7 @@ fn a_paced_run_lasts_as_many_ticks_as_its_time_holds_and_stops_at_a_limit() {
     assert!((stop.time_s - 0.012).abs() < 1e-12);
 }
 
-/// What the command says of a run that is not as asked.
+/// Messages of the command for a run that misses its targets.
 fn message(verdict: Result<(), RealtimeError>) -> String {
     Failure::from(verdict.unwrap_err()).to_string()
 }
@@ -172,7 +172,7 @@ fn the_report_has_its_keys() {
         assert!(spread["figures"]["p99_99_ns"].is_null());
         let worst_tick = spread["worst_tick"].as_u64().unwrap();
         assert!(worst_tick < 2000);
-        // The same time up to rounding, whichever tick was the worst.
+        // The times agree up to rounding, whichever tick was the worst.
         let worst_time_s = spread["worst_time_s"].as_f64().unwrap();
         assert!((worst_time_s - worst_tick as f64 * 1e-3).abs() < 1e-12);
         let bins = spread["histogram"].as_array().unwrap();
@@ -186,7 +186,7 @@ fn the_report_has_its_keys() {
 }
 
 #[test]
-fn text_scales_its_units_and_says_what_is_not_told() {
+fn text_scales_its_units_and_names_what_it_omits() {
     let text = text_of(&budget(&["--steps", "50"]));
     assert!(text.contains("tick 1.00 ms"), "{text}");
     assert!(text.contains("p99 -, p99.9 -, p99.99 -"), "{text}");
@@ -200,9 +200,9 @@ fn text_scales_its_units_and_says_what_is_not_told() {
     );
 }
 
-/// Ten thousand dampers take longer than a nanosecond, and than a tick of 100 us.
+/// Ten thousand dampers take longer than a nanosecond and longer than a tick of 100 us.
 #[test]
-fn a_run_that_is_not_as_asked_is_reported_and_fails() {
+fn a_run_that_misses_its_targets_is_reported_and_fails() {
     let crowd = ["--dampers", "10000", "--steps", "2"];
     for (arguments, part, key) in [
         (&["--stop-above-ns", "1"][..], "stopped: tick 0,", "stopped"),

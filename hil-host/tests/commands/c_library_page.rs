@@ -1,4 +1,4 @@
-//! capi/README.md word for word: its files written, its commands run in an empty folder, in their order.
+//! Follows capi/README.md literally: writes its files and runs its commands in order, in an empty folder.
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
 use std::fmt::Write;

@@ -1,5 +1,6 @@
-//! Advice of `calibrate` named what there was not: `--vary sensor_skew_s=MIN:MAX` of a note, and the prior of a number that was
-//! refused. What a message advises is run here, and every name of a report is taken by the options.
+//! Regression: advice of `calibrate` named options that do not exist: `--vary sensor_skew_s=MIN:MAX` in a note,
+//! and the prior of a rejected parameter. These tests follow the advice of each message and pass every name in a report
+//! to the options.
 
 use std::path::Path;
 
@@ -12,7 +13,7 @@ fn run(line: &[String], folder: &Path) -> assert_cmd::assert::Assert {
     dashpot(&line, folder)
 }
 
-/// Options with the true stiffness and clearance, so that few numbers are left to find.
+/// Options with the true stiffness and clearance, so that only a few parameters are left to fit.
 const KNOWN: [&str; 6] = [
     "--set",
     "mount.stiffness_n_per_m=7.5e6",
@@ -26,7 +27,7 @@ const KNOWN: [&str; 6] = [
 fn a_skew_beyond_its_bounds_is_found_as_advised() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    // The force lags by 30 ms: the displacement of a time is that of 28 ms later.
+    // The force lags by 30 ms, so a force belongs to the displacement 28 ms later.
     let mut samples = Vec::new();
     let seen = std::cell::RefCell::new(&mut samples);
     bench::write(&folder.join("run.csv"), |sample| {
@@ -63,11 +64,11 @@ fn a_skew_beyond_its_bounds_is_found_as_advised() {
 }
 
 #[test]
-fn what_is_not_determined_succeeds_as_advised() {
+fn an_undetermined_parameter_succeeds_as_advised() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     bench::write(&folder.join("run.csv"), |sample| sample);
-    // The relief valve of the recording opens below 2e7 Pa: what the model misses is not what this test is about.
+    // The relief valve of the recording opens below 2e7 Pa; this test does not examine the model error.
     let late = [
         "--set",
         "relief.opening_pressure_pa=2e7",
@@ -90,7 +91,7 @@ fn what_is_not_determined_succeeds_as_advised() {
     let advised = advised(&line, &text);
     assert_eq!(advised.len(), 2, "{text}");
     for advised in advised {
-        // What is known is the user's.
+        // The user supplies the known values.
         let known = |word: String| word.replace("MEAN:DEVIATION", "2e7:1e5");
         run(&advised.into_iter().map(known).collect::<Vec<_>>(), folder).success();
     }

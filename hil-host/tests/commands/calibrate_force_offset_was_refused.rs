@@ -1,11 +1,12 @@
-//! A force offset of 300 N, 1.3 % of the peak, was refused with "do not determine sensor_skew_s", a number that nobody had varied.
+//! Regression: a force offset of 300 N (1.3 % of the peak) was rejected with "do not determine sensor_skew_s", a
+//! parameter that nobody had varied.
 
 use std::path::Path;
 
 use crate::common::bench::{self, TRUTH, VARY};
 use crate::common::{dashpot, json_of, text_of};
 
-/// What the sensors of this rig show at no force (N) and in the middle of the motion (m).
+/// Sensor readings of this rig at zero force (N) and in the middle of the motion (m).
 const OFFSETS: (f64, f64) = (300.0, 0.8);
 
 fn run(folder: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
@@ -32,7 +33,7 @@ fn offsets_of_both_sensors_are_found_with_intervals() {
     }
     let offset = number("force_offset_n");
     let value = |key: &str| offset[key].as_f64().unwrap();
-    // The recording itself has none; noise of 1 % moves that by some newtons.
+    // The recording itself has no offset; noise of 1 % moves the estimate by some newtons.
     assert!((value("found") - OFFSETS.0).abs() < 20.0, "{offset}");
     assert!(
         value("least") < OFFSETS.0 && OFFSETS.0 < value("greatest"),
@@ -63,7 +64,7 @@ fn offsets_of_both_sensors_are_found_with_intervals() {
 }
 
 #[test]
-fn the_rigs_numbers_take_bounds_priors_and_values() {
+fn rig_parameters_accept_bounds_priors_and_values() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     bench::write(&folder.join("run.csv"), |mut sample| {
@@ -86,7 +87,7 @@ fn the_rigs_numbers_take_bounds_priors_and_values() {
             ]
             .concat(),
         );
-        // One number of starts.
+        // The same number of starts.
         let first = line.iter().position(|word| word == "--starts").unwrap();
         let line = [&line[..first], &line[first + 2..]].concat();
         let line: Vec<&str> = line.iter().map(String::as_str).collect();
@@ -119,7 +120,7 @@ fn the_rigs_numbers_take_bounds_priors_and_values() {
     let rows = given["numbers"].as_array().unwrap();
     assert_eq!(rows[1]["bounds"][1], 5e-3, "{given}");
     assert_eq!(rows[2]["prior"]["mean"], 280.0, "{given}");
-    // A bound that the user gave is kept and said.
+    // A bound given by the user is kept and reported.
     let bounded = few(&[
         "--vary",
         "force_offset_n=-100:100",

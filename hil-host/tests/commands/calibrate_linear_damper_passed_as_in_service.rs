@@ -1,4 +1,5 @@
-//! A linear damper fitted as `in-service` wrote a damper file with the skew at its bound, and exit code 0.
+//! Regression: fitting a linear damper as `in-service` wrote a damper file with the skew at its bound, and exited with
+//! code 0.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -15,10 +16,10 @@ const LINEAR: (f64, f64) = (60e3, 8e6);
 /// Amplitude (m) and frequency (Hz) of its tests.
 const TESTS: [(f64, f64); 3] = [(25e-3, 0.64), (5e-3, 2.0), (24.5e-3, 1.9)];
 
-/// Writes three tests of the damper, by the closed form of a Maxwell element, with noise of 1 % on both signals.
+/// Writes three tests of the damper from the closed form of a Maxwell element, with noise of 1 % on both signals.
 fn write(path: &Path) {
     let mut rng = Rng::with_seed(7);
-    // The sum of twelve is near to normal, of variance 1.
+    // The sum of twelve uniform numbers is nearly normal with variance 1.
     let mut noise = || (0..12).map(|_| rng.f64()).sum::<f64>() - 6.0;
     let mut rows = String::from("time_s,displacement_m,force_n\n");
     for (number, (amplitude_m, frequency_hz)) in (0..).zip(TESTS) {
@@ -41,7 +42,7 @@ fn write(path: &Path) {
 }
 
 #[test]
-fn it_is_refused_with_a_start_that_explains_it() {
+fn a_linear_damper_is_refused_with_a_start_that_explains_it() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     write(&folder.join("run.csv"));

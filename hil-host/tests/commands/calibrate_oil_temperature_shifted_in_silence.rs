@@ -1,4 +1,5 @@
-//! Oil entered at 20 degC for a recording at 45 degC shifted the discharge coefficient by 4 % with an interval of 0.0004, and nothing was said.
+//! Regression: an oil temperature of 20 degC entered for a recording at 45 degC shifted the discharge coefficient by 4
+//! %, with an interval of 0.0004 and no message.
 
 use std::path::Path;
 
@@ -17,7 +18,7 @@ fn report(folder: &Path, more: &[&str]) -> Value {
     json_of(&dashpot(&line, folder).success())
 }
 
-/// Found value and interval of the discharge coefficient, and how far the temperature moves it.
+/// Estimate and interval of the discharge coefficient, and its sensitivity to the temperature.
 fn discharge(report: &Value) -> (f64, [f64; 2], [f64; 2]) {
     let number = &report["numbers"][0];
     let value = |key: &str| number[key].as_f64().unwrap();
@@ -28,7 +29,7 @@ fn discharge(report: &Value) -> (f64, [f64; 2], [f64; 2]) {
 }
 
 #[test]
-fn the_interval_includes_the_temperature_and_a_wrong_one_is_said() {
+fn the_interval_includes_the_temperature_and_a_wrong_one_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     bench::write(&folder.join("run.csv"), |sample| sample);
@@ -37,7 +38,7 @@ fn the_interval_includes_the_temperature_and_a_wrong_one_is_said() {
     let warm = report(folder, &[]);
     let (found, interval, shifts) = discharge(&warm);
     assert!((interval[0]..interval[1]).contains(&truth), "{interval:?}");
-    // What one step predicts for 5 K is what a calibration at 50 degC finds.
+    // The predicted change for 5 K agrees with a calibration at 50 degC.
     let hot = discharge(&report(folder, &["--set", "oil.temperature_c=50"])).0;
     assert!(
         (hot - found - shifts[1]).abs() < 0.1 * shifts[1].abs(),
@@ -48,7 +49,8 @@ fn the_interval_includes_the_temperature_and_a_wrong_one_is_said() {
         "{hot}: {interval:?}"
     );
 
-    // 25 K off: the truth is beyond the interval of 5 K, and a warning says that another temperature fits better.
+    // 25 K off: the true value is outside the interval for 5 K, and a warning says that another temperature fits
+    // better.
     let wrong = report(folder, &cold);
     let (_, interval, _) = discharge(&wrong);
     assert!(interval[1] > truth && interval[0] > truth, "{interval:?}");
@@ -64,7 +66,7 @@ fn the_interval_includes_the_temperature_and_a_wrong_one_is_said() {
             .any(|one| one["kind"] == "assumed" && one["key"] == TRUTH[0].0),
         "{wrong}"
     );
-    // Of 25 K the truth is at the very end of the interval.
+    // With an interval for 25 K, the true value is at its end.
     let stated = report(
         folder,
         &[&cold[..], &["--temperature-uncertainty-k", "30"]].concat(),

@@ -1,10 +1,11 @@
-//! A calibration that started from another preset than the damper's own ended in "do not determine sensor_skew_s".
+//! Regression: a calibration started from the wrong preset ended with "do not determine sensor_skew_s".
 
 use crate::common::advice::advised;
 use crate::common::bench::{self, VARY};
 use crate::common::{dashpot, error_of, files_in};
 
-/// The recording of an `in-service` damper from the start `preset` with `vary` is refused with a start that succeeds.
+/// Calibrates the recording of an `in-service` damper from `preset` with `vary`: it must be rejected with a start that
+/// succeeds.
 fn is_named(preset: &str, vary: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -29,7 +30,7 @@ fn another_physical_damper_is_named() {
 }
 
 #[test]
-fn a_reduced_damper_is_named_with_the_numbers_to_vary() {
+fn a_reduced_damper_is_named_with_the_parameters_to_vary() {
     let vary = [
         "--vary",
         "reduced.damping_n_s_per_m",

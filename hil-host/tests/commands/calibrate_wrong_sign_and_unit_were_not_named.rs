@@ -1,4 +1,5 @@
-//! A reversed sign of force or displacement, and millimetres taken as metres, ended in "do not determine sensor_skew_s" like everything else.
+//! Regression: a reversed sign of force or displacement, and millimetres read as metres, all ended with "do not
+//! determine sensor_skew_s".
 
 use dashpot_recording::MeasuredSample;
 
@@ -6,8 +7,8 @@ use crate::common::advice::advised;
 use crate::common::bench::{self, TRUTH, VARY};
 use crate::common::{dashpot, error_of, files_in};
 
-/// A recording changed by `change` is refused with `words`, nothing is written, and each command line that the message advises succeeds. The
-/// first gives back the damper.
+/// Checks that a recording changed by `change` is rejected with `words`, that nothing is written, and that each advised
+/// command line succeeds. The first one must recover the damper.
 fn is_named(change: impl Fn(MeasuredSample) -> MeasuredSample, more: &[&str], words: &str) {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -57,7 +58,7 @@ fn a_reversed_displacement_is_named() {
 }
 
 #[test]
-fn an_option_that_reverses_in_vain_is_named() {
+fn a_needless_reversing_option_is_named() {
     is_named(
         |sample| sample,
         &["--reverse-force"],

@@ -1,4 +1,4 @@
-//! Errors of a case in the words of the command line.
+//! Errors of a case in terms of command line options.
 
 use dashpot_files::case::{Case, CaseOptions};
 use dashpot_hil::commands::failure::{Failure, Kind};
@@ -17,7 +17,7 @@ fn wrong_options_are_wrong_use() {
         found,
         "--damper verticl=paper: no damper `verticl`; did you mean `vertical`?"
     );
-    // A file's options may be changed; what is added is not of a line of it.
+    // Options of a file may be overridden; an added option belongs to no line of the file.
     let mut options = CaseOptions::load("curve-r200").unwrap();
     options.overrides.push("bdy.mass_kg=3".into());
     let found = failure(&options);

@@ -1,11 +1,11 @@
-//! `replay` filled a jump of the logger's clock with up to 864 million ticks on a straight line before it refused the
-//! recording.
+//! Regression: `replay` filled a jump of the logger's clock with up to 864 million interpolated ticks before it
+//! rejected the recording.
 
 use std::path::Path;
 
 use crate::common::{dashpot, error_of, text_of};
 
-/// What `replay` writes to standard output and standard error for rows at these times (s), and its exit code.
+/// Runs `replay` on rows at these times (s); returns standard output, standard error and the exit code.
 fn replayed(folder: &Path, times_s: &[f64]) -> (usize, String, i32) {
     let rows: String = times_s
         .iter()
@@ -26,15 +26,15 @@ fn replayed(folder: &Path, times_s: &[f64]) -> (usize, String, i32) {
 fn a_jump_is_refused_before_it_is_filled() {
     let folder = tempfile::tempdir().unwrap();
     let regular: Vec<f64> = (0..10).map(|row| f64::from(row) / 1e3).collect();
-    // A header and the ticks before the jump.
+    // Only a header and the ticks before the jump are written.
     let before = 11;
     for (times_s, expected) in [
-        // There and back: 9 million ticks at 1 ms.
+        // A jump forth and back: 9 million ticks at 1 ms.
         (
             &[9000.0, 0.011][..],
             "run.csv:13: column time_s: time 0.011 s does not grow; the row before has 9000 s",
         ),
-        // Twice there, and there for some samples.
+        // Two jumps forth, and a jump for a few samples.
         (
             &[4000.0, 9000.0, 0.012],
             "run.csv:14: column time_s: time 0.012 s does not grow; the row before has 9000 s",
@@ -43,7 +43,7 @@ fn a_jump_is_refused_before_it_is_filled() {
             &[9000.0, 9000.001, 9000.002, 0.013],
             "run.csv:15: column time_s: time 0.013 s does not grow; the row before has 9000.002 s",
         ),
-        // Set once, to the time of day: 100 million ticks.
+        // A single jump when the clock is set to the time of day: 100 million ticks.
         (
             &[1e5, 1e5 + 1e-3],
             "run.csv:12: column time_s: time jumps from 0.009 s to 100000 s: 99999991 ticks without a sample, allowed: 10000000",

@@ -1,4 +1,4 @@
-//! `dashpot contact` from outside: its numbers, its plots, its failures.
+//! `dashpot contact` as a command: its values, plots and errors.
 
 use std::path::Path;
 
@@ -57,7 +57,7 @@ fn text_reports_conicity_over_amplitude() {
     assert!(text.contains("           3.0     0.18"), "{text}");
 }
 
-/// A wheel and a rail as their gauge wrote them, in a folder of nothing else.
+/// Writes a wheel and a rail, as their gauge would, into an otherwise empty folder.
 fn folder_of(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -74,7 +74,7 @@ const GENSYS_RAIL: (&str, &str) = (
 );
 
 #[test]
-fn files_of_a_profile_gauge_are_reported_with_what_was_left_out() {
+fn files_of_a_profile_gauge_are_reported_with_omitted_points() {
     let folder = folder_of(&[WHEEL, RAIL]);
     let arguments = ["contact", "--wheel", "x.whl", "--rail", "y.ban"];
     let output = dashpot(&arguments, folder.path()).success();
@@ -115,7 +115,7 @@ fn the_side_of_a_gensys_rail_is_asked_for() {
     let stated = [&command[..], &["--rail-mirror", "y"]].concat();
     let output = dashpot(&stated, folder.path()).success();
     assert!(text_of(&output).contains("z: gensys, 0 of 154 points"));
-    // From standard input there is no extension that tells.
+    // Standard input has no file extension that indicates the format.
     let piped = [
         "contact",
         "--no-plots",
@@ -175,7 +175,7 @@ fn worn_wheel() -> String {
 
 /// The geometry of such a pair is reported, but no vehicle can run on it.
 #[test]
-fn a_pair_whose_force_jumps_is_said_with_the_place() {
+fn a_pair_whose_force_jumps_is_reported_with_the_location() {
     let folder = folder_of(&[("worn.csv", &worn_wheel())]);
     let command = ["contact", "--no-plots", "--wheel", "worn.csv"];
     let text = text_of(&dashpot(&command, folder.path()).success());

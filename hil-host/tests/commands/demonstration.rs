@@ -1,4 +1,4 @@
-//! `dashpot` without a command from outside, and the recording it ships.
+//! `dashpot` without a command, and the recording it ships.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -9,7 +9,7 @@ use dashpot_testbench::excitation::Excitation;
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 
-/// What the command prints for people, and its page.
+/// Text output of the command, and its page.
 static SHOWN: LazyLock<(String, String)> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let output = dashpot(&[], folder.path());
@@ -17,7 +17,7 @@ static SHOWN: LazyLock<(String, String)> = LazyLock::new(|| {
     (text_of(&output), page)
 });
 
-/// The accuracy promised.
+/// Promised accuracy.
 fn check_limit(row: &serde_json::Value) {
     let scalar = if row["scalar"] == "f32" {
         Scalar::F32
@@ -44,7 +44,7 @@ fn the_page_is_whole_self_contained_and_accurate() {
     }
     let page = std::fs::read_to_string(folder.path().join("dashpot-report.html")).unwrap();
     assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
-    // Nine figures of thirteen plots, each with its numbers.
+    // Nine figures with thirteen plots, each with its data.
     assert_eq!(page.matches("<figure>").count(), 9);
     for part in [
         "class=\"plot\" role=\"img\"",
@@ -55,10 +55,10 @@ fn the_page_is_whole_self_contained_and_accurate() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
-/// The ride is synthetic, and neither page nor report says that it was recorded or measured. Measurements of the paper
-/// and timings on this machine are called measured.
+/// The ride is synthetic: nothing on the page or in the report may call it recorded or measured. Values measured in the
+/// paper and times measured here are called measured.
 #[test]
-fn synthetic_signals_are_called_synthetic_and_measured_ones_measured() {
+fn only_measured_values_are_called_measured() {
     let (report, page) = &*SHOWN;
     assert!(report.contains("synthetic ride"), "{report}");
     let captions: Vec<&str> = page
@@ -87,9 +87,9 @@ fn synthetic_signals_are_called_synthetic_and_measured_ones_measured() {
     assert!(help.contains("synthetic ride"), "{help}");
 }
 
-/// Figures of the text are those of the damper files.
+/// Values in the text are those of the damper files.
 #[test]
-fn the_page_tells_the_parameters_of_the_presets() {
+fn the_page_lists_the_parameters_of_the_presets() {
     let (_, page) = &*SHOWN;
     for words in [
         "69.8 mm piston and 28 mm rod",
@@ -97,7 +97,7 @@ fn the_page_tells_the_parameters_of_the_presets() {
         "adds 1 mm clearance, seats of 40 MN/m, valve preloads of 0.5, 0.3 (piston) and 0 MPa (foot), leakage \
          through a piston gap of 30 µm, a relief valve that opens at 5 MPa, seal friction of 100 N",
         "oil column with 0.05 % entrained air",
-        // 5 MPa on 3.2107e-3 and 3.8265e-3 m2, and 100 N.
+        // 5 MPa on 3.2107e-3 and 3.8265e-3 m2, plus 100 N.
         "opens at 5 MPa: 16 kN in extension, 19 kN in compression",
         "±24.875 mm at 0.64 Hz",
         "33, 41 and 30 times",
@@ -118,7 +118,7 @@ fn a_page_that_cannot_be_written_fails() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
-/// The shipped recording is the made ride at its stamps, as its header says.
+/// The shipped recording is the synthetic ride at its time stamps, as its header says.
 #[test]
 fn the_shipped_ride_is_what_its_header_says() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/excitations/ride_made.csv");

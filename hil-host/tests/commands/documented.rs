@@ -1,4 +1,4 @@
-//! Every command line of the documents and of `--help` is one that the command takes; those of pages about other tools are run.
+//! The command accepts every command line in the documents and in `--help`; those of pages about other tools are run.
 
 use std::path::{Path, PathBuf};
 use std::{fs, iter};
@@ -17,7 +17,7 @@ const EXPORTS: [&str; 5] = [
     "twincat.md",
 ];
 
-/// A document's lines of commands, one that goes on behind a backslash as one.
+/// Command lines of a document, with lines continued by a backslash joined.
 fn lines(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut lines = text.lines().map(str::trim);
@@ -31,7 +31,7 @@ fn lines(text: &str) -> Vec<String> {
     found
 }
 
-/// The words after `dashpot` of each command in a line: alone, behind `&&`, or of `cargo run`.
+/// Arguments of each `dashpot` command in a line: alone, after `&&`, or of `cargo run`.
 fn commands(line: &str) -> Vec<Vec<String>> {
     let words = shlex::split(line).unwrap_or_default();
     let of_one = |words: &[String]| {
@@ -65,7 +65,7 @@ fn documents() -> Vec<PathBuf> {
         .collect()
 }
 
-/// The indented lines of a document, and those of its blocks of shell commands.
+/// Indented lines of a document and lines of its shell blocks.
 fn indented(document: &Path) -> String {
     let text = fs::read_to_string(document).unwrap();
     let mut is_shell = false;
@@ -82,7 +82,7 @@ fn indented(document: &Path) -> String {
 }
 
 #[test]
-fn every_command_line_is_one() {
+fn every_command_line_is_valid() {
     let whole = dashpot_hil::commands::Command::augment_subcommands(clap::Command::new("dashpot"));
     let helps = whole.get_subcommands().map(|command| {
         let help = command.get_after_help().map(ToString::to_string);
@@ -98,7 +98,7 @@ fn every_command_line_is_one() {
     let mut count = 0;
     for (place, text) in pages.chain(helps.collect::<Vec<_>>()) {
         for words in lines(&text).iter().flat_map(|line| commands(line)) {
-            // Without a command it is the demonstration, or asks for help.
+            // Without a command, it runs the demonstration or prints help.
             if words.first().is_none_or(|word| word.starts_with('-')) {
                 continue;
             }
@@ -108,12 +108,12 @@ fn every_command_line_is_one() {
             count += 1;
         }
     }
-    // A test that finds none would not fail.
+    // A search that finds no lines must fail.
     assert!(count > 100, "{count}");
 }
 
 #[test]
-fn exports_for_other_tools_are_run_as_they_stand() {
+fn exports_for_other_tools_run_as_written() {
     for page in EXPORTS {
         let folder = tempfile::tempdir().unwrap();
         let text = indented(&repository().join("docs").join(page));
@@ -121,7 +121,7 @@ fn exports_for_other_tools_are_run_as_they_stand() {
             .iter()
             .flat_map(|line| commands(line))
             .collect();
-        // The vehicle's is run by the tests of FMUs, which build its library.
+        // The FMU tests run the line of the vehicle, because they build its library.
         let exports = all
             .iter()
             .filter(|words| words[0] == "export" && !words.contains(&"--case".to_owned()));

@@ -1,4 +1,4 @@
-//! `dashpot export` from outside; the exported file compiled for real.
+//! `dashpot export` as a command; the exported file is compiled and run.
 
 use std::path::Path;
 use std::process::Command;

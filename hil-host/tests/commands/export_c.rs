@@ -1,4 +1,4 @@
-//! `dashpot export --lang c` from outside: source and header, compiled for real.
+//! `dashpot export --lang c` as a command: source and header are compiled and run.
 
 use std::path::Path;
 use std::process::Command;
@@ -6,7 +6,7 @@ use std::process::Command;
 use assert_cmd::assert::Assert;
 use predicates::str::contains;
 
-use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, files_in, json_of, json_on_stderr, text_of};
 
 const EXPORT: [&str; 5] = ["export", "--damper", "in-service", "--lang", "c"];
 
@@ -14,7 +14,7 @@ fn export(more: &[&str], folder: &Path) -> Assert {
     dashpot(&[&EXPORT[..], more].concat(), folder)
 }
 
-/// Warnings as errors, for the oldest languages that the files are for and for newer ones.
+/// Compilers with warnings as errors, for the oldest supported language versions and newer ones.
 const COMPILERS: [(xtask::tools::Tool, [&str; 2]); 4] = [
     (xtask::tools::GCC, ["-xc", "-std=c99"]),
     (xtask::tools::GCC, ["-xc", "-std=c11"]),
@@ -90,13 +90,13 @@ fn the_report_names_the_header() {
     let output = export(&["--output", "b.c", "--format", "json"], folder.path());
     assert_eq!(json_of(&output)["header"], "b.h");
     let output = export(&["--output", "-", "--format", "json"], folder.path());
-    let report = json_beside(&output);
+    let report = json_on_stderr(&output);
     assert_eq!(report.get("header"), None, "{report}");
     assert_eq!(files_in(folder.path()), ["a.cpp", "a.h", "b.c", "b.h"]);
 }
 
 #[test]
-fn source_and_header_are_both_written_or_none() {
+fn source_and_header_are_both_written_or_neither() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     std::fs::write(folder.join("x.c"), "kept").unwrap();

@@ -1,4 +1,4 @@
-//! `dashpot export --health` from outside: the bytes of the desk's model in every language.
+//! `dashpot export --health` as a command: the bytes are those of the model on the host, in every language.
 
 use std::process::Command;
 
@@ -27,7 +27,7 @@ fn model() -> HealthModel {
     parameters.health_model(&settings, 5e-4).unwrap()
 }
 
-/// As [`model`] has it.
+/// The parameters of [`model`].
 const MORE: [&str; 8] = [
     "--memory-s",
     "3",
@@ -39,7 +39,7 @@ const MORE: [&str; 8] = [
     "500",
 ];
 
-/// The numbers between the braces or brackets of an array of bytes.
+/// Numbers between the braces or brackets of a byte array.
 fn array(text: &str, from: &str) -> Vec<u8> {
     let (_, array) = text.split_once(from).unwrap();
     let words = array
@@ -73,7 +73,7 @@ fn the_model_is_the_desks_in_every_language() {
         array(&source, "const uint8_t PAPER_HEALTH[2236] = {"),
         image
     );
-    // The command in it makes the same bytes again.
+    // The command quoted in the output produces the same bytes again.
     for part in [
         "paper",
         "500 us",
@@ -98,7 +98,7 @@ fn the_model_is_the_desks_in_every_language() {
     );
 }
 
-/// In C the array is those bytes, with every warning an error.
+/// The C array compiles without warnings and has the same bytes.
 #[test]
 fn the_array_compiles() {
     use xtask::tools::{GCC, have};
@@ -131,7 +131,7 @@ fn the_array_compiles() {
 }
 
 #[test]
-fn what_does_not_go_together_is_wrong_use() {
+fn incompatible_options_are_wrong_use() {
     let folder = tempfile::tempdir().unwrap();
     let wrong = |arguments: &[&str], code: i32| {
         let all = [arguments, &["--output", "x"]].concat();

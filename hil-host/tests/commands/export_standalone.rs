@@ -1,4 +1,4 @@
-//! `dashpot export --lang c --standalone` from outside: what is written and said; compiled for real.
+//! `dashpot export --lang c --standalone` as a command: files and messages; the source is compiled and run.
 
 use std::path::Path;
 use std::process::Command;

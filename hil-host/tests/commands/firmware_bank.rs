@@ -1,4 +1,4 @@
-//! The dampers linked into the firmware are what `dashpot export` makes today.
+//! The dampers linked into the firmware are those that `dashpot export` writes now.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ fn export_gives_the_bank_of_the_firmware_again() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir_all(folder.path().join("firmware/src/bank")).unwrap();
     for damper in ["in-service", "reduced-vertical", "reduced-lateral"] {
-        // The file names its own path, so the export runs where that path is free.
+        // The file contains its own path, so the export runs in a folder where this path is free.
         let file = format!("firmware/src/bank/{}.rs", damper.replace('-', "_"));
         let arguments = ["export", "--damper", damper, "--lang", "rust"];
         let step = ["--step-us", "1000", "--output", &file];

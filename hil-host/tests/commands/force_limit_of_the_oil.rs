@@ -1,5 +1,5 @@
-//! A force limit above bulk modulus times area gave a table with NaN: `rig` printed 0 N and exit code 0, `replay` jumped to
-//! the limit, `export` wrote an image with 30 words of NaN.
+//! Regression: a force limit above bulk modulus times area gave a table with NaN: `rig` printed 0 N and exited with
+//! code 0, `replay` jumped to the limit, and `export` wrote an image with 30 NaN words.
 
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
@@ -7,7 +7,7 @@ use predicates::str::contains;
 use crate::common::{dashpot, files_in};
 
 #[test]
-fn every_command_refuses_it_and_names_both_numbers() {
+fn every_command_refuses_the_limit_and_names_both_values() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(
         folder.path().join("in.csv"),

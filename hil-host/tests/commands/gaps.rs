@@ -1,4 +1,4 @@
-//! Gaps of a recording, counted while it is read and reported by the commands.
+//! Gaps in a recording, counted while it is read and reported by the commands.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn gaps_at(times_s: &[f64]) -> Gaps {
     recording.gaps()
 }
 
-/// Times of samples (s) with intervals of `count` times `interval_s` (s) each.
+/// Sample times (s) from `count` intervals of `interval_s` (s) each.
 fn times(intervals: &[(usize, f64)]) -> Vec<f64> {
     let mut time_s = 0.0;
     let mut times_s = vec![time_s];
@@ -33,7 +33,7 @@ fn times(intervals: &[(usize, f64)]) -> Vec<f64> {
 
 #[test]
 fn intervals_over_five_medians_are_gaps() {
-    // 4.9 medians are none, 5.1 and 20 are; the longest starts after 22 intervals.
+    // An interval of 4.9 medians is no gap; 5.1 and 20 medians are. The longest gap starts after 22 intervals.
     let found = gaps_at(&times(&[
         (10, 0.01),
         (1, 0.049),
@@ -63,7 +63,7 @@ fn an_even_or_jittering_recording_has_none() {
 
 /// The shipped recording has one gap of about 40 ms after 2 s, as its header says.
 #[test]
-fn the_commands_reports_gaps() {
+fn the_commands_report_gaps() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let ride = "data/excitations/ride_made.csv";
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Garbage in the middle of a file `.partial` stopped a study with no word about how to go on.
+//! Regression: garbage in the middle of a `.partial` file stopped a study without saying how to continue.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use crate::common::{dashpot, error_of, files_in, text_of};
 use crate::sweep::{STUDY, folder, read, rows};
 
 #[test]
-fn garbage_is_named_with_its_line_and_the_way_on() {
+fn garbage_is_reported_with_its_line_and_a_remedy() {
     let folder = folder(STUDY);
     let text = rows(folder.path());
     let one = folder.path().join("one");
@@ -40,7 +40,7 @@ fn garbage_is_named_with_its_line_and_the_way_on() {
         let remedy = "delete line 6 of this file and repeat the command to run its case again, or start over with --anew";
         assert!(error.contains(remedy), "{name}: {error}");
         assert_eq!(fs::read(&partial).unwrap(), bytes, "nothing is changed");
-        // The way on, followed.
+        // The recovery that the message names.
         let mut mended = lines[..5].concat();
         mended.extend(lines[6..9].concat());
         fs::write(&partial, &mended).unwrap();

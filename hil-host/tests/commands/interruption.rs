@@ -1,4 +1,4 @@
-//! A command that is interrupted while it writes leaves no temporary file behind.
+//! A command interrupted while writing leaves no temporary file behind.
 #![cfg(target_os = "linux")]
 
 use std::fs::File;
@@ -13,14 +13,14 @@ const SIGHUP: i32 = 1;
 const SIGINT: i32 = 2;
 const SIGTERM: i32 = 15;
 
-/// A replay from a pipe that stays open: once its temporary file is there it waits for more rows.
+/// Replay from a pipe that stays open: once its temporary file exists, it waits for more rows.
 struct Waiting {
     child: Child,
     pipe: File,
 }
 
 impl Waiting {
-    /// Started by `shell` in `folder`, which receives the command as `"$@"`.
+    /// Starts the command through `shell` in `folder`; the shell receives the command as `"$@"`.
     fn start(shell: &str, folder: &Path) -> Self {
         let pipe = folder.join("pipe");
         assert!(
@@ -40,7 +40,7 @@ impl Waiting {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        // Opens once the command has opened its end.
+        // This open returns once the command has opened its end.
         let mut pipe = File::options().write(true).open(&pipe).unwrap();
         pipe.write_all(b"time_s,displacement_m\n0,0\n0.1,0\n")
             .unwrap();
@@ -74,11 +74,11 @@ fn has_temporary(folder: &Path) -> bool {
 }
 
 #[test]
-fn an_interrupted_replay_ends_by_the_signal_and_leaves_what_was_there() {
+fn an_interrupted_replay_ends_by_the_signal_and_keeps_existing_files() {
     for signal in [SIGHUP, SIGINT, SIGTERM] {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("out.csv"), "precious").unwrap();
-        // Whatever the tests themselves were started to ignore, as in the background of a shell.
+        // Resets signals that the test process ignores, as in the background of a shell.
         let mut waiting = Waiting::start("exec env --default-signal \"$@\"", folder.path());
         waiting.signal(signal);
         let status = waiting.child.wait().unwrap();
@@ -89,7 +89,7 @@ fn an_interrupted_replay_ends_by_the_signal_and_leaves_what_was_there() {
     }
 }
 
-/// As under `nohup`: the signal comes before the end of the recording, and the command goes on.
+/// As under `nohup`: the signal arrives before the end of the recording, and the command continues.
 #[test]
 fn a_signal_ignored_from_the_start_stays_ignored() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! docs/labview.md word for word: its C, built by its command, called as LabVIEW calls a library, has the bits of the core.
+//! Follows docs/labview.md literally: its C code, built by its command and called as LabVIEW calls a library, gives the
+//! bits of the core.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -65,7 +66,8 @@ fn compare(library: &Path) {
         .unwrap();
     let mut motion = Excitation::Ride.displacements_m(1e-3);
     motion.extend([f64::NAN, 3.0, -3.0, 0.0]);
-    // SAFETY: the library is the one just made, its functions have the types of the page, and each gets as many bytes as a state has.
+    // SAFETY: the library was just built, its functions have the types given on the page, and each gets as many bytes
+    // as a state has.
     unsafe {
         let library = Library::new(library).unwrap();
         let at_rest: Symbol<'_, AtRest> = library.get(b"labview_at_rest").unwrap();

@@ -1,4 +1,4 @@
-//! A run whose wheels left the rail for a third of a second ended without a word.
+//! Regression: a run whose wheels left the rail for a third of a second ended without a warning.
 
 use std::fs;
 
@@ -18,7 +18,7 @@ fn ran(arguments: &[&str]) -> (Value, String) {
     (report, history)
 }
 
-/// The longest run of ticks without load of a column, and when the first of them began, s.
+/// Longest run of consecutive ticks without load in a column, and the time (s) at which it starts.
 fn longest_lift(history: &str, column: &str) -> (u64, f64) {
     let mut rows = csv::Reader::from_reader(history.as_bytes());
     let names = rows.headers().unwrap().clone();
@@ -64,7 +64,7 @@ fn a_wheel_without_load_for_more_than_50_ms_is_a_warning() {
             assert_eq!(found.is_some(), ticks > 50, "{column}: {ticks} ticks");
             let Some(found) = found else { continue };
             named += 1;
-            // A wheel may touch the rail for a part of a tick.
+            // A wheel may touch the rail for part of a tick.
             let duration_s = found["duration_s"].as_f64().unwrap();
             assert!(duration_s <= ticks as f64 * 1e-3 + 1e-9, "{found}");
             if (duration_s - ticks as f64 * 1e-3).abs() < 1e-9 {

@@ -1,4 +1,4 @@
-//! `dashpot` from outside, as its users run it.
+//! Tests of the command `dashpot`, run as a user runs it.
 
 mod an_altered_row;
 mod bench_to_firmware;

@@ -1,4 +1,4 @@
-//! `dashpot modes` from outside, and the locomotive against an independent computation.
+//! `dashpot modes` as a command, and the modes of the locomotive against an independent computation.
 
 use std::path::Path;
 
@@ -12,8 +12,8 @@ fn modes(arguments: &[&str]) -> Assert {
     dashpot(&[&["modes"], arguments].concat(), Path::new("."))
 }
 
-/// The shipped locomotive with dashpots in place of its dampers: 120 kN s/m vertical and 90 kN s/m lateral a side and bogie,
-/// beside its middle.
+/// The shipped locomotive with dashpots instead of its dampers: 120 kN s/m vertical and 90 kN s/m lateral per side and
+/// bogie, at the middle of the bogie.
 fn with_dashpots() -> Vec<Mode> {
     let file = include_str!("../../../data/vehicles/locomotive.toml");
     let (parts, _dampers) = file.split_once("# Four vertical and two lateral").unwrap();
@@ -32,7 +32,8 @@ fn with_dashpots() -> Vec<Mode> {
     Standstill::new(&vehicle).unwrap().modes().unwrap()
 }
 
-/// Frequency and damping ratio of the first mode whose name has these words, within `part` of the expected ones.
+/// Checks frequency and damping ratio of the first mode whose name contains these words, within a relative error of
+/// `part`.
 fn check(modes: &[Mode], words: &str, expected: [f64; 2], part: f64) {
     let names: Vec<String> = modes.iter().map(Mode::description).collect();
     let number = names.iter().position(|name| name.contains(words));
@@ -48,7 +49,7 @@ fn check(modes: &[Mode], words: &str, expected: [f64; 2], part: f64) {
     }
 }
 
-/// An independent computation of the same locomotive at standstill.
+/// Independent computation of the same locomotive at standstill.
 #[test]
 fn the_locomotives_modes_are_those_of_an_independent_computation() {
     let modes = with_dashpots();
@@ -81,7 +82,7 @@ fn the_locomotives_modes_are_those_of_an_independent_computation() {
 
 /// The same computation with each damper as C and Ke in series.
 #[test]
-fn dampers_stiffen_the_suspension_as_an_independent_computation_has_it() {
+fn dampers_stiffen_the_suspension_as_in_an_independent_computation() {
     let vehicle = vehicle::load("locomotive", &[]).unwrap();
     let modes = Standstill::new(&vehicle).unwrap().modes().unwrap();
     check(&modes, "body bounce", [1.789, 0.452], 0.01);
@@ -104,7 +105,7 @@ fn dampers_stiffen_the_suspension_as_an_independent_computation_has_it() {
 
 #[test]
 fn the_axles_carry_the_published_load() {
-    // 20 660 kg an axle.
+    // 20 660 kg per axle.
     let report = json_of(&modes(&["--format", "json"]).success());
     let loads = report["axle_loads_n"].as_array().unwrap();
     assert_eq!(loads.len(), 6);
@@ -130,7 +131,7 @@ fn a_heavier_body_bounces_slower() {
     assert!(text.contains("body bounce"), "{text}");
 }
 
-/// Least damping ratio of all modes at a speed.
+/// Minimum damping ratio of all modes at a speed.
 fn least_damping(speed_km_h: f64) -> f64 {
     let speed = format!("{speed_km_h}");
     let report = json_of(&modes(&["--speed-km-h", &speed, "--format", "json"]).success());
@@ -145,7 +146,8 @@ fn least_damping(speed_km_h: f64) -> f64 {
 fn hunting_begins_at_the_critical_speed() {
     let report = json_of(&modes(&["--hunting", "--format", "json"]).success());
     let critical = report["hunting"]["critical_speed_km_h"].as_f64().unwrap();
-    // A push to the flange ends in a limit cycle from a speed on that is not above it by more than what is looked at.
+    // A displacement up to the flange leads to a limit cycle above a speed that is at most slightly higher than the
+    // linear critical speed.
     let nonlinear = report["hunting"]["nonlinear_critical_speed_km_h"]
         .as_f64()
         .unwrap();
@@ -158,7 +160,7 @@ fn hunting_begins_at_the_critical_speed() {
     assert!(least_damping(critical - 1.0) > 0.0);
     assert!(least_damping(critical + 1.0) < 0.0);
     assert!(least_damping(50.0) > 0.01);
-    // Axleboxes that lead their wheelsets softly let them hunt at a lower speed.
+    // Axleboxes with soft guidance let the wheelsets hunt at a lower speed.
     let soft = [
         "front",
         "front middle",
@@ -177,23 +179,26 @@ fn hunting_begins_at_the_critical_speed() {
     assert!(softer < critical - 20.0, "{softer} for {critical}");
 }
 
-/// Slowly the wheelsets hold the bogies as at standstill: the body moves as there.
+/// At low speed, the wheelsets hold the bogies as at standstill, so the body moves as at standstill.
 #[test]
 fn at_walking_pace_the_body_moves_as_at_standstill() {
-    let of = |arguments: &[&str], words: &str| {
+    let frequency_hz = |arguments: &[&str], words: &str| {
         let report = json_of(&modes(&[arguments, &["--format", "json"]].concat()).success());
         let rows = report["modes"].as_array().unwrap().clone();
         let row = rows.iter().find(|row| row["mode"] == words).unwrap();
         row["undamped_hz"].as_f64().unwrap()
     };
     for words in ["body bounce", "body pitch", "body lower sway", "body yaw"] {
-        let (slow, still) = (of(&["--speed-km-h", "5"], words), of(&[], words));
+        let (slow, still) = (
+            frequency_hz(&["--speed-km-h", "5"], words),
+            frequency_hz(&[], words),
+        );
         assert!((slow / still - 1.0).abs() < 0.01, "{words}: {slow} {still}");
     }
 }
 
 #[test]
-fn errors_say_what_where_and_what_is_allowed() {
+fn errors_name_the_problem_its_location_and_the_allowed_values() {
     let cases: [(&[&str], i32, &str); 8] = [
         (
             &["--vehicle", "locomotiv"],

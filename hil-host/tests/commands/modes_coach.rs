@@ -1,4 +1,4 @@
-//! The shipped coach: its loads and modes against closed forms of its parameters.
+//! The shipped coach: loads and modes against closed forms of its parameters.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -8,12 +8,12 @@ use dashpot_rail::vehicle::{Mode, Standstill};
 
 use crate::common::{dashpot, json_of};
 
-/// Half of the body on its two airsprings, on a bogie on its four axlebox springs.
+/// Half of the body on two airsprings, on a bogie on four axlebox springs.
 const BODY_KG: f64 = 16e3;
 const BOGIE_KG: f64 = 2615.0;
 const AIRSPRINGS_N_PER_M: f64 = 2.0 * 430e3;
 const AXLEBOXES_N_PER_M: f64 = 4.0 * 1.22e6;
-/// From the middle of the vehicle to the middle of a bogie, m.
+/// Distance from the middle of the vehicle to the middle of a bogie, m.
 const TO_BOGIE_M: f64 = 9.5;
 /// Pitch and yaw inertia of the body, kg m^2.
 const BODY_INERTIA_KG_M2: f64 = 1.97e6;
@@ -23,7 +23,7 @@ fn modes(overrides: &[String]) -> Vec<Mode> {
     Standstill::new(&vehicle).unwrap().modes().unwrap()
 }
 
-/// With dampers that have next to no force, and axlebox springs without damping.
+/// The coach with almost no damper force and with undamped axlebox springs.
 fn undamped() -> Vec<Mode> {
     let mut overrides = Vec::new();
     for end in ["front", "rear"] {
@@ -50,7 +50,7 @@ fn close(found: f64, expected: f64, part: f64) {
     );
 }
 
-/// Squares of the lower and of the upper angular frequency of two masses in a row on springs, rad^2/s^2.
+/// Squares of the lower and upper angular frequency of two masses in series on springs, rad^2/s^2.
 fn two_masses(upper_kg: f64) -> [f64; 2] {
     let sum = AIRSPRINGS_N_PER_M / upper_kg + (AIRSPRINGS_N_PER_M + AXLEBOXES_N_PER_M) / BOGIE_KG;
     let product = AIRSPRINGS_N_PER_M * AXLEBOXES_N_PER_M / (upper_kg * BOGIE_KG);
@@ -67,17 +67,17 @@ fn bounce_and_pitch_are_those_of_two_masses_in_a_row() {
         .iter()
         .find(|mode| mode.description().contains("bogie bounce"));
     close(bogies.unwrap().undamped_hz(), upper, 2e-3);
-    // An end of the body that pitches weighs as much as its inertia over the arm squared.
+    // For pitch, the effective mass at each end of the body is its inertia over the square of the lever arm.
     let [lower, _] = two_masses(0.5 * BODY_INERTIA_KG_M2 / TO_BOGIE_M.powi(2));
     let pitch = find(&modes, "body pitch").undamped_hz();
     close(pitch, lower.sqrt() / TAU, 2e-3);
 }
 
-/// Damping ratio `phi' C phi/(2 omega phi' M phi)` of the undamped shape, good to its square.
+/// Damping ratio `phi' C phi/(2 omega phi' M phi)` of the undamped mode shape, accurate to second order in the damping.
 #[test]
 fn the_bounce_is_damped_by_airspring_dampers_and_axleboxes() {
     let [square, _] = two_masses(BODY_KG);
-    // The body moves by one and its bogie by this.
+    // Displacement of the bogie for a unit displacement of the body.
     let bogie = 1.0 - BODY_KG * square / AIRSPRINGS_N_PER_M;
     let damping = 2.0 * 20e3 * (1.0 - bogie).powi(2) + 4.0 * 4e3 * bogie.powi(2);
     let mass = BODY_KG + BOGIE_KG * bogie.powi(2);
@@ -86,7 +86,8 @@ fn the_bounce_is_damped_by_airspring_dampers_and_axleboxes() {
     close(found, ratio, 0.03);
 }
 
-/// The body on the shear of its airsprings, in series with the axlebox springs: lateral at the bogies, longitudinal beside the middle line.
+/// The body on the shear stiffness of its airsprings in series with the axlebox springs: lateral at the bogies,
+/// longitudinal off the centre line.
 #[test]
 fn the_body_yaws_on_the_shear_of_its_airsprings() {
     let (shear, axleboxes) = (2.0 * 160e3, 4.0 * 3.884e6);

@@ -1,13 +1,13 @@
-//! The package for Python made its errors by replacing options in the command's texts: a name in a header with a
-//! backtick left an option in them, and a column called `--force` was reported as `force`. What is to be done is data
-//! now; here are the command's words for it, and that what they say works. The package's words are in
-//! python/tests/test_recording.py.
+//! Regression: the Python package built its errors by replacing options in the texts of the command, so a header name
+//! with a backtick left an option in them, and a column called `--force` was reported as `force`. The remedy is now
+//! data. These tests check the command's wording and that its advice works; python/tests/test_recording.py checks the
+//! package's wording.
 
 use std::path::Path;
 
 use crate::common::{dashpot, error_of};
 
-/// What `replay` says of the text of a recording, with options.
+/// Runs `replay` on the text of a recording, with options; returns its message.
 fn replayed(text: &str, options: &[&str], folder: &Path) -> Result<(), String> {
     std::fs::write(folder.join("run.csv"), text).unwrap();
     let arguments = ["replay", "--input", "run.csv", "--output", "force.csv"];
@@ -18,7 +18,7 @@ fn replayed(text: &str, options: &[&str], folder: &Path) -> Result<(), String> {
     }
 }
 
-/// A text, options, the reason, and options with which it is read.
+/// A text, options, the reason, and options with which it can be read.
 type Case = (
     &'static str,
     &'static [&'static str],
@@ -137,7 +137,7 @@ const CASES: [Case; 13] = [
 ];
 
 #[test]
-fn what_the_command_advises_works() {
+fn the_advice_of_the_command_works() {
     let folder = tempfile::tempdir().unwrap();
     for (text, options, expected, advised) in CASES {
         match replayed(text, options, folder.path()) {
@@ -150,7 +150,7 @@ fn what_the_command_advises_works() {
         if advised.is_empty() {
             continue;
         }
-        // Time that stands still is another matter.
+        // A time that does not advance is a different case.
         match replayed(text, advised, folder.path()) {
             Ok(()) => {}
             Err(error) => assert!(error.contains("does not grow"), "{error}"),
@@ -159,7 +159,7 @@ fn what_the_command_advises_works() {
 }
 
 #[test]
-fn the_list_of_channels_advises_too() {
+fn the_list_of_channels_gives_advice() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("run.csv"), "t`,--force\n0,1\n1,2\n").unwrap();
     let ended = dashpot(&["channels", "run.csv"], folder.path()).success();

@@ -1,4 +1,5 @@
-//! The locomotive in a curve of 200 m at 130 km/h "left the tables of the contact" where it fell over.
+//! Regression: the locomotive in a curve of 200 m at 130 km/h was reported as having "left the tables of the contact"
+//! when it overturned.
 
 use std::fs;
 
@@ -16,8 +17,8 @@ fn ended(arguments: &[&str]) -> (String, Value) {
 }
 
 #[test]
-fn a_vehicle_that_falls_over_is_said_to_overturn() {
-    // Gradually, as the curve begins, and in the clothoid.
+fn a_vehicle_that_tips_over_is_reported_as_overturned() {
+    // It overturns gradually as the curve begins, still in the transition curve.
     for speed_km_h in ["115", "120", "130", "160"] {
         let (error, report) = ended(&["--case", "curve-r200", "--speed-km-h", speed_km_h]);
         assert!(
@@ -33,9 +34,9 @@ fn a_vehicle_that_falls_over_is_said_to_overturn() {
     }
 }
 
-/// A flange that climbs on dry rails raises a wheel that carries load.
+/// A flange that climbs on dry rails raises a wheel that still carries load.
 #[test]
-fn a_wheelset_that_climbs_is_not_said_to_overturn() {
+fn flange_climb_is_not_reported_as_overturning() {
     let options = ["--case", "curve-r200", "--speed-km-h", "90"];
     let (error, report) = ended(&[&options[..], &["--friction", "0.9"]].concat());
     let reason = report["ending"]["reason"].as_str().unwrap();

@@ -7,7 +7,7 @@ use predicates::str::contains;
 
 use crate::common::{dashpot, error_of, files_in, json_of, program, text_of};
 
-/// Runs a replay of `bytes`; returns its output and what is in the output file.
+/// Replays `bytes`; returns its output and the contents of the output file.
 fn replay_of(bytes: &[u8], more: &[&str]) -> (Assert, Option<String>) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("in.csv"), bytes).unwrap();
@@ -34,7 +34,7 @@ fn replay_of(bytes: &[u8], more: &[&str]) -> (Assert, Option<String>) {
 
 #[test]
 fn a_ramp_ends_at_damping_times_velocity() {
-    // 10 mm/s through 2a = 1 mm: C v = 1200 N once the springs are stretched.
+    // 10 mm/s over a clearance of 2a = 1 mm: C v = 1200 N once the springs are stretched.
     let (output, written) = replay_of(
         b"\xef\xbb\xbf# a logger's comment\r\nname,displacement_m,time_s\r\na,0.0,10.0\r\nb,0.005,10.5\r\nc,0.01,11.0\r\n",
         &["--scalar", "f64", "--format", "json"],
@@ -58,7 +58,7 @@ fn a_ramp_ends_at_damping_times_velocity() {
 }
 
 #[test]
-fn bad_recordings_say_where_and_leave_no_output() {
+fn bad_recordings_are_reported_with_their_location_and_leave_no_output() {
     let cases: [(&[u8], &[&str]); 9] = [
         (
             b"time_s,displacement_m\n0,0\n0.1,0\n0.05,0\n",
@@ -103,7 +103,7 @@ fn bad_recordings_say_where_and_leave_no_output() {
 }
 
 #[test]
-fn a_failed_replay_keeps_the_output_that_was_there() {
+fn a_failed_replay_keeps_the_existing_output() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(
         folder.path().join("in.csv"),
@@ -171,9 +171,10 @@ fn a_gap_is_crossed_in_a_straight_line() {
     assert!((x - 1e-4 * 0.049 / 0.1).abs() < 1e-15);
 }
 
-/// A displacement 10.5 mm off is followed at the rate limit, 2 mm a tick: the report is of that motion.
+/// A displacement that is 10.5 mm off is followed at the rate limit of 2 mm per tick, and the report covers this
+/// motion.
 #[test]
-fn energy_is_of_the_motion_followed() {
+fn energy_is_that_of_the_motion_followed() {
     for scalar in ["f32", "f64"] {
         let (output, written) = replay_of(
             b"time_s,displacement_m\n0,0\n0.001,0.0105\n0.002,0.001\n0.003,0\n",
@@ -203,7 +204,7 @@ fn energy_is_of_the_motion_followed() {
 
 #[test]
 fn held_and_limited_input_is_reported() {
-    // 1e39 is infinite in single precision.
+    // 1e39 overflows to infinity in single precision.
     let motion = b"time_s,displacement_m\n5,0\n5.001,1e39\n5.002,0\n5.003,0.012\n5.004,0.001\n";
     let (output, _) = replay_of(motion, &["--format", "json"]);
     let report = json_of(&output);
@@ -231,7 +232,7 @@ fn held_and_limited_input_is_reported() {
     assert!(!text_of(&output).contains("warning"), "{output:?}");
 }
 
-/// More ticks than the state's counter holds are counted all the same.
+/// Ticks are counted even beyond the range of the state's counter.
 #[test]
 fn rejected_ticks_are_all_counted() {
     let motion = b"time_s,displacement_m\n0,0\n70,1000\n";
@@ -241,7 +242,7 @@ fn rejected_ticks_are_all_counted() {
     assert!(report["held_inputs"].as_u64() > Some(69_000), "{report}");
 }
 
-/// A million rows in 4 MiB of heap, where holding them takes 16: the system refuses more.
+/// A million rows with 4 MiB of heap, where storing them would take 16 MiB; the system denies more.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_million_rows_replay_in_bounded_memory() {
@@ -269,7 +270,7 @@ fn a_million_rows_replay_in_bounded_memory() {
     limited("replay --input in.csv --output out.csv").success();
     let written = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     assert_eq!(written.lines().count(), 1 + ROWS as usize);
-    // The limit bites: verification keeps the whole recording.
+    // The limit is effective: `verify` stores the whole recording and fails.
     limited("verify --input in.csv")
         .failure()
         .stderr(contains("out of memory"));

@@ -1,4 +1,4 @@
-//! `dashpot response` from outside.
+//! `dashpot response` as a command.
 
 use std::path::Path;
 
@@ -9,13 +9,13 @@ use dashpot_testbench::response::{at_amplitude, frequencies};
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::{contains, starts_with};
 
-use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, files_in, json_of, json_on_stderr, text_of};
 
 fn response(arguments: &[&str], folder: &Path) -> Assert {
     dashpot(&[&["response"], arguments].concat(), folder)
 }
 
-/// A row of CSV by its columns.
+/// Row of a CSV file by column name.
 fn rows(text: &str) -> Vec<std::collections::HashMap<String, String>> {
     csv::Reader::from_reader(text.as_bytes())
         .deserialize()
@@ -57,20 +57,20 @@ fn every_value_is_in_the_file_and_in_json() {
         ["harmonic", "swept", "harmonic", "swept", "linearised"]
     );
     assert_eq!(rows.len(), 25);
-    let told = series.iter().flat_map(|series| {
-        let of = move |row| (series, row);
-        series["rows"].as_array().unwrap().iter().map(of)
+    let reported = series.iter().flat_map(|series| {
+        let with_series = move |row| (series, row);
+        series["rows"].as_array().unwrap().iter().map(with_series)
     });
-    for (row, (series, told)) in rows.iter().zip(told) {
+    for (row, (series, reported)) in rows.iter().zip(reported) {
         assert_eq!(row["response"], series["response"].as_str().unwrap());
         assert_eq!(
             row["amplitude_m"].parse().ok(),
             series["amplitude_m"].as_f64()
         );
-        for (key, value) in told.as_object().unwrap() {
+        for (key, value) in reported.as_object().unwrap() {
             let (cell, value) = (row[key].parse::<f64>().ok(), value.as_f64());
             assert_eq!(cell.is_some(), value.is_some(), "{key}");
-            // The reader of JSON may round its last digit.
+            // The JSON reader may round the last digit.
             let difference = (cell.unwrap_or(0.0) - value.unwrap_or(0.0)).abs();
             assert!(difference <= 1e-15 * cell.unwrap_or(0.0).abs(), "{key}");
         }
@@ -97,14 +97,14 @@ fn every_value_is_in_the_file_and_in_json() {
     assert!(page.contains("Swept compared with harmonic") && page.contains("loss angle, °"));
 }
 
-/// The two commands of the help have the dampers of the study `paper`, at the amplitudes of its figures.
+/// The two commands in the help use the dampers of the study `paper`, at the amplitudes of its figures.
 #[test]
 fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
     let folder = tempfile::tempdir().unwrap();
     let help = text_of(&response(&["--help"], folder.path()).success());
     let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
     let case = Case::load("straight-180").unwrap();
-    for (name, of, key, values, amplitude_m) in [
+    for (name, damper_name, key, values, amplitude_m) in [
         (
             "reduced-vertical",
             "front vertical damper 1",
@@ -143,7 +143,8 @@ fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
         assert_eq!(harmonic.len(), 9);
         for (row, value) in harmonic.chunks(3).zip(values.split(',')) {
             let change = [format!("{key}={value}")];
-            let damper = damper::change(of, case.damper(of).unwrap(), &change).unwrap();
+            let damper =
+                damper::change(damper_name, case.damper(damper_name).unwrap(), &change).unwrap();
             let amplitude = amplitude_m.parse().unwrap();
             let expected = at_amplitude(&damper, amplitude, &frequencies(0.1, 20.0, 3)).unwrap();
             for (row, expected) in row.iter().zip(&expected) {
@@ -156,7 +157,7 @@ fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
 }
 
 #[test]
-fn text_tells_each_amplitude_and_what_has_no_force() {
+fn text_lists_each_amplitude_and_those_without_force() {
     let options = [
         "--damper",
         "reduced-vertical",
@@ -172,7 +173,7 @@ fn text_tells_each_amplitude_and_what_has_no_force() {
             .find(|line| line.trim_start().starts_with(start));
         found.unwrap_or_else(|| panic!("{start} in {text}"))
     };
-    // Within its clearance of 1 mm.
+    // An amplitude within the clearance of 1 mm.
     assert!(line("0.5 mm").contains(" - "), "{text}");
     assert!(
         line("2 mm").contains("deg") && line("linearised").contains("deg"),
@@ -181,7 +182,7 @@ fn text_tells_each_amplitude_and_what_has_no_force() {
 }
 
 #[test]
-fn data_on_standard_output_has_its_report_beside() {
+fn data_on_standard_output_moves_the_report_to_standard_error() {
     let folder = tempfile::tempdir().unwrap();
     let options = [
         "--points",
@@ -194,12 +195,12 @@ fn data_on_standard_output_has_its_report_beside() {
         "json",
     ];
     let ended = response(&options, folder.path()).success();
-    assert_eq!(json_beside(&ended)["files"][0], "standard output");
+    assert_eq!(json_on_stderr(&ended)["files"][0], "standard output");
     assert!(text_of(&ended).starts_with("response,amplitude_m,frequency_hz,"));
 }
 
 #[test]
-fn wrong_options_are_told_and_leave_no_file() {
+fn wrong_options_are_reported_and_leave_no_file() {
     let folder = tempfile::tempdir().unwrap();
     let files = ["--output", "out.csv", "--page", "page.html"];
     for (options, part) in [
@@ -251,7 +252,7 @@ fn wrong_options_are_told_and_leave_no_file() {
     response(&["--output", "a", "--page", "a"], folder.path())
         .code(2)
         .stderr(contains("--output and --page: both are a"));
-    // Found only when it is run: nothing is half-written.
+    // The error occurs while running: no partial file is left.
     let slow = [
         "--damper",
         "reduced-vertical",

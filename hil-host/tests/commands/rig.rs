@@ -1,4 +1,4 @@
-//! The bench test against closed forms, and `dashpot rig` from outside.
+//! The bench test against closed forms, and `dashpot rig` as a command.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -35,7 +35,8 @@ fn the_reduced_damper_without_clearance_is_a_maxwell_element() {
         let ratio = 1.0 + (w * c / k).powi(2);
         let energy = PI * w * c / ratio * amplitude_m * amplitude_m;
         let force = w * c * amplitude_m / ratio.sqrt();
-        // At 10 Hz a step of 0.1 ms turns the phase by 6e-3: second order leaves about its square.
+        // At 10 Hz, a step of 0.1 ms turns the phase by 6e-3 rad; a second-order method leaves an error of about its
+        // square.
         for (value, expected) in [
             (found.energy_per_cycle_j, energy),
             (found.max_extension_force_n, force),
@@ -52,9 +53,9 @@ fn the_reduced_damper_without_clearance_is_a_maxwell_element() {
     }
 }
 
-/// Within the clearance there is no force and no energy.
+/// Motion within the clearance gives no force and no energy.
 #[test]
-fn within_the_clearance_nothing_is_felt() {
+fn within_the_clearance_there_is_no_force() {
     let damper = damper::load("reduced-vertical", &[]).unwrap();
     let motion = Harmonic {
         amplitude_m: 0.4e-3,
@@ -67,12 +68,11 @@ fn within_the_clearance_nothing_is_felt() {
     assert_eq!(found.asymmetry_rate, None);
 }
 
-/// Peaks and energy of the third cycle by the reference solver, the motion linear between samples 1 ms
-/// apart: that takes (w dt)^2/8 = 2e-6 off a sine. The static check values of the published
-/// equations, 11 824 N and 16 638 N at 0.1 m/s, are upper bounds: behind the spring the force peaks
-/// late, when the motion is past its fastest.
+/// Peaks and energy of the third cycle from the reference solver, with linear motion between samples 1 ms apart, which
+/// differs from a sine by (w dt)^2/8 = 2e-6. The static check values of the published equations, 11 824 N and 16 638 N
+/// at 0.1 m/s, are upper bounds: behind the spring, the force peaks after the maximum velocity.
 #[test]
-fn the_published_damper_is_as_the_reference_has_it() {
+fn the_published_damper_agrees_with_the_reference() {
     let output = rig(&["--damper", "paper", "--format", "json"]).success();
     let report = json_of(&output);
     let value = |key: &str| report[key].as_f64().unwrap();
@@ -88,11 +88,11 @@ fn the_published_damper_is_as_the_reference_has_it() {
     let damper = damper::load("paper", &[]).unwrap();
     let forces = Reference::new(&damper).unwrap().forces(&times, &x).unwrap();
     let settled = &forces[3125..];
-    let most = |sign: f64| settled.iter().fold(0.0, |m: f64, f| m.max(sign * f));
+    let peak = |sign: f64| settled.iter().fold(0.0, |m: f64, f| m.max(sign * f));
     let energy: f64 = (3125..4687)
         .map(|i| 0.5 * (forces[i] + forces[i + 1]) * (x[i + 1] - x[i]))
         .sum();
-    for (found, expected) in [(extension, most(1.0)), (compression, most(-1.0))] {
+    for (found, expected) in [(extension, peak(1.0)), (compression, peak(-1.0))] {
         assert!((found / expected - 1.0).abs() < 2e-5, "{found} {expected}");
     }
     // The third cycle ends half a sample after the last one: 3e-4 of it at the fastest motion.
@@ -106,13 +106,13 @@ fn the_published_damper_is_as_the_reference_has_it() {
     let peak = TAU * 0.64 * 24.875e-3;
     let coefficient = 0.5 * (extension + compression) / peak;
     assert!((value("damping_coefficient_n_s_per_m") / coefficient - 1.0).abs() < 1e-12);
-    // A progressive force, between v and v^1.5, gives less than pi F A and more than 0.9 of it.
+    // A progressive force between v and v^1.5 gives less than pi F A and more than 0.9 of it.
     let fraction = value("energy_per_cycle_j") / (PI * 0.5 * (extension + compression) * 24.875e-3);
     assert!((0.9..1.0).contains(&fraction), "{fraction}");
 }
 
 #[test]
-fn text_stands_beside_the_paper_for_its_motion_only() {
+fn text_compares_with_the_paper_for_its_motion_only() {
     let text = text_of(&rig(&[]));
     assert!(
         text.contains("paper simulation") && text.contains("12892"),

@@ -1,4 +1,4 @@
-//! What `dashpot rig` shows beside its indices: the loops of the settled cycle and Table 5 of the paper.
+//! Further output of `dashpot rig`: loops of the settled cycle and Table 5 of the paper.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ fn rig(arguments: &[&str], folder: &Path) -> serde_json::Value {
 }
 
 #[test]
-fn table_5_stands_beside_its_own_motion_in_si_units() {
+fn table_5_is_compared_for_its_own_motion_in_si_units() {
     let folder = tempfile::tempdir().unwrap();
     let report = rig(&[], folder.path());
     // As printed in the paper: kN s/m, N, N, %, N m.
@@ -35,7 +35,7 @@ fn table_5_stands_beside_its_own_motion_in_si_units() {
 }
 
 #[test]
-fn the_loops_are_drawn_when_asked_for() {
+fn the_loops_are_drawn_on_request() {
     let folder = tempfile::tempdir().unwrap();
     let report = rig(&["--amplitude-m", "5e-3"], folder.path());
     assert_eq!(report["plots"].as_array().unwrap().len(), 0);
@@ -58,7 +58,7 @@ fn the_loops_are_drawn_when_asked_for() {
     ] {
         assert!(nominal.contains(words), "{words}");
     }
-    // A motion that was not measured has no measured forces.
+    // The paper has no measured forces for this motion.
     let other = svg(&["--frequency-hz", "1.9"]);
     assert!(other.contains("paper, computed") && !other.contains("measured"));
 }

@@ -1,4 +1,4 @@
-//! `dashpot rig --sheet` from outside: values, verdicts, the page, and files that are refused.
+//! `dashpot rig --sheet` as a command: values, verdicts, the page, and rejected files.
 
 use std::fs;
 use std::path::Path;
@@ -7,9 +7,9 @@ use assert_cmd::assert::Assert;
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::{contains, starts_with};
 
-use crate::common::{dashpot, dashpot_reading, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, dashpot_reading, files_in, json_of, json_on_stderr, text_of};
 
-/// Two motions, with limits that the test fills in.
+/// Two motions, with limits filled in by each test.
 const SHEET: &str = "title = \"Damper <7>\"
 
 [[field]]
@@ -35,10 +35,10 @@ fn rig(arguments: &[&str], folder: &Path) -> Assert {
     dashpot(&[&["rig"], arguments].concat(), folder)
 }
 
-/// A folder with the sheet, whose limit is `least` (N).
-fn with_sheet(least: &str) -> tempfile::TempDir {
+/// A folder with the sheet, whose limit is `limit_n` (N).
+fn with_sheet(limit_n: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let text = SHEET.replace("LEAST", least);
+    let text = SHEET.replace("LEAST", limit_n);
     fs::write(folder.path().join("sheet.toml"), text).unwrap();
     folder
 }
@@ -79,7 +79,7 @@ fn a_test_of_a_sheet_is_the_bench_test() {
 }
 
 #[test]
-fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
+fn a_violated_limit_exits_with_1_and_the_sheet_is_written() {
     let folder = with_sheet("20e3");
     let options = ["--sheet", "sheet.toml", "--page", "page.html"];
     let ended = rig(&options, folder.path())
@@ -106,29 +106,29 @@ fn a_limit_that_is_not_kept_ends_with_1_and_the_sheet_is_written() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    // One temperature is none to draw over.
+    // With one temperature there is no curve over temperature.
     assert!(!page.contains("Forces over temperature"));
 }
 
-/// A value that is outside by less than is told has digits until it shows.
+/// A value outside its limit by less than the usual rounding is printed with enough digits to show it.
 #[test]
-fn a_value_just_outside_does_not_look_like_its_limit() {
+fn a_value_just_outside_differs_from_its_limit() {
     let folder = with_sheet("1e3");
     let alone = json_of(&rig(&["--format", "json"], folder.path()).success());
     let force = alone["max_extension_force_n"].as_f64().unwrap();
-    // The least that rounds to what would be told.
-    let least = (force / 10.0).ceil() * 10.0;
-    assert!(least > force && least < force + 10.0);
+    // The force rounded up to the usual resolution of 10 N.
+    let rounded_n = (force / 10.0).ceil() * 10.0;
+    assert!(rounded_n > force && rounded_n < force + 10.0);
     let folder = with_sheet(&format!("{:.3}", force + 0.4));
     let ended = rig(&["--sheet", "sheet.toml"], folder.path()).code(1);
     let text = text_of(&ended);
     let line = text.lines().find(|line| line.contains("drawing")).unwrap();
-    let told: f64 = line.split_whitespace().nth(4).unwrap().parse().unwrap();
-    assert!(told * 1e3 < force + 0.4, "{line}");
+    let printed_kn: f64 = line.split_whitespace().nth(4).unwrap().parse().unwrap();
+    assert!(printed_kn * 1e3 < force + 0.4, "{line}");
 }
 
 #[test]
-fn the_shipped_sheet_tells_temperatures_and_speeds() {
+fn the_shipped_sheet_lists_temperatures_and_speeds() {
     let folder = tempfile::tempdir().unwrap();
     let options = [
         "--damper",
@@ -141,13 +141,13 @@ fn the_shipped_sheet_tells_temperatures_and_speeds() {
         "json",
     ];
     let ended = rig(&options, folder.path()).success();
-    let report = json_beside(&ended);
+    let report = json_on_stderr(&ended);
     let tests = report["tests"].as_array().unwrap();
     let force = |name: &str| {
         let test = tests.iter().find(|test| test["name"] == name).unwrap();
         test["indices"]["max_extension_force_n"].as_f64().unwrap()
     };
-    // Cold oil is denser and thicker.
+    // Cold oil is denser and more viscous.
     assert!(force("0.1 m/s, cold") > force("0.1 m/s"));
     assert!(force("0.1 m/s") > force("0.1 m/s, warm"));
     assert!(force("0.2 m/s") > force("0.1 m/s"));
@@ -169,7 +169,7 @@ fn a_sheet_comes_through_standard_input() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_its_place_and_leaves_no_page() {
+fn errors_are_reported_with_their_location_and_leave_no_page() {
     let folder = with_sheet("1e3");
     let page = ["--page", "page.html"];
     let sheet = |text: &str| fs::write(folder.path().join("sheet.toml"), text).unwrap();

@@ -1,5 +1,5 @@
-//! Rows carried the version of the program, which never changed, so rows of different physics went on and merged
-//! without a word.
+//! Regression: rows carried only the program version, which never changed, so rows of different physics were resumed
+//! and merged silently.
 
 use std::fs;
 
@@ -15,7 +15,7 @@ fn rows_of_other_physics_are_refused_on_resume_and_merge() {
     let (header, rest) = text.split_once('\n').unwrap();
     let here = physics(Arithmetic::here());
     assert!(rest.lines().all(|row| row.contains(here)), "{rest}");
-    // Of an earlier program, whose digests are right.
+    // Rows of an earlier program, with correct digests.
     let other = "0123456789abcdef";
     let row = rest.lines().next().unwrap();
     let row = with_its_digest(&altered(row, "physics", header, other));
@@ -49,9 +49,9 @@ fn rows_of_other_physics_are_refused_on_resume_and_merge() {
     assert!(!folder.path().join("merged").exists());
 }
 
-/// Rows without the columns of physics and digest, as they were.
+/// Rows in the old format, without the columns of physics and digest.
 #[test]
-fn rows_of_an_earlier_dashpot_name_a_way_on() {
+fn rows_of_an_earlier_dashpot_are_refused_with_a_remedy() {
     let folder = folder(STUDY);
     let text = rows(folder.path());
     let older: Vec<String> = text
@@ -62,15 +62,15 @@ fn rows_of_an_earlier_dashpot_name_a_way_on() {
     let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
     let error = error_of(&dashpot(&sweep, folder.path()).code(1));
     assert!(
-        error.contains("rows.csv:1: not the columns of the study"),
+        error.contains("rows.csv:1: the columns are not those of the study"),
         "{error}"
     );
     assert!(error.contains("start over with --anew"), "{error}");
-    let anew = dashpot(
+    let restarted = dashpot(
         &[&sweep[..], &["--anew", "--format", "json"]].concat(),
         folder.path(),
     );
-    let report = json_of(&anew.success());
+    let report = json_of(&restarted.success());
     assert_eq!(report["physics"], physics(Arithmetic::here()));
     assert_eq!(read(folder.path(), "one/rows.csv"), text);
 }

@@ -1,4 +1,4 @@
-//! `dashpot shims` from outside: theory, tables, flow, plots, failures.
+//! `dashpot shims` as a command: theory, tables, flow, plots, errors.
 
 use std::path::Path;
 
@@ -11,13 +11,13 @@ fn shims(arguments: &[&str]) -> Assert {
 }
 
 #[test]
-fn theory_stands_beside_the_published_deflections() {
+fn theory_is_compared_with_the_published_deflections() {
     let folder = tempfile::tempdir().unwrap();
     let plots = folder.path().join("plots");
     let output = shims(&["--format", "json", "--plots", plots.to_str().unwrap()]).success();
     let report = json_of(&output);
-    // Cw at the edge and deflection under 1 MPa from the disc theory, the published rate, Ce and the
-    // edge's circumference: figures of the paper and of its check by hand.
+    // Cw at the edge and deflection under 1 MPa from disc theory, the published rate, Ce, and the circumference of the
+    // edge: values of the paper and of its check by hand.
     let expected = [
         (2.1427e-19, 0.4511, 0.01360, 0.2169, 0.029, 33.0),
         (2.1427e-19, 0.5650, 0.01370, 0.2000, 0.029, 41.0),
@@ -64,7 +64,7 @@ fn theory_stands_beside_the_published_deflections() {
     }
 }
 
-/// The plot of the edge lift with `arguments`, and the words in it.
+/// Draws the plot of the edge lift with `arguments`; returns the words in it.
 fn lift_plot(arguments: &[&str]) -> (String, Vec<String>) {
     let folder = tempfile::tempdir().unwrap();
     let plots = folder.path().to_str().unwrap();
@@ -76,7 +76,7 @@ fn lift_plot(arguments: &[&str]) -> (String, Vec<String>) {
     (svg, words)
 }
 
-/// Slopes by hand: theory of Table 1, last rows of Tables 2-4, and those times Ce.
+/// Slopes computed by hand: theory of Table 1, last rows of Tables 2-4, and these times Ce.
 #[test]
 fn theory_published_and_used_lift_are_named_curves() {
     let (svg, words) = lift_plot(&[]);
@@ -99,12 +99,12 @@ fn theory_published_and_used_lift_are_named_curves() {
     ] {
         assert!(words.iter().any(|word| word == name), "{name}: {words:?}");
     }
-    // A point for each of the five rows of three tables, and one a key.
+    // One point for each of the five rows of three tables, and one per legend entry.
     assert_eq!(svg.matches("<circle").count(), 3 * (5 + 1));
 }
 
 #[test]
-fn a_pack_that_is_not_the_papers_has_no_published_curve() {
+fn a_pack_of_another_damper_has_no_published_curve() {
     let (svg, words) = lift_plot(&[
         "--set",
         "valves.piston_extension.free_radius_m=0.03",
@@ -115,7 +115,7 @@ fn a_pack_that_is_not_the_papers_has_no_published_curve() {
     assert_eq!(svg.matches("<circle").count(), 5 + 1);
 }
 
-/// A preload closes the valve below it: the logarithm of no lift, or of its rounding, is not drawn.
+/// A preload keeps the valve closed below it: the logarithm of zero lift, or of its rounding error, is not drawn.
 #[test]
 fn a_preload_leaves_the_scale_readable() {
     for preload_pa in ["3e5", "7e5", "2e7"] {
@@ -124,9 +124,9 @@ fn a_preload_leaves_the_scale_readable() {
             &format!("valves.foot_compression.preload_pa={preload_pa}"),
         ]);
         let numbers: Vec<f64> = words.iter().filter_map(|word| word.parse().ok()).collect();
-        let least = numbers.iter().filter(|number| **number > 0.0);
-        let least = least.fold(f64::MAX, |least, number| least.min(*number));
-        assert!((1e-5..1e-2).contains(&least), "{preload_pa}: {words:?}");
+        let min = numbers.iter().filter(|number| **number > 0.0);
+        let min = min.fold(f64::MAX, |min, number| min.min(*number));
+        assert!((1e-5..1e-2).contains(&min), "{preload_pa}: {words:?}");
     }
 }
 

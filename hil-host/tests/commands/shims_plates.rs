@@ -1,4 +1,4 @@
-//! `dashpot shims --fe` from outside: Ce, stress, plots and options.
+//! `dashpot shims --fe` as a command: Ce, stress, plots and options.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn near(value: &Value, expected: f64, fraction: f64) {
     );
 }
 
-/// Ce of Tables 2 to 4, edge compliance by the disc theory (mm/MPa) and thickness cubed of the packs of Table 1.
+/// Ce of Tables 2 to 4, edge compliance from disc theory (mm/MPa) and cubed thickness of the packs of Table 1.
 #[test]
 fn the_papers_valves_have_areas_fitted_to_their_factors() {
     let report = report(&[]);
@@ -42,7 +42,7 @@ fn the_papers_valves_have_areas_fitted_to_their_factors() {
         assert_eq!(valve["pressure_area"]["kind"], kind);
         assert_eq!(valve["pressure_area_is_given"], false);
     }
-    // Sectors over the whole width have the Ce of their share.
+    // Sectors over the whole width have the Ce of their share of the circumference.
     let fits = |valve: usize, kind: &str| -> Vec<Value> {
         let all = valves[valve]["fits"].as_array().unwrap().iter();
         all.filter(|fit| fit["kind"] == kind).cloned().collect()
@@ -52,16 +52,16 @@ fn the_papers_valves_have_areas_fitted_to_their_factors() {
     assert!(fits(0, "round_bosses").len() > 10);
     assert_eq!(fits(2, "decay").len(), 3);
     assert_eq!(fits(2, "decay_on_both_sides").len(), 3);
-    // Over a boss the edge lifts more than on average.
+    // Over a boss, the edge lifts more than on average.
     let greatest = &valves[0]["correction_factor_of_greatest_lift"];
     assert!(greatest.as_f64().unwrap() > 0.22);
 }
 
-/// By hand: the clamp's moment `K_M P r_w^2` bends sliding discs in the ratio of their cubes, so the thickest has
-/// `s_r = 6 K_M P r_w^2 h/sum h^3`, and at a clamp `s_t = nu s_r`. The force limit of 50 kN acts on the annulus of
-/// 69.8 and 28 mm in extension.
+/// Computed by hand: the clamp's moment `K_M P r_w^2` bends sliding discs in proportion to their cubed thickness, so
+/// the thickest has `s_r = 6 K_M P r_w^2 h/sum h^3`, and at a clamp `s_t = nu s_r`. The force limit of 50 kN acts on
+/// the annulus between 69.8 and 28 mm in extension.
 #[test]
-fn a_given_area_has_stress_and_lift_by_hand() {
+fn stress_and_lift_of_a_given_area_agree_with_a_hand_calculation() {
     let report = report(&[
         "--valve",
         "piston-extension",
@@ -95,7 +95,7 @@ fn a_given_area_has_stress_and_lift_by_hand() {
     assert_eq!(rows[2]["at_force_limit"], true);
 }
 
-/// A preload holds the edge down but has bent the discs already.
+/// A preload holds the edge down but has already bent the discs.
 #[test]
 fn a_preload_is_no_lift_but_stress() {
     let report = report(&[
@@ -113,12 +113,12 @@ fn a_preload_is_no_lift_but_stress() {
 }
 
 #[test]
-fn bonded_discs_are_one() {
-    let of = |report: Value| report["valves"][2].clone();
-    let (sliding, bonded) = (of(report(&[])), of(report(&["--bonded"])));
+fn bonded_discs_act_as_one() {
+    let third_valve = |report: Value| report["valves"][2].clone();
+    let (sliding, bonded) = (third_valve(report(&[])), third_valve(report(&["--bonded"])));
     near(&sliding["equivalent_thickness_m"], 2.0 * 0.305e-3, 1e-9);
     near(&bonded["equivalent_thickness_m"], 8.0 * 0.305e-3, 1e-9);
-    // s = 6 M/h^2 of 8 h against M/8 on each of h.
+    // s = 6 M/h^2 for one disc of 8 h, against M/8 on each disc of h.
     let stress = sliding["largest_stress"]["von_mises_per_pressure"].as_f64();
     near(
         &bonded["largest_stress"]["von_mises_per_pressure"],
@@ -129,7 +129,7 @@ fn bonded_discs_are_one() {
 }
 
 #[test]
-fn text_tells_area_factor_stress_and_where_theory_ends() {
+fn text_lists_area_factor_stress_and_the_validity_of_theory() {
     let output = plates(&["--no-plots"]).success();
     let text = text_of(&output);
     for part in [
@@ -195,9 +195,9 @@ fn plots_draw_plates_and_the_chart() {
     }
 }
 
-/// Two narrow bosses press the edge midway between them down.
+/// Two narrow bosses press down the edge midway between them.
 #[test]
-fn an_edge_pressed_down_is_told() {
+fn an_edge_pressed_down_is_reported() {
     let area = [
         "--no-plots",
         "--valve",
@@ -215,9 +215,9 @@ fn an_edge_pressed_down_is_told() {
     assert!(!text_of(&plates(&["--no-plots"]).success()).contains("moves down"));
 }
 
-/// A factor that no area of the kind has is told; the rest stands on the whole disc.
+/// A factor that no area of this kind can have is reported; the rest is computed for the whole disc.
 #[test]
-fn a_factor_out_of_reach_is_told() {
+fn a_factor_out_of_reach_is_reported() {
     let set = [
         "--set",
         "valves.foot_compression.equivalent_pressure_factor=1.2",
@@ -228,7 +228,7 @@ fn a_factor_out_of_reach_is_told() {
     assert!(text_of(&text).contains("no area of the assumed kind gives the Ce of the file, 1.2"));
 }
 
-/// A valve with a compliance and no shims is left out; asked for, it is refused.
+/// A valve with a compliance but no shims is skipped; if selected explicitly, it is rejected.
 #[test]
 fn a_valve_without_shims_has_no_plate() {
     let set = ["--set", "valves.foot_compression.shims_m=[]"];

@@ -1,4 +1,5 @@
-//! A Sperling index of runs shorter than its window left `completed`, an empty cell, an empty plot and exit code 0.
+//! Regression: a Sperling index of runs shorter than its window gave `completed`, an empty cell, an empty plot and exit
+//! code 0.
 
 use crate::common::{dashpot, error_of, json_of};
 use crate::sweep::{STUDY, folder};
@@ -24,14 +25,14 @@ fn a_study_of_ride_in_short_runs_is_refused_before_anything_runs() {
             }
             let error = error_of(&dashpot(line, folder.path()).code(1));
             let expected = format!(
-                "study.toml:5: sweep clearance: observed `{index}`: the run takes {duration} s, and an index of ride \
+                "study.toml:5: sweep clearance: observed `{index}`: the run takes {duration} s, but a ride index \
                  needs a whole window of 5 s"
             );
             assert!(error.contains(&expected), "{error}");
             assert!(!folder.path().join("out").exists());
         }
     }
-    // A duration that varies: each value counts.
+    // If the duration varies, each of its values is checked.
     let varied = STUDY
         .replace("\"last_lateral_m\"", "\"sperling_vertical\"")
         .replace(
@@ -45,7 +46,7 @@ fn a_study_of_ride_in_short_runs_is_refused_before_anything_runs() {
 }
 
 #[test]
-fn a_short_run_of_a_vehicle_says_that_it_has_no_ride() {
+fn a_short_vehicle_run_reports_that_it_has_no_ride_indices() {
     let folder = tempfile::tempdir().unwrap();
     let line = [
         "vehicle",
@@ -64,7 +65,7 @@ fn a_short_run_of_a_vehicle_says_that_it_has_no_ride() {
     .success();
     assert_eq!(
         error_of(&short),
-        "note: the run takes 0.5 s, and an index of ride needs a whole window of 5 s; the report will have no \
+        "note: the run takes 0.5 s, but a ride index needs a whole window of 5 s; the report will have no \
          Sperling's index and no mean comfort; use --duration-s for a longer run\n"
     );
     assert!(json_of(&short)["indices"]["ride"][0]["sperling_vertical"].is_null());

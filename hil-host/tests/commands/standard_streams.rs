@@ -6,7 +6,7 @@ use assert_cmd::assert::OutputAssertExt;
 use predicates::str::contains;
 
 use crate::common::{
-    command, dashpot, dashpot_reading, error_of, files_in, json_beside, json_of, text_of,
+    command, dashpot, dashpot_reading, error_of, files_in, json_of, json_on_stderr, text_of,
 };
 
 const MOTION: &[u8] = b"time_s,displacement_m\n0,0\n0.001,0.001\n0.002,0.003\n0.003,0.002\n";
@@ -30,8 +30,8 @@ fn replay_reads_and_writes_streams() {
     ];
     let output = dashpot_reading(MOTION, &by_streams, folder.path()).success();
     assert_eq!(text_of(&output), expected);
-    // The report leaves standard output to the data.
-    assert_eq!(json_beside(&output)["ticks"], 4);
+    // Standard output is reserved for the data.
+    assert_eq!(json_on_stderr(&output)["ticks"], 4);
     assert_eq!(files_in(folder.path()), ["in.csv", "out.csv"]);
 
     dashpot_reading(MOTION, &by_streams[..5], folder.path())
@@ -84,7 +84,7 @@ fn export_writes_a_stream() {
         if lang == "bin" {
             assert_eq!(output.get_output().stdout, written);
         } else {
-            // But for the command line in the comment.
+            // Everything except the command line in the comment.
             let written = String::from_utf8(written).unwrap();
             assert_eq!(text_of(&output), written.replace("'file'", "'-'"));
             assert!(written.contains(" DAMPER"), "the constant's name");
@@ -125,7 +125,7 @@ fn contact_reads_a_profile_from_a_stream() {
 #[test]
 fn pil_reads_a_motion_from_a_stream() {
     let folder = tempfile::tempdir().unwrap();
-    // The motion is looked at before the target is asked for.
+    // The motion is checked before the target is contacted.
     let arguments = ["pil", "--link", "qemu:no-such-image", "--input", "-"];
     dashpot_reading(b"a,b\n0,0\n", &arguments, folder.path())
         .stderr(contains("standard input: column time_s is missing"));
@@ -169,7 +169,7 @@ fn a_file_called_minus_is_named_with_its_folder() {
     dashpot_reading(b"", &arguments, folder.path()).success();
 }
 
-/// A reader that leaves, such as `head`, is no failure and needs no message.
+/// A reader that closes the pipe, such as `head`, is not an error and needs no message.
 #[test]
 fn data_whose_reader_has_left_is_no_failure() {
     let ride = "data/excitations/ride_made.csv";
@@ -189,7 +189,7 @@ fn data_whose_reader_has_left_is_no_failure() {
         &["rig"],
         &["budget", "--steps", "1000"],
     ] {
-        // Gone before the command starts, so that whatever it writes finds no reader.
+        // The reader is gone before the command starts, so nothing can be written.
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let mut command = command(arguments, &root);

@@ -1,4 +1,4 @@
-//! `--step-us` takes fractions, in every command that has it.
+//! `--step-us` accepts fractions in every command that has it.
 
 use dashpot_core::Damper;
 use dashpot_files::damper;
@@ -30,7 +30,7 @@ fn replay_steps_at_16_khz() {
     let damper = in_service(62.5e-6);
     let mut state = damper.at_rest(0.0);
     for (tick, row) in rows.iter().enumerate() {
-        // As printed: the shortest decimal.
+        // Printed with the shortest decimal number.
         let time_s: f64 = format!("{:.7}", tick as f64 * 62.5e-6).parse().unwrap();
         assert_eq!(row[0].parse(), Ok(time_s));
         let x: f64 = row[1].parse().unwrap();
@@ -70,7 +70,7 @@ fn verify_and_rig_take_a_fraction() {
     assert_eq!(json_of(&output)["step_s"], 312.5e-6);
 }
 
-/// A target tells its step in single precision.
+/// A target reports its step size in single precision.
 #[test]
 fn the_step_of_a_target_is_the_one_it_was_built_for() {
     for us in [1.0, 62.5, 100.0, 333.3333, 1000.0, 20_000.0] {

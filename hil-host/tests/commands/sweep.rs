@@ -1,4 +1,4 @@
-//! `dashpot sweep` and `dashpot merge`: the same rows by any way, and none lost.
+//! `dashpot sweep` and `dashpot merge`: any way of running gives the same rows, and no row is lost.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -36,7 +36,7 @@ title = "Ride"
 indices = { sweeps = ["clearance", "worn"], observed = ["body_vertical_rms_m_per_s2"] }
 "#;
 
-/// The study's rows by one thread, into `one`.
+/// Computes the rows of the study with one thread, into `one`.
 const ON_ONE_THREAD: [&str; 7] = [
     "sweep",
     "study.toml",
@@ -47,7 +47,7 @@ const ON_ONE_THREAD: [&str; 7] = [
     "one",
 ];
 
-/// A folder with the study in it.
+/// Folder that contains the study.
 pub fn folder(study: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("study.toml"), study).unwrap();
@@ -58,7 +58,7 @@ pub fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// The row with another cell in the column of a name.
+/// The row with the cell in the named column replaced.
 pub fn altered(row: &str, column: &str, header: &str, cell: &str) -> String {
     let at = header.split(',').position(|name| name == column).unwrap();
     let mut cells: Vec<&str> = row.split(',').collect();
@@ -66,19 +66,19 @@ pub fn altered(row: &str, column: &str, header: &str, cell: &str) -> String {
     cells.join(",")
 }
 
-/// The row with the digest of its cells.
+/// The row with the digest updated to its cells.
 pub fn with_its_digest(row: &str) -> String {
     let (cells, _) = row.rsplit_once(',').unwrap();
     format!("{cells},{}", digest_of_cells(cells.split(',')))
 }
 
-/// The rows of the study in the folder, by one thread.
+/// Computes the rows of the study in the folder with one thread.
 pub fn rows(folder: &Path) -> String {
     dashpot(&ON_ONE_THREAD, folder).success();
     read(folder, "one/rows.csv")
 }
 
-/// The command, started.
+/// Starts the command.
 #[cfg(unix)]
 fn started(arguments: &[&str], folder: &Path) -> Child {
     command(arguments, folder)
@@ -89,7 +89,7 @@ fn started(arguments: &[&str], folder: &Path) -> Child {
         .unwrap()
 }
 
-/// Until a command that writes to `one` has so many rows.
+/// Waits until a command that writes to `one` has this many rows.
 #[cfg(unix)]
 fn wait_for_rows(child: &mut Child, folder: &Path, rows: usize) {
     let partial = folder.join("one/rows.csv.partial");
@@ -99,7 +99,7 @@ fn wait_for_rows(child: &mut Child, folder: &Path, rows: usize) {
     }
 }
 
-/// Its cells by the names of their columns.
+/// Cells of a row by column name.
 fn cells(rows: &str) -> Vec<std::collections::BTreeMap<String, String>> {
     let mut reader = csv::Reader::from_reader(rows.as_bytes());
     reader.deserialize().map(Result::unwrap).collect()
@@ -110,7 +110,7 @@ fn rows_are_those_of_the_vehicle_command() {
     let folder = folder(STUDY);
     let rows = cells(&rows(folder.path()));
     assert_eq!(rows.len(), 12);
-    // The last case of the first sweep but one: the other axis fixed, seed 1 of the track.
+    // The last case of the last sweep but one: the other axis is fixed, the track has seed 1.
     let row = &rows[6];
     let expected = ["clearance", "0.005", "140", "", "1", "completed"];
     let columns = [
@@ -149,8 +149,8 @@ fn rows_are_those_of_the_vehicle_command() {
     let wheels = wheels.flat_map(|wheelset| wheelset["wheels"].as_array().unwrap());
     let greatest = wheels.map(|wheel| wheel["derailment_greatest"].as_f64().unwrap());
     assert_eq!(number("derailment_greatest"), greatest.fold(0.0, f64::max));
-    let of = |row: usize| rows[row]["body_vertical_rms_m_per_s2"].clone();
-    assert_ne!(of(8), of(10), "a worn damper is felt");
+    let index_of_row = |row: usize| rows[row]["body_vertical_rms_m_per_s2"].clone();
+    assert_ne!(index_of_row(8), index_of_row(10), "a worn damper is felt");
 }
 
 #[test]
@@ -168,22 +168,26 @@ fn threads_and_shards_give_the_same_bits() {
     assert_eq!(read(folder.path(), "many/rows.csv"), expected);
     let mut shards = Vec::new();
     for shard in ["0", "1", "2", "3", "4"] {
-        let of = ["--shard", shard, "--shards", "5", "--output", "parts"];
-        dashpot(&[&["sweep", "study.toml"][..], &of].concat(), folder.path()).success();
+        let options = ["--shard", shard, "--shards", "5", "--output", "parts"];
+        dashpot(
+            &[&["sweep", "study.toml"][..], &options].concat(),
+            folder.path(),
+        )
+        .success();
         shards.push(format!("parts/rows-{shard}-of-5.csv"));
     }
-    // In any order.
+    // Shards may be merged in any order.
     shards.rotate_left(2);
     let merge = ["merge", "study.toml", "--output", "merged"];
     let shards: Vec<&str> = shards.iter().map(String::as_str).collect();
     dashpot(&[&merge[..], &shards].concat(), folder.path()).success();
     assert_eq!(read(folder.path(), "merged/rows.csv"), expected);
-    let page = |of: &str| read(folder.path(), &format!("{of}/report.html"));
+    let page = |folder_name: &str| read(folder.path(), &format!("{folder_name}/report.html"));
     assert_eq!(page("merged"), page("many"));
 }
 
 #[test]
-fn merge_names_what_is_missing_and_what_is_double() {
+fn merge_names_missing_and_duplicate_cases() {
     let folder = folder(STUDY);
     let whole = rows(folder.path());
     let (header, rows) = whole.split_once('\n').unwrap();
@@ -212,7 +216,7 @@ fn merge_names_what_is_missing_and_what_is_double() {
         "{error}"
     );
     assert!(!folder.path().join("merged").exists(), "nothing is written");
-    // Of a processor of the other kind.
+    // Rows of a processor with the other arithmetic.
     let (arithmetic, other) = match Arithmetic::here() {
         Arithmetic::Fused => (Arithmetic::Fused, Arithmetic::Separate),
         Arithmetic::Separate => (Arithmetic::Separate, Arithmetic::Fused),
@@ -225,7 +229,7 @@ fn merge_names_what_is_missing_and_what_is_double() {
         error_of(&dashpot(&["merge", "study.toml", "a.csv", "c.csv"], folder.path()).code(1));
     let expected = format!("c.csv: case 0: arithmetic {other}, allowed here: {arithmetic}");
     assert!(error.contains(&expected), "{error}");
-    // A row of another study or version, or changed by hand.
+    // Rows of another study or version, or edited by hand.
     let row = rows[0];
     for (changed, expected) in [
         (
@@ -257,13 +261,13 @@ fn merge_names_what_is_missing_and_what_is_double() {
 }
 
 #[test]
-fn rows_that_are_there_are_not_run_again() {
+fn existing_rows_are_not_run_again() {
     let folder = folder(STUDY);
     let expected = rows(folder.path());
     let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
     let again = dashpot(&sweep, folder.path()).success();
     assert!(text_of(&again).contains("12 cases, none run now"));
-    // As a power cut leaves it: some rows, and a part of one.
+    // State after a power failure: some rows and an incomplete one.
     let end = expected.match_indices('\n').nth(5).unwrap().0;
     let one = folder.path().join("one");
     fs::write(one.join("rows.csv.partial"), &expected[..end + 20]).unwrap();
@@ -313,7 +317,7 @@ fn rows_of_another_shard_are_refused() {
     fs::copy(&one, &zero).unwrap();
     let error = error_of(&dashpot(&shard("0"), folder.path()).code(1));
     assert!(
-        error.contains("rows-0-of-2.csv: case 1 is not of shard 0 of 2"),
+        error.contains("rows-0-of-2.csv: case 1 does not belong to shard 0 of 2"),
         "{error}"
     );
 }
@@ -329,7 +333,7 @@ fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
     let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
     wait_for_rows(&mut child, folder.path(), 2);
-    // Whole at once, as an editor leaves it.
+    // Replaced atomically, as an editor does it.
     let new = folder.path().join("new.toml");
     fs::write(&new, text.replace("mass_kg = 63400", "mass_kg = 60000")).unwrap();
     fs::rename(&new, &own).unwrap();
@@ -345,7 +349,7 @@ fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
 }
 
 #[test]
-fn files_of_what_varies_count_from_the_study() {
+fn varied_files_are_relative_to_the_study() {
     let study = STUDY.replace(
         "\"speed_km_h\", from = 100, to = 140, count = 2",
         "\"vertical\", values = [\"own.toml\", \"in-service\"]",
@@ -363,7 +367,7 @@ fn files_of_what_varies_count_from_the_study() {
 }
 
 #[test]
-fn seeds_can_be_more_than_the_studys() {
+fn seeds_can_exceed_those_of_the_study() {
     let folder = folder(STUDY);
     let list = |more: &[&str]| {
         let list = ["sweep", "study.toml", "--list", "--format", "json"];
@@ -375,7 +379,7 @@ fn seeds_can_be_more_than_the_studys() {
 }
 
 #[test]
-fn two_at_once_do_not_mix() {
+fn two_processes_do_not_mix_their_rows() {
     let folder = folder(STUDY);
     fs::create_dir(folder.path().join("one")).unwrap();
     let partial = File::create(folder.path().join("one/rows.csv.partial")).unwrap();
@@ -390,8 +394,8 @@ fn two_at_once_do_not_mix() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_study_goes_on() {
-    // One thread and cases that take long enough to be met.
+fn an_interrupted_study_resumes() {
+    // One thread, and cases long enough to be interrupted.
     let folder = folder(&STUDY.replace("duration_s = 0.5", "duration_s = 4"));
     let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
@@ -444,7 +448,7 @@ vary = [{ parameter = "speed_km_h", values = [40, 160] }]
 }
 
 #[test]
-fn what_is_wrong_is_told_before_anything_runs() {
+fn errors_are_reported_before_anything_runs() {
     let shards = |options: &[&str]| {
         let folder = folder(STUDY);
         let sweep = ["sweep", "study.toml", "--output", "out"];
@@ -512,7 +516,7 @@ fn what_is_wrong_is_told_before_anything_runs() {
         (
             "track = \"straight\"",
             "track = \"ideal\"",
-            "sweep clearance: seeds, but the track",
+            "sweep clearance: seeds are given, but track",
         ),
         (
             "sweeps = [\"clearance\"",
@@ -583,7 +587,7 @@ fn what_is_wrong_is_told_before_anything_runs() {
 }
 
 #[test]
-fn the_shipped_studies_are_whole() {
+fn the_shipped_studies_are_valid() {
     let folder = tempfile::tempdir().unwrap();
     for (study, cases) in [
         ("paper", 536),

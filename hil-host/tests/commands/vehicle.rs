@@ -1,4 +1,4 @@
-//! `dashpot vehicle` from outside.
+//! `dashpot vehicle` as a command.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ fn number(value: &serde_json::Value) -> f64 {
     value.as_f64().unwrap()
 }
 
-/// The columns of a history by name, as text.
+/// Columns of a history by name, as text.
 fn column(text: &str, name: &str) -> Vec<f64> {
     let mut lines = text.lines();
     let place = lines
@@ -54,18 +54,18 @@ fn a_case_writes_histories_indices_and_a_page() {
     assert_eq!((times.len(), times[0], times[9999]), (10_000, 0.001, 10.0));
     let distances = column(&history, "distance_m");
     assert!((distances[9999] - (100.0 / 3.6 * 10.0 - 15.0)).abs() < 1e-6);
-    // The indices are those of the history.
+    // The indices agree with the history.
     let lateral = column(&history, "body_lateral_acceleration_m_per_s2");
     let rms = (lateral.iter().map(|a| a * a).sum::<f64>() / lateral.len() as f64).sqrt();
-    let told = number(&report["indices"]["bodies"][0]["lateral_rms_m_per_s2"]);
-    assert!((rms / told - 1.0).abs() < 1e-9, "{rms} {told}");
+    let reported = number(&report["indices"]["bodies"][0]["lateral_rms_m_per_s2"]);
+    assert!((rms / reported - 1.0).abs() < 1e-9, "{rms} {reported}");
     let loads = column(&history, "wheelset_1_right_load_n");
-    let least = loads.iter().copied().fold(f64::MAX, f64::min);
+    let min_load_n = loads.iter().copied().fold(f64::MAX, f64::min);
     assert_eq!(
-        least,
+        min_load_n,
         number(&report["indices"]["wheelsets"][0]["wheels"][1]["load_least_n"])
     );
-    // Over the front bogie, 5.39 m ahead, the body's pitch counts; two windows of 5 s.
+    // Above the front bogie, 5.39 m ahead, the pitch of the body counts; there are two windows of 5 s.
     let vertical = column(&history, "body_vertical_acceleration_m_per_s2");
     let middle = sperling(&vertical, 1000.0, 5.0, RideDirection::Vertical).unwrap();
     let ride = report["indices"]["ride"].as_array().unwrap();
@@ -74,17 +74,20 @@ fn a_case_writes_histories_indices_and_a_page() {
         (3, &"body, over the front bogie".into())
     );
     assert_eq!(ride[0]["windows"], 2);
-    let told = number(&ride[0]["sperling_vertical"]);
-    assert!((told / middle - 1.0).abs() < 1e-9, "{told} {middle}");
-    assert!(number(&ride[1]["sperling_vertical"]) > told);
-    // What an accelerometer over the front bogie has is beside it.
+    let reported = number(&ride[0]["sperling_vertical"]);
+    assert!(
+        (reported / middle - 1.0).abs() < 1e-9,
+        "{reported} {middle}"
+    );
+    assert!(number(&ride[1]["sperling_vertical"]) > reported);
+    // The history has the acceleration of an accelerometer above the front bogie.
     let over = column(
         &history,
         "body_over_the_front_bogie_vertical_acceleration_m_per_s2",
     );
     let found = sperling(&over, 1000.0, 5.0, RideDirection::Vertical).unwrap();
     assert!((number(&ride[1]["sperling_vertical"]) / found - 1.0).abs() < 1e-9);
-    // Spectra are those of the history.
+    // The spectra agree with the history.
     let spectra = fs::read_to_string(results.join("spectra.csv")).unwrap();
     assert_eq!(column(&spectra, "frequency_hz")[..3], [0.0, 0.5, 1.0]);
     let derailment = column(&history, "wheelset_1_left_derailment");
@@ -102,7 +105,7 @@ fn a_case_writes_histories_indices_and_a_page() {
             assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
         }
     }
-    // In the curve the rails carry weight and centripetal force.
+    // In the curve, the rails carry weight and centripetal force.
     let sum: f64 = (1..=6)
         .flat_map(|axle| ["left", "right"].map(|side| format!("wheelset_{axle}_{side}_load_n")))
         .map(|name| column(&history, &name)[8000..].iter().sum::<f64>() / 2000.0)
@@ -169,7 +172,7 @@ fn parts_of_a_case_are_changed_by_options() {
     assert_eq!(coach["case"], "coach on ideal at 120 km/h");
     let load = number(&coach["indices"]["wheelsets"][3]["wheels"][0]["load_least_n"]);
     assert!((load / 54.5e3 - 1.0).abs() < 0.01, "{load}");
-    // At rest on ideal track but for the push, which the first row still has.
+    // At rest on ideal track except for the initial displacement, which the first row still shows.
     run(&["--track", "ideal", "--speed-km-h", "30", "--push-m", "3e-3"]);
     let rows = fs::read_to_string(folder.path().join("dashpot-vehicle/history.csv")).unwrap();
     for (name, expected_m) in [("wheelset_4", 3e-3), ("front_bogie", 3e-3), ("body", 0.0)] {
@@ -179,7 +182,7 @@ fn parts_of_a_case_are_changed_by_options() {
 }
 
 #[test]
-fn a_fault_changes_a_damper_on_the_way() {
+fn a_fault_changes_a_damper_during_the_run() {
     let folder = tempdir().unwrap();
     let case = |fault: &str| {
         format!(
@@ -205,7 +208,7 @@ fn a_fault_changes_a_damper_on_the_way() {
             .iter()
             .fold(0.0_f64, |peak, force| peak.max(force.abs()))
     };
-    // Without a jump, and with 0.1 m of clearance no force is left once it is back in its middle.
+    // The force has no jump; with 0.1 m of clearance it is zero once the damper is back in the middle of its clearance.
     let jump = (force(&faulty)[3000] - force(&faulty)[2999]).abs();
     assert!(jump < 0.2 * peak(&force(&whole)), "{jump}");
     assert!(peak(&force(&whole)[3500..]) > 500.0);
@@ -213,7 +216,7 @@ fn a_fault_changes_a_damper_on_the_way() {
 }
 
 #[test]
-fn a_run_that_derails_says_where_keeps_its_rows_and_gives_no_index() {
+fn a_derailed_run_reports_where_keeps_its_rows_and_has_no_indices() {
     let folder = tempdir().unwrap();
     let arguments = [
         "vehicle",
@@ -260,14 +263,15 @@ fn the_step_is_within_its_bounds_of_the_reference() {
     ];
     let report = json_of(&dashpot(&arguments, Path::new(".")).success());
     assert_eq!(report["is_within_bounds"], true);
-    let of = |row: &str, what: &str| number(&report[row][what]["deviation"]);
-    assert!(of("deviations", "load_n") < 700.0 && of("deviations", "load_n") > 0.0);
-    // Half the step, about a quarter of the error.
-    let ratio = of("deviations", "lateral_m") / of("with_half_the_inner_step", "lateral_m");
+    let deviation = |row: &str, what: &str| number(&report[row][what]["deviation"]);
+    assert!(deviation("deviations", "load_n") < 700.0 && deviation("deviations", "load_n") > 0.0);
+    // Half the step size gives about a quarter of the error.
+    let ratio =
+        deviation("deviations", "lateral_m") / deviation("with_half_the_inner_step", "lateral_m");
     assert!((2.5..6.0).contains(&ratio), "{ratio}");
 }
 
-/// Without normal damping impacts of the flange part any two solutions; the means over seeds still agree.
+/// Without normal damping, flange impacts make any two solutions diverge; the means over seeds still agree.
 #[test]
 fn a_chaotic_case_is_compared_over_seeds() {
     let arguments = [
@@ -290,7 +294,7 @@ fn a_chaotic_case_is_compared_over_seeds() {
 }
 
 #[test]
-fn wrong_words_are_told_with_what_is_allowed() {
+fn wrong_options_are_reported_with_the_allowed_values() {
     let folder = tempdir().unwrap();
     for (arguments, code, words) in [
         (
@@ -352,7 +356,7 @@ fn wrong_words_are_told_with_what_is_allowed() {
     assert!(files_in(folder.path()).is_empty());
 }
 
-/// The first interruption ends the run with what it has; the rows are whole.
+/// The first interruption ends the run with the results so far; the rows are complete.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_interrupted_run_keeps_what_was_computed() {

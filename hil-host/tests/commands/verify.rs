@@ -1,4 +1,4 @@
-//! `dashpot verify`: the fixed step against the reference, on ticks and on the recording itself.
+//! `dashpot verify`: the fixed step against the reference, at the ticks and at the times of the recording.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -12,7 +12,7 @@ use predicates::str::contains;
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 
-/// 5 mm at 1.4 Hz, sampled at the times (s).
+/// 5 mm at 1.4 Hz, sampled at these times (s).
 fn sine(times_s: impl Iterator<Item = f64>) -> String {
     let mut text = String::from("time_s,displacement_m\n");
     for time_s in times_s {
@@ -29,7 +29,7 @@ fn verify(recording: &str, more: &[&str]) -> Assert {
     dashpot(&[&arguments[..], more].concat(), folder.path())
 }
 
-/// Sampled each second tick, the ticks hold the whole motion: both references are one.
+/// With a sample at every second tick, the ticks contain the whole motion, so both references are the same.
 #[test]
 fn each_step_is_reported_and_can_fail() {
     let recording = sine((0..=500).map(|i| f64::from(i) * 2e-3));
@@ -51,9 +51,9 @@ fn each_step_is_reported_and_can_fail() {
         .stderr(contains("--at-most"));
 }
 
-/// Ticks of 8 ms pass over three samples of four: that error is seen against the recording only.
+/// Ticks of 8 ms skip three of four samples; only the comparison with the recording shows this error.
 #[test]
-fn what_ticks_leave_out_is_seen_on_the_recording() {
+fn samples_skipped_by_ticks_show_against_the_recording() {
     let recording = sine((0..=500).map(|i| f64::from(i) * 2e-3));
     let output = verify(&recording, &["--step-us", "8000", "--format", "json"]);
     for row in json_of(&output)["deviations"].as_array().unwrap() {
@@ -68,8 +68,8 @@ fn what_ticks_leave_out_is_seen_on_the_recording() {
     );
 }
 
-/// Uneven stamps, all multiples of 10 us: on a grid of 10 us nothing is left out, so the reference there is
-/// the reference on the recording.
+/// Uneven time stamps, all multiples of 10 us: a grid of 10 us loses nothing, so the reference on the grid is the
+/// reference on the recording.
 #[test]
 fn the_reference_on_the_recording_is_that_on_a_grid_that_holds_all_stamps() {
     let recording = sine((0..60).map(|i| f64::from(i * 230 + i * i % 7 * 20) * 1e-5));

@@ -15,7 +15,7 @@ fn number(row: &Value, key: &str) -> f64 {
 }
 
 #[test]
-fn each_step_and_scalar_has_its_largest_errors_and_what_is_promised() {
+fn each_step_and_scalar_has_its_largest_errors_and_promised_bounds() {
     let steps = ["--step-us", "1000", "--rate-hz", "500", "--rate-hz", "1000"];
     let more = [&["--damper", "in-service", "--format", "json"], &steps[..]].concat();
     let output = verify(&more).success();
@@ -23,7 +23,7 @@ fn each_step_and_scalar_has_its_largest_errors_and_what_is_promised() {
     assert_eq!(number(&report, "top_speed_m_per_s"), 0.6);
     let factor = number(&report, "promised_factor");
     let rows = report["errors"].as_array().unwrap();
-    let of: Vec<(String, f64)> = rows
+    let combinations: Vec<(String, f64)> = rows
         .iter()
         .map(|row| {
             (
@@ -34,7 +34,7 @@ fn each_step_and_scalar_has_its_largest_errors_and_what_is_promised() {
         .collect();
     let expected = [("f64", 1e-3), ("f32", 1e-3), ("f64", 2e-3), ("f32", 2e-3)];
     assert_eq!(
-        of,
+        combinations,
         expected.map(|(scalar, step_s)| (scalar.to_owned(), step_s))
     );
     for row in rows {
@@ -45,7 +45,7 @@ fn each_step_and_scalar_has_its_largest_errors_and_what_is_promised() {
         assert!(number(row, "largest_wrong_sign_n") >= 0.0, "{row}");
         assert!(row["nrmse_motion"]["kind"].is_string(), "{row}");
     }
-    // Twice the step errs more.
+    // Twice the step size has larger errors.
     assert!(number(&rows[2], "nrmse") > 1.5 * number(&rows[0], "nrmse"));
 }
 
@@ -65,7 +65,7 @@ fn an_nrmse_above_the_limit_fails_and_the_table_is_for_people() {
 }
 
 #[test]
-fn options_that_go_with_a_recording_or_without_are_refused_otherwise() {
+fn options_are_refused_in_the_wrong_mode() {
     for (options, part) in [
         (&["--time", "t"][..], "require --input"),
         (
@@ -81,7 +81,7 @@ fn options_that_go_with_a_recording_or_without_are_refused_otherwise() {
     }
 }
 
-/// A damper through which nothing flows has no reference: it is said, and nothing is promised.
+/// A damper without any flow has no reference; the command says so and promises nothing.
 #[test]
 fn a_damper_without_a_reference_is_refused() {
     let closed = [

@@ -1,4 +1,5 @@
-//! A dip of 10 mm over 1 m at 120 km/h gave a wheel load of 11 957 kN, 118 times that at standstill, without a word and with exit code 0.
+//! Regression: a dip of 10 mm over 1 m at 120 km/h gave a wheel load of 11 957 kN, 118 times that at standstill,
+//! without a warning and with exit code 0.
 
 use std::fs;
 use std::path::Path;
@@ -10,10 +11,10 @@ use crate::common::{dashpot, error_of, text_of};
 
 const TRACK: &str = "name = \"dip\"\n[[part]]\nkind = \"straight\"\nlength_m = 500\n";
 
-/// Where the dip begins, m.
+/// Start of the dip, m.
 const DIP_M: f64 = 20.0;
 
-/// A track with a dip of both rails.
+/// Track with a dip in both rails.
 fn track(depth_m: f64, folder: &Path) {
     let dip = format!(
         "[[defect]]\nkind = \"cosine-dip\"\nrails = \"both\"\nstart_m = {DIP_M}\nlength_m = 1\ndepth_m = {depth_m}\n"
@@ -58,7 +59,7 @@ fn a_load_far_beyond_the_model_ends_the_run_with_time_and_place() {
     // The vehicle's middle starts at zero; every wheelset is within 10 m of it.
     assert!((number("distance_m") - number("time_s") * 120.0 / 3.6).abs() < 1e-6);
     assert!((DIP_M - 10.0..DIP_M + 20.0).contains(&number("distance_m")));
-    // The loads up to there are named with the wheel's own place.
+    // The warning names the maximum load up to there with the position of the wheel.
     let warnings = report["warnings"].as_array().unwrap();
     let load = warnings
         .iter()
@@ -71,9 +72,9 @@ fn a_load_far_beyond_the_model_ends_the_run_with_time_and_place() {
     assert!(page.contains("Results outside the validity of the model"));
 }
 
-/// A row of a study says the same, and has no indices.
+/// The row of a study contains the same ending and no indices.
 #[test]
-fn a_row_of_a_study_says_so() {
+fn a_row_of_a_study_has_the_ending() {
     let folder = tempdir().unwrap();
     track(10e-3, folder.path());
     let study = "name = \"dip\"\nobserved = [\"derailment_rms\", \"wheel_load_over_static\", \"wheel_lift_longest_s\"]\n\
@@ -104,7 +105,8 @@ fn a_row_of_a_study_says_so() {
     assert_eq!(cell(1, "wheel_load_over_static"), "");
 }
 
-/// Between 10 and 50 times the run goes on to its end, with a warning: flanges strike so hard on poor track.
+/// Between 10 and 50 times, the run continues to its end with a warning: on poor track, flange impacts can be this
+/// hard.
 #[test]
 fn a_load_over_ten_times_that_at_standstill_is_a_warning() {
     let folder = tempdir().unwrap();

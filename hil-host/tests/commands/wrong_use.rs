@@ -1,4 +1,4 @@
-//! An option that is wrong ends any command with exit code 2, a file that is wrong with 1; both leave no file.
+//! A wrong option ends any command with exit code 2, a bad file with exit code 1; both leave no file.
 
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::{contains, starts_with};
@@ -15,7 +15,8 @@ const VERIFY: [&str; 3] = ["verify", "--input", "in.csv"];
 const PIL: [&str; 5] = ["pil", "--input", "in.csv", "--link", "tcp:localhost:1"];
 const EXPORT: [&str; 3] = ["export", "--output", "damper"];
 
-/// Runs `command` with `options` beside a good recording, a file that is no damper and one that is neither.
+/// Runs `command` with `options` in a folder with a good recording, a file that is not a damper and a file that is
+/// neither.
 fn check(command: &[&str], options: &[&str], code: i32, part: &'static str) {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
@@ -38,7 +39,7 @@ fn failed(command: &[&str], options: &[&str], part: &'static str) {
 }
 
 #[test]
-fn commands_and_options_that_there_are_not() {
+fn unknown_commands_and_options() {
     wrong_use(&["nonsense"], &[], "unrecognized subcommand");
     wrong_use(&["--outptu", "x.html"], &[], "unexpected argument");
     wrong_use(&["--format", "xml"], &[], "possible values: text, json");
@@ -57,7 +58,7 @@ fn commands_and_options_that_there_are_not() {
 }
 
 #[test]
-fn how_a_recording_is_read() {
+fn recording_formats() {
     for (options, part) in [
         (["--time-unit", "hours"], "allowed: s, ms, us, ns, min"),
         (["--displacement-unit", "N"], "allowed: m, cm, mm, um, in"),
@@ -138,7 +139,7 @@ fn dampers() {
         ] {
             wrong_use(command, &["--set", set], part);
         }
-        // The file is to blame, not what is set beside it.
+        // The file is at fault, not the options that override it.
         let options = ["--damper", "bad.toml", "--set", "mount.clearance_m=1e-3"];
         failed(command, &options, "bad.toml: ");
     }
@@ -426,7 +427,7 @@ fn contact() {
 
 #[cfg(not(feature = "parquet"))]
 #[test]
-fn what_is_left_out_of_the_build_is_told() {
+fn features_missing_from_the_build_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let options = ["vehicle", "--case", "straight-180", "--parquet"];
     dashpot(&options, folder.path())

@@ -1,7 +1,7 @@
-//! The advice of an error message, taken as its user would take it: options in backticks after `use` are added or replaced, those after
-//! `remove` are removed.
+//! Follows the advice of an error message as a user would: options in backticks after `use` are added or replaced,
+//! those after `remove` are removed.
 
-/// Options without a value.
+/// Options that take no value.
 const SWITCHES: [&str; 4] = [
     "--reverse-force",
     "--reverse-displacement",
@@ -9,7 +9,7 @@ const SWITCHES: [&str; 4] = [
     "--no-priors",
 ];
 
-/// Each command line that the message `text` advises in place of `line`; there must be one.
+/// Returns each command line that the message `text` advises instead of `line`; there must be at least one.
 pub fn advised(line: &[String], text: &str) -> Vec<Vec<String>> {
     let said: Vec<&str> = text
         .split(", or ")
@@ -23,7 +23,7 @@ pub fn advised(line: &[String], text: &str) -> Vec<Vec<String>> {
     lines
 }
 
-/// The command line `line` after the advice `part`.
+/// Applies the advice `part` to the command line `line`.
 fn changed(line: Vec<String>, part: &str) -> Option<Vec<String>> {
     let used = part
         .split_once("use `")
@@ -59,7 +59,7 @@ fn key(value: &str) -> &str {
     value.split('=').next().unwrap_or(value)
 }
 
-/// `line` without `--option`, `--option KEY` or `every [other] --option`.
+/// Removes `--option`, `--option KEY` or `every [other] --option` from `line`.
 fn without(line: Vec<String>, what: &str) -> Vec<String> {
     let what = what
         .trim_start_matches("every ")

@@ -1,4 +1,4 @@
-//! The synthetic bench test of `data/bench`, as other rigs would have recorded it.
+//! The synthetic bench test of `data/bench`, and variants as other rigs would have recorded it.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ pub fn path() -> String {
     path.to_str().unwrap().into()
 }
 
-/// The numbers that examples/make_bench.rs chose, and how near a calibration comes to each.
+/// Values chosen in examples/make_bench.rs, with the tolerance of a calibration for each.
 pub const TRUTH: [(&str, f64, f64); 4] = [
     ("orifice.discharge_coefficient", 0.68, 0.01 * 0.68),
     ("mount.stiffness_n_per_m", 7.5e6, 0.03 * 7.5e6),
@@ -34,7 +34,7 @@ pub fn write(path: &Path, change: impl Fn(MeasuredSample) -> MeasuredSample) {
     std::fs::write(path, rows).unwrap();
 }
 
-/// A calibration of `damper` from `run.csv`, with `more` options, that writes `found.toml`.
+/// Runs a calibration of `damper` from `run.csv` with `more` options; writes `found.toml`.
 pub fn calibrate(damper: &str, more: &[&str]) -> Vec<String> {
     let line = [
         "calibrate",
@@ -54,7 +54,7 @@ pub fn calibrate(damper: &str, more: &[&str]) -> Vec<String> {
         .collect()
 }
 
-/// The options that vary what the recording's damper differs in from `in-service`.
+/// Options that vary the parameters in which the recorded damper differs from `in-service`.
 pub const VARY: [&str; 8] = [
     "--vary", TRUTH[0].0, "--vary", TRUTH[1].0, "--vary", TRUTH[2].0, "--vary", TRUTH[3].0,
 ];

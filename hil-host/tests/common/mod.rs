@@ -1,6 +1,6 @@
-//! `dashpot` run as its users run it.
+//! Runs `dashpot` as a user does.
 
-// Each test binary uses a part of these.
+// Each test binary uses only some of these functions.
 #![allow(dead_code)]
 
 pub mod advice;
@@ -19,47 +19,47 @@ pub fn program() -> &'static Path {
     cargo_bin!("dashpot")
 }
 
-/// The command in `folder`, to be started by the test.
+/// Builds the command in `folder`; the test starts it.
 pub fn command(arguments: &[&str], folder: &Path) -> Command {
     let mut command = Command::new(program());
     command.args(arguments).current_dir(folder);
     command
 }
 
-/// The command in `folder`, ended.
+/// Runs the command in `folder` to its end.
 pub fn dashpot(arguments: &[&str], folder: &Path) -> Assert {
     dashpot_reading(b"", arguments, folder)
 }
 
-/// As [`dashpot`], with `input` at its standard input.
+/// Like [`dashpot`], with `input` on its standard input.
 pub fn dashpot_reading(input: &[u8], arguments: &[&str], folder: &Path) -> Assert {
     let mut command = cargo_bin_cmd!("dashpot");
     command
         .args(arguments)
         .current_dir(folder)
-        // Contact tables are kept with what is built, not in the home of who tests.
+        // Contact tables are kept in the target folder, not in the home folder of whoever runs the tests.
         .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
         .write_stdin(input)
         .assert()
 }
 
-/// What the command wrote to standard error.
+/// Text that the command wrote to standard error.
 pub fn error_of(ended: &Assert) -> String {
     String::from_utf8_lossy(&ended.get_output().stderr).into_owned()
 }
 
-/// What the command wrote to standard output.
+/// Text that the command wrote to standard output.
 pub fn text_of(ended: &Assert) -> String {
     String::from_utf8_lossy(&ended.get_output().stdout).into_owned()
 }
 
-/// The report of the command, the one JSON object on standard output.
+/// Parses the report of the command: the only JSON object on standard output.
 pub fn json_of(ended: &Assert) -> serde_json::Value {
     json(&ended.get_output().stdout)
 }
 
-/// The report of a command whose data went to standard output: the one JSON object on standard error.
-pub fn json_beside(ended: &Assert) -> serde_json::Value {
+/// Parses the report of a command whose data went to standard output: the only JSON object on standard error.
+pub fn json_on_stderr(ended: &Assert) -> serde_json::Value {
     json(&ended.get_output().stderr)
 }
 
@@ -79,7 +79,7 @@ pub fn files_in(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Compares the files of a folder that others made with the table of them in its README.md: name, place in the package, SHA-256.
+/// Compares the vendored files in a folder with the table in its README.md: name, path in the package, SHA-256.
 pub fn are_as_their_readme_says(folder: &Path) {
     let readme = std::fs::read_to_string(folder.join("README.md")).unwrap();
     let rows: Vec<Vec<&str>> = readme
@@ -96,12 +96,12 @@ pub fn are_as_their_readme_says(folder: &Path) {
         let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         assert_eq!(digest, row[3], "{}", row[1]);
     }
-    let mut told: Vec<&str> = rows.iter().map(|row| row[1]).chain(["README.md"]).collect();
+    let mut listed: Vec<&str> = rows.iter().map(|row| row[1]).chain(["README.md"]).collect();
     let mut there: Vec<String> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
-    told.sort_unstable();
+    listed.sort_unstable();
     there.sort_unstable();
-    assert_eq!(there, told);
+    assert_eq!(there, listed);
 }

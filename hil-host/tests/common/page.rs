@@ -1,16 +1,16 @@
-//! A page of the documents in parts.
+//! Parts of a documentation page.
 
 /// A fenced block.
 pub struct Block<'a> {
-    /// After the fence.
+    /// Language after the fence.
     pub language: &'a str,
-    /// Named by the last line of the text before it.
+    /// File name in the last line of text before the block.
     pub file: Option<&'a str>,
-    /// Its lines.
+    /// Lines of the block.
     pub content: String,
 }
 
-/// The fenced blocks of a page.
+/// Returns the fenced blocks of a page.
 pub fn blocks(page: &str) -> Vec<Block<'_>> {
     let mut found = Vec::new();
     let mut file = None;

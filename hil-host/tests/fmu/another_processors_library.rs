@@ -1,5 +1,5 @@
-//! A compiler for another processor (`CC=aarch64-linux-gnu-gcc`) gave an FMU whose folder `x86_64-linux` held an Arm
-//! library, which nothing loads, and the export reported success.
+//! Regression: a compiler for another processor (`CC=aarch64-linux-gnu-gcc`) gave an FMU whose folder `x86_64-linux`
+//! contained an Arm library, which cannot be loaded, and the export reported success.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -47,14 +47,14 @@ fn a_library_for_another_processor_is_refused_with_what_was_found() {
         assert!(text.contains("--sources-only"), "{text}");
         assert!(output.stdout.is_empty());
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-        // Without a library of this platform any compiler will do.
+        // If the FMU has no library for this platform, any compiler is accepted.
         let sources = ["--damper", "in-service", "--sources-only"];
         assert!(export(folder.path(), compiler, &sources).status.success());
         fs::remove_file(folder.path().join("it.fmu")).unwrap();
     }
 }
 
-/// A compiler may also leave what is no shared library at all.
+/// A compiler may also produce something that is not a shared library.
 #[test]
 fn an_object_file_in_place_of_a_library_is_refused() {
     if !have(&[GCC], "an object file in place of a library") {

@@ -1,4 +1,4 @@
-/* An importer of one FMU: driver LIBRARY TOKEN RESOURCES TASK [NUMBER]. */
+/* Importer of one FMU: driver LIBRARY TOKEN RESOURCES TASK [NUMBER]. */
 
 #define _POSIX_C_SOURCE 200809L
 
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A function of the library; one that is not there ends the program. */
+/* Returns a function of the library; ends the program if it is missing. */
 static void *symbol(void *library, const char *name)
 {
     void *found = dlsym(library, name);
@@ -55,7 +55,7 @@ static void start(importer *of)
     check("initialized", initialized(of), 0);
 }
 
-/* Forces over the displacements of standard input, one for each communication step of so many internal ones. */
+/* Prints the forces for the displacements on standard input, one per communication step of several internal steps. */
 static void run(importer *of, unsigned steps)
 {
     const double step_s = steps * internal_s;
@@ -68,14 +68,14 @@ static void run(importer *of, unsigned steps)
         if (number == 0) {
             check("initialized", initialized(of), 0);
         }
-        /* A warning is told, and no more. */
+        /* A warning is logged; the call still succeeds. */
         check("step", step(of, number * step_s, step_s) & ~1, 0);
         printf("%a\n", force(of));
     }
     check("terminate", terminate(of), 0);
 }
 
-/* As run, of a sine of which the velocity is given, too: forces at the ends of the steps. */
+/* Like run, for a sine with its velocity: prints the forces at the ends of the steps. */
 static void rate(importer *of, unsigned steps)
 {
     const double step_s = steps * internal_s, amplitude = 5e-3, omega = 10;
@@ -92,7 +92,7 @@ static void rate(importer *of, unsigned steps)
     }
 }
 
-/* Everything that must be refused, with what is said; then that nothing has changed. */
+/* Makes every call that must be rejected, prints the messages, and checks that nothing has changed. */
 static void refuse(importer *of)
 {
     double value;
@@ -157,7 +157,7 @@ static void refuse(importer *of)
     printf("displacement still %g\n", value);
 }
 
-/* Times that an importer adds up, and what that rounds. */
+/* Times summed by an importer, with their rounding errors. */
 static void added(importer *of, unsigned count)
 {
     double at_s = 0, time_s;
@@ -185,7 +185,7 @@ static void steps(importer *of, unsigned from, unsigned to)
     }
 }
 
-/* States taken, put back, made bytes of and made of bytes. */
+/* States that are saved, restored, serialized and deserialized. */
 static void states(importer *of)
 {
     void *state = NULL, *again = NULL;
@@ -227,7 +227,7 @@ static void states(importer *of)
     printf("then: %s\n", memcmp(&first, &second, sizeof first) == 0 ? "equal" : "other");
 }
 
-/* Steps, and instances and states that come and go. */
+/* Steps, with instances and states that are created and freed. */
 static void many(importer *of, unsigned count, const char *token, const char *resources)
 {
     unsigned number;

@@ -1,4 +1,4 @@
-//! The driver in C, compiled for a version of the interface.
+//! Driver written in C, compiled for one version of the interface.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ impl Driver {
         self.folder.path().join("driver")
     }
 
-    /// What the driver prints of a task with `input` at its standard input, which must end well.
+    /// Runs a task with `input` on standard input, which must succeed; returns the output.
     pub fn run(&self, fmu: &Unpacked, task: &[&str], input: &str) -> String {
         let output = self.output(&[], fmu, fmu.token(), task, input);
         let text = String::from_utf8(output.stdout).unwrap();
@@ -47,7 +47,7 @@ impl Driver {
         text
     }
 
-    /// As [`Self::run`], under another program and with any token, however it ends.
+    /// Like [`Self::run`], but under another program and with any token; the task may fail.
     pub fn output(
         &self,
         under: &[&str],
@@ -77,7 +77,7 @@ impl Driver {
         let mut to = driver.stdin.take().unwrap();
         let input = input.to_owned();
         let writer = std::thread::spawn(move || {
-            // A driver that ends early reads no more.
+            // A driver that ends early does not read all of its input.
             let _ = to.write_all(input.as_bytes());
         });
         let output = driver.wait_with_output().unwrap();
@@ -86,7 +86,7 @@ impl Driver {
     }
 }
 
-/// Numbers as C prints them with %a, a line each, between messages of the log.
+/// Parses numbers printed by C with %a, one per line, between log messages.
 pub fn hexadecimal(text: &str) -> Vec<f64> {
     let lines = text.lines().filter(|line| !line.starts_with("log "));
     lines.map(number).collect()

@@ -1,8 +1,8 @@
-"""What FMPy finds of an FMU: problems of its description, and forces over the displacements of a file.
+"""Checks an FMU with FMPy: problems in its description, and forces for the displacements in a file.
 
     python3 fmpy_judge.py FMU DISPLACEMENTS_M OUTPUT_FORCES_N [--compile]
 
-DISPLACEMENTS_M has a number a line, one for each communication step of 1 ms.
+DISPLACEMENTS_M contains one number per line, one for each communication step of 1 ms.
 """
 
 import shutil

@@ -1,4 +1,4 @@
-//! Forces of an FMU: the bits of a replay, late by a communication step or not.
+//! Forces of an FMU have the bits of a replay, with or without a delay of one communication step.
 
 use std::fmt::Write;
 use std::fs;
@@ -61,7 +61,7 @@ fn forces_have_the_bits_of_a_replay() {
     }
 }
 
-/// Between communication points the displacement goes in a straight line.
+/// Between communication points, the displacement is interpolated linearly.
 #[test]
 fn internal_steps_go_straight_to_the_displacement() {
     let x: Vec<f64> = displacements_m()
@@ -86,7 +86,7 @@ fn internal_steps_go_straight_to_the_displacement() {
     assert_eq!(bits(&hexadecimal(&text)), bits(&at_ends));
 }
 
-/// With its velocity the displacement at the end of the step is known, and the force is not late.
+/// If the velocity is given, the displacement at the end of the step is known, so the force is not delayed.
 #[test]
 fn with_the_velocity_the_force_is_not_late() {
     let wave = |t: f64| 5e-3 * (10.0 * t).sin();
@@ -104,10 +104,10 @@ fn with_the_velocity_the_force_is_not_late() {
             let at_ends: Vec<f64> = exact.iter().copied().skip(steps).step_by(steps).collect();
             let error = |forces: Vec<f64>| {
                 let pairs = forces.iter().zip(&at_ends);
-                let most = pairs.fold(0.0_f64, |most, (force, exact)| {
-                    most.max((force - exact).abs())
+                let max = pairs.fold(0.0_f64, |max, (force, exact)| {
+                    max.max((force - exact).abs())
                 });
-                most / largest
+                max / largest
             };
             let count = steps.to_string();
             let with = error(hexadecimal(&driver.run(&fmu, &["rate", &count], "")));
@@ -128,10 +128,10 @@ fn with_the_velocity_the_force_is_not_late() {
 }
 
 #[test]
-fn states_come_back_to_the_bit() {
+fn saved_states_are_restored_to_the_bit() {
     for fmi in ["2", "3"] {
         let text = Driver::new(fmi).run(&Unpacked::new(fmi, &[]), &["states"], "");
-        let told: Vec<&str> = text
+        let printed: Vec<&str> = text
             .lines()
             .filter(|line| !line.starts_with("log "))
             .collect();
@@ -145,13 +145,13 @@ fn states_come_back_to_the_bit() {
             "no state: 2",
             "then: equal",
         ];
-        assert_eq!(told, expected, "FMI {fmi}");
+        assert_eq!(printed, expected, "FMI {fmi}");
     }
 }
 
-/// A bank's dampers are those of their own, whatever the others do.
+/// Each damper of a bank behaves as if it were alone.
 #[test]
-fn a_bank_has_its_dampers_side_by_side() {
+fn dampers_of_a_bank_are_independent() {
     let fmu = Unpacked::new("3", &["--also", "reduced-lateral", "--also", "in-service"]);
     for name in [
         "damper[1].displacement_m",
@@ -165,9 +165,9 @@ fn a_bank_has_its_dampers_side_by_side() {
     assert_eq!(bits(&hexadecimal(&text)), bits(&forces_n("in-service", &x)));
 }
 
-/// Time is a count of steps: what an importer rounds when it adds them up does not matter.
+/// Time is counted in steps, so rounding when an importer adds up times does not matter.
 #[test]
-fn times_that_are_added_up_are_followed() {
+fn rounding_of_summed_times_does_not_matter() {
     let text = Driver::new("2").run(&Unpacked::new("2", &[]), &["added", "10000000"], "");
     assert!(
         text.ends_with(", time 10000 s\n") && !text.starts_with("10000 s"),
@@ -175,7 +175,7 @@ fn times_that_are_added_up_are_followed() {
     );
 }
 
-/// Nothing is lost, whatever comes and goes.
+/// No memory is lost when instances and states are created and freed.
 #[test]
 fn no_memory_is_lost_or_misused() {
     if !have(&[VALGRIND], "memory of FMUs") {
@@ -203,7 +203,7 @@ fn no_memory_is_lost_or_misused() {
     }
 }
 
-/// The sources are clean for compilers that are told to look closely, the sanitizers have nothing to say.
+/// The sources compile without warnings at high warning levels, and the sanitizers report nothing.
 #[test]
 fn the_sources_are_clean() {
     if !have(&[GCC, CLANG], "the sources of FMUs by other compilers") {

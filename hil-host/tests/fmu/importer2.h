@@ -1,4 +1,4 @@
-/* FMI 2.0 as driver.c calls it. */
+/* FMI 2.0 calls used by driver.c. */
 
 #include "fmi2Functions.h"
 
@@ -72,7 +72,7 @@ static int deserialize(importer *of, const void *bytes, size_t size, void **stat
 static int quiet(importer *of) { return CALL(SetDebugLogging, fmi2False, 0, NULL); }
 static int loud(importer *of, const char *category) { return CALL(SetDebugLogging, fmi2True, 1, &category); }
 
-/* The rate of an input by the interface's own function, as importers give it: of every input. */
+/* Sets the rate of an input through the function of the interface, as importers do: for every input. */
 static int set_rate(importer *of, unsigned variable, double value)
 {
     const unsigned variables[] = {variable, variable + 1};

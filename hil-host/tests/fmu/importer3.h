@@ -1,4 +1,4 @@
-/* FMI 3.0 as driver.c calls it. */
+/* FMI 3.0 calls used by driver.c. */
 
 #include "fmi3Functions.h"
 
@@ -68,5 +68,5 @@ static int deserialize(importer *of, const void *bytes, size_t size, void **stat
 static int quiet(importer *of) { return CALL(SetDebugLogging, false, 0, NULL); }
 static int loud(importer *of, const char *category) { return CALL(SetDebugLogging, true, 1, &category); }
 
-/* FMI 3 has the velocity for it. */
+/* In FMI 3, the velocity is an input of its own. */
 static int set_rate(importer *of, unsigned variable, double value) { return set(of, variable + 1, value); }

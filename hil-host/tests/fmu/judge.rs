@@ -1,4 +1,4 @@
-//! FMPy validates, simulates and compiles an FMU; its forces are the step's.
+//! FMPy validates, simulates and compiles an FMU; the forces are those of the step.
 
 use std::fs;
 use std::path::Path;
@@ -29,7 +29,7 @@ fn judged(python: &Path, fmu: &Unpacked, more: &[&str]) -> (String, Vec<f64>) {
     )
 }
 
-/// Steps that do not divide a second: FMPy ends where the description says.
+/// Steps that do not divide a second: FMPy ends at the stop time of the description.
 #[test]
 fn fmpy_simulates_any_step() {
     let Some(python) = have_packages("FMUs of any step by FMPy") else {
@@ -61,7 +61,7 @@ fn fmpy_simulates_any_step() {
     }
 }
 
-/// FMPy asks an FMU of FMI 2 for a step that was refused again and again: the second time it is an error, and FMPy ends.
+/// FMPy repeats a rejected step of an FMI 2 FMU; the second rejection is an error, and FMPy ends.
 #[test]
 fn fmpy_ends_when_a_step_is_refused() {
     let Some(python) = have_packages("FMUs refusing steps by FMPy") else {
@@ -110,10 +110,10 @@ fn fmpy_finds_no_problem_and_the_same_forces() {
         ] {
             let fmu = Unpacked::new(fmi, more);
             fs::write(fmu.path("x.txt"), &text).unwrap();
-            let (told, forces) = judged(&python, &fmu, flag);
-            // Its first row is the start; a force is that of the displacement before: one communication step late.
+            let (message, forces) = judged(&python, &fmu, flag);
+            // The first row is the start; a force belongs to the displacement one communication step earlier.
             assert_eq!(bits(&forces[1..]), bits(&expected), "FMI {fmi} {more:?}");
-            assert!(told.contains("status 0"), "{told}");
+            assert!(message.contains("status 0"), "{message}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! An FMU whose constants are images in its folder of resources.
+//! FMU whose constants are images in its resources folder.
 
 use std::fs;
 
@@ -45,7 +45,7 @@ fn another_image_is_another_damper() {
 }
 
 #[test]
-fn what_is_no_image_for_it_is_refused_with_the_reason() {
+fn an_unsuitable_image_is_refused_with_the_reason() {
     let fmu = Unpacked::new("2", &["--loadable"]);
     let driver = Driver::new("2");
     let image = fmu.path("resources/image_1.bin");

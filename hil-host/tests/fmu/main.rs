@@ -1,4 +1,4 @@
-//! FMUs as importers use them: by a driver in C over the official headers, and by FMPy.
+//! FMUs as importers use them: through a driver in C with the official headers, and through FMPy.
 
 mod another_processors_library;
 #[path = "../common/mod.rs"]
@@ -19,16 +19,16 @@ use dashpot_testbench::excitation::Excitation;
 
 use crate::common::dashpot;
 
-/// An FMU in a folder of its own, unpacked.
+/// FMU in its own folder, unpacked.
 pub struct Unpacked {
-    /// Where the FMU and what is in it lie.
+    /// Folder of the FMU and its unpacked contents.
     pub folder: tempfile::TempDir,
-    /// Its modelDescription.xml.
+    /// Contents of modelDescription.xml.
     pub description: String,
 }
 
 impl Unpacked {
-    /// Exported as in-service.fmu with these options beside.
+    /// Exports in-service.fmu with additional options.
     pub fn new(fmi: &str, more: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let line = [
@@ -57,12 +57,12 @@ impl Unpacked {
         }
     }
 
-    /// A file of it.
+    /// Reads one of its files.
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    /// The library of this platform, wherever it lies.
+    /// Library for this platform, wherever it is in the FMU.
     pub fn library(&self) -> PathBuf {
         let platforms = fs::read_dir(self.path("binaries")).unwrap();
         let [platform] = &platforms
@@ -81,7 +81,7 @@ impl Unpacked {
         library.clone()
     }
 
-    /// What the interface asks for to make an instance.
+    /// Token that the interface requires to create an instance.
     pub fn token(&self) -> &str {
         let text = &self.description;
         let from = text
@@ -91,7 +91,7 @@ impl Unpacked {
     }
 }
 
-/// A part of the ride, and a jump that no damper follows.
+/// Part of the ride, with a jump that no damper follows.
 pub fn displacements_m() -> Vec<f64> {
     let mut ride = Excitation::Ride.displacements_m(1e-3);
     ride.truncate(3000);
@@ -99,7 +99,7 @@ pub fn displacements_m() -> Vec<f64> {
     ride
 }
 
-/// Forces of a preset's step over displacements (m), from a rest at the first.
+/// Forces of a preset's step over displacements (m), starting at rest at the first.
 pub fn forces_n(name: &str, displacements_m: &[f64]) -> Vec<f64> {
     let damper: Damper<f32> = damper::load(name, &[]).unwrap().build(1e-3).unwrap();
     let mut state = damper.at_rest(displacements_m[0] as f32);
@@ -107,12 +107,12 @@ pub fn forces_n(name: &str, displacements_m: &[f64]) -> Vec<f64> {
     displacements_m.iter().map(step).collect()
 }
 
-/// The bits of numbers.
+/// Bits of the numbers.
 pub fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-/// A file of this package.
+/// Path of a file of this package.
 pub fn source(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }

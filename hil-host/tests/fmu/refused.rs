@@ -1,4 +1,4 @@
-//! What an FMU and its export refuse, and what they say.
+//! Inputs that an FMU and its export reject, with their messages.
 
 use std::fs;
 use std::process::Command;
@@ -39,7 +39,7 @@ NaN again: 0
 ";
 
 #[test]
-fn an_importer_is_told_what_is_allowed_and_nothing_changes() {
+fn invalid_calls_report_the_allowed_values_and_change_nothing() {
     for fmi in ["2", "3"] {
         let text = Driver::new(fmi).run(&Unpacked::new(fmi, &[]), &["refuse"], "");
         assert!(text.starts_with(&REFUSED.replace('#', fmi)), "{text}");
@@ -106,7 +106,7 @@ fn every_function_of_the_interface_is_there() {
 }
 
 #[test]
-fn an_export_that_cannot_be_says_what_is_allowed_and_writes_nothing() {
+fn an_invalid_export_reports_the_allowed_values_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let cases: [(&[&str], i32, &str); 7] = [
         (&["--fmi", "4"], 2, "2, 3"),
@@ -149,9 +149,9 @@ fn an_export_that_cannot_be_says_what_is_allowed_and_writes_nothing() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
-/// A loop of two FMUs is none at a communication point.
+/// Outputs do not depend on inputs at the same communication point, so two coupled FMUs form no algebraic loop.
 #[test]
-fn outputs_depend_on_no_input_of_the_same_time() {
+fn outputs_do_not_depend_on_inputs_at_the_same_time() {
     for fmi in ["2", "3"] {
         let fmu = Unpacked::new(fmi, &["--step-us", "300"]);
         let (_, structure) = fmu.description.split_once("<ModelStructure>").unwrap();
@@ -165,9 +165,9 @@ fn outputs_depend_on_no_input_of_the_same_time() {
     }
 }
 
-/// Two FMUs of one version link into one program.
+/// Two FMUs of the same version can be linked into one program.
 #[test]
-fn sources_share_no_name() {
+fn two_sources_share_no_symbol() {
     let folder = tempfile::tempdir().unwrap();
     let mut linker = Command::new("cc");
     linker.args(["-std=c99", "-shared", "-fPIC", "-o", "both.so"]);

@@ -1,4 +1,5 @@
-//! A vehicle around a damper, each an FMU: docs/fmu.md word for word, the bits of the command, how a run ends, what is refused.
+//! A vehicle and a damper as two FMUs: docs/fmu.md followed literally, the bits of the command, the end of a run, and
+//! rejected exports.
 
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
@@ -13,11 +14,11 @@ use crate::common::page::blocks;
 use crate::common::{dashpot, error_of, program};
 use crate::source;
 
-/// The library of vehicles, built once.
+/// Library of vehicles, built once.
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
-        let told = cargo_output(&[
+        let printed = cargo_output(&[
             "build",
             "--locked",
             "--package",
@@ -26,7 +27,9 @@ fn library() -> &'static Path {
             "json-render-diagnostics",
         ])
         .unwrap();
-        let messages = told.lines().map(|line| serde_json::from_str(line).unwrap());
+        let messages = printed
+            .lines()
+            .map(|line| serde_json::from_str(line).unwrap());
         let files = messages.flat_map(|message: serde_json::Value| {
             let files = message["filenames"].as_array().cloned().unwrap_or_default();
             files
@@ -38,7 +41,7 @@ fn library() -> &'static Path {
     })
 }
 
-/// The FMU of a case in `folder`, with these dampers outside.
+/// Exports the FMU of a case into `folder`, with these dampers outside.
 fn export(folder: &Path, fmi: &str, case: &str, outside: &[&str]) {
     let mut line = vec!["export", "--fmi", fmi, "--case", case, "--output", "it.fmu"];
     let library = library().to_str().unwrap();
@@ -49,7 +52,7 @@ fn export(folder: &Path, fmi: &str, case: &str, outside: &[&str]) {
     dashpot(&line, folder).success();
 }
 
-/// Columns of a CSV file by their names.
+/// Columns of a CSV file by name.
 fn columns(path: &Path) -> Vec<(String, Vec<u64>)> {
     let mut rows = csv::Reader::from_path(path).unwrap();
     let names = rows.headers().unwrap().clone();
@@ -65,7 +68,7 @@ fn columns(path: &Path) -> Vec<(String, Vec<u64>)> {
     columns
 }
 
-/// The commands of the page, in a folder where `cargo` has built what it is asked for.
+/// Runs the commands of the page in a folder where `cargo` has already built everything.
 #[test]
 fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
     let Some(python) = have_packages("FMUs of a vehicle and a damper coupled by FMPy") else {
@@ -94,10 +97,10 @@ fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
             .env("PATH", &path)
             .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"));
         let output = shell.output().unwrap();
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{line}: {told}");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{line}: {message}");
     };
-    // Those of the block of Python have no words of a command.
+    // Lines of the Python block are not commands.
     for line in lines.filter(|line| {
         ["cargo ", "dashpot ", "fmpy ", "python3 "]
             .iter()
@@ -105,7 +108,7 @@ fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
     }) {
         run(line);
     }
-    // The motion of the page, and its forces beside those of the command.
+    // The motion of the page, and its forces compared with those of the command.
     let blocks = blocks(&page);
     let block = blocks.iter().find(|block| block.language == "python");
     let script = format!(
@@ -145,13 +148,13 @@ fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
         assert_eq!(bits, expected, "{name}");
         compared += 1;
     }
-    // All but the time.
+    // All columns except the time.
     assert_eq!(compared, history.len() - 1);
     assert_eq!(history[0].1.len(), 5000);
 }
 
-/// Both versions have the same numbers, the rate of the displacement is that of its last step, and a run ends where the vehicle leaves the
-/// rails; the rest is FMPy's to judge.
+/// Both versions give the same values, the velocity is the rate of displacement over the last step, and a run ends when
+/// the vehicle leaves the rails. FMPy checks the rest.
 #[test]
 fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     let Some(python) = have_packages("FMUs of a vehicle by FMPy") else {
@@ -160,7 +163,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let text = "name = \"too fast\"\nvehicle = \"locomotive\"\ntrack = \"curve-r200\"\nspeed_km_h = 200\nduration_s = 5.0003\n";
     fs::write(folder.path().join("fast.toml"), text).unwrap();
-    let mut told = Vec::new();
+    let mut outputs = Vec::new();
     for fmi in ["2", "3"] {
         let outside = ["front lateral damper 1", "rear vertical damper 2"];
         export(folder.path(), fmi, "fast.toml", &outside);
@@ -171,17 +174,17 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
         let output = judge.current_dir(folder.path()).output().unwrap();
         let text = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "FMI {fmi}: {text}");
-        told.push(String::from_utf8(output.stdout).unwrap());
+        outputs.push(String::from_utf8(output.stdout).unwrap());
     }
     for line in [
         "case.json b' ' case.json: not the case that this FMU was exported with\n",
         ".tables b' ' : damaged, or tables of another version\n",
         ".tables None : No such file or directory",
     ] {
-        assert!(told[0].contains(line), "{line} in {}", told[0]);
+        assert!(outputs[0].contains(line), "{line} in {}", outputs[0]);
     }
-    assert_eq!(told[0], told[1]);
-    // Without these dampers the command says the same of its own.
+    assert_eq!(outputs[0], outputs[1]);
+    // Without dampers outside, the command gives the same result.
     fs::write(
         folder.path().join("none.csv"),
         "time_s,force_n\n0,0\n10,0\n",
@@ -202,7 +205,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     )
     .code(1);
     let error = error_of(&run);
-    let time_s = told[0]
+    let time_s = outputs[0]
         .split_once("ended at ")
         .unwrap()
         .1
@@ -212,22 +215,22 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     assert!(
         error.contains(&format!("overturned to the left at {time_s} s")),
         "{error} {}",
-        told[0]
+        outputs[0]
     );
 }
 
 #[test]
-fn what_is_no_vehicle_around_a_damper_is_refused() {
+fn invalid_vehicle_exports_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("it.a"), "no library").unwrap();
-    // Names that differ in what no name of a variable has.
+    // Names that differ only in characters that variable names cannot have.
     let vehicle = fs::read_to_string(source("../data/vehicles/locomotive.toml")).unwrap();
     let vehicle = vehicle.replace("\"front lateral damper\"", "\"Dämpfer\"");
     let vehicle = vehicle.replace("\"rear lateral damper\"", "\"Dümpfer\"");
     fs::write(folder.path().join("vehicle.toml"), vehicle).unwrap();
     let text = "name = \"own\"\nvehicle = \"vehicle.toml\"\ntrack = \"ideal\"\nspeed_km_h = 100\n";
     fs::write(folder.path().join("own.toml"), text).unwrap();
-    // `@` stands for the words of a damper outside that there is.
+    // `@` is replaced by the options for an existing damper outside.
     let one = "--outside front_lateral_damper_1";
     for (code, words, expected) in [
         (
@@ -268,12 +271,12 @@ fn what_is_no_vehicle_around_a_damper_is_refused() {
         (
             1,
             "--fmi 3 --case own.toml --outside Dämpfer_1 --library it.a",
-            "two signals are called D_mpfer_1_displacement_m, allowed: names that differ in letters A to Z and digits",
+            "two signals are called D_mpfer_1_displacement_m; allowed: names that differ in letters A to Z and digits",
         ),
         (
             1,
             "--fmi 3 --case straight-180 @ @ --library it.a",
-            "the damper is given twice, allowed: once",
+            "the damper is given twice; allowed: once",
         ),
         (
             1,
@@ -291,9 +294,9 @@ fn what_is_no_vehicle_around_a_damper_is_refused() {
 }
 
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
-/// What a library of Rust brings with it is hidden from programs that load several.
+/// Symbols of the Rust runtime are hidden, because programs may load several such libraries.
 #[test]
-fn only_functions_of_the_interface_are_seen() {
+fn only_functions_of_the_interface_are_visible() {
     let folder = tempfile::tempdir().unwrap();
     export(
         folder.path(),

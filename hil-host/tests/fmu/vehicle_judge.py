@@ -1,4 +1,4 @@
-"""What FMPy finds of the FMU of a vehicle: problems of its description, a run to its end, calls that are refused.
+"""Checks the FMU of a vehicle with FMPy: problems in its description, a complete run, and rejected calls.
 
     python3 vehicle_judge.py FMU
 """
@@ -45,7 +45,7 @@ def main():
 
 
 def states(path):
-    """A state that is got, serialized, deserialized and set goes on with the same bits."""
+    """A state that is read, serialized, deserialized and restored continues with the same bits."""
     folder = fmpy.extract(path)
     description = fmpy.read_model_description(folder)
     references = {v.name: v.valueReference for v in description.modelVariables}
@@ -85,7 +85,7 @@ def states(path):
 
 
 def refusals(path):
-    """Resources that are not those of the export make no instance; nothing is written there."""
+    """With resources of another export no instance is created, and nothing is written there."""
     for name, change in (("case.json", b" "), (".tables", b" "), (".tables", None)):
         folder = fmpy.extract(path)
         resources = pathlib.Path(folder, "resources")
@@ -99,20 +99,20 @@ def refusals(path):
         try:
             fmpy.simulate_fmu(folder, stop_time=0.01, logger=lambda *told: messages.append(told[-1].decode()))
             sys.exit(f"{name} {change}: an instance")
-        except Exception:  # FMPy has a class for each version
+        except Exception:  # FMPy has one exception class per version
             print(name, change, messages[0].rsplit("/", 1)[-1].split(".tables")[-1])
         assert sorted(file.name for file in resources.iterdir()) == before
         shutil.rmtree(folder)
 
 
 def run(path, value, name=FORCE):
-    """The body's displacement after half a second with a start value, or what is told of it."""
+    """Displacement of the body after half a second with a start value, or the message about an error."""
     try:
         result = fmpy.simulate_fmu(
             path, stop_time=0.5, start_values={name: value}, output=["body_lateral_m"], output_interval=1e-3
         )
         return result["body_lateral_m"][-1]
-    except Exception as error:  # FMPy has a class for each version
+    except Exception as error:  # FMPy has one exception class per version
         return str(error).split(" ", 1)[1]
 
 

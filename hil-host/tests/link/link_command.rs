@@ -1,4 +1,4 @@
-//! `dashpot link`: a target on the desk asked, changed and driven by hand.
+//! `dashpot link`: queries, changes and manual control of a simulated target.
 
 use predicates::str::contains;
 use serde_json::json;
@@ -36,7 +36,7 @@ fn status_is_reported_by_name_and_cleared() {
     let rig = Rig::new();
     assert_eq!(rig.text(&["status"]).matches("none").count(), 3);
     rig.text(&["run", "--displacement-m", "0"]);
-    // The second damper is asked for 15 mm within a tick.
+    // The second damper is commanded to move 15 mm within one tick.
     rig.text(&["displace", "--displacement-m", "0,0.015,0"]);
     rig.text(&["stop"]);
     let latched = rig.json(&["status"]);
@@ -63,7 +63,7 @@ fn counters_and_outputs_are_reported() {
     let rig = Rig::new();
     rig.error(&["stop"], 1);
     let counters = rig.json(&["counters"]);
-    // Two hellos; the counters' own request is not counted yet.
+    // Two hellos; the request for the counters is not counted yet.
     assert_eq!(
         (&counters["accepted"], &counters["refused"]),
         (&json!(2), &json!(1))
@@ -108,7 +108,7 @@ fn the_tick_runs_stops_and_says_when_it_cannot() {
     );
     let driven = rig.json(&["displace", "--displacement-m", "0.01"]);
     assert_eq!(driven["displacements_m"], json!([0.01, 0.01, 0.01]));
-    // Two requests of the refused run, two of this.
+    // Two requests of the rejected run, two of this one.
     assert_eq!(driven["tick"], 4 * TICKS);
     let error = rig.error(&["displace", "--displacement-m", "0,1"], 2);
     assert!(
@@ -149,7 +149,7 @@ fn a_lost_link_makes_the_outputs_safe_until_run() {
 }
 
 #[test]
-fn wrong_use_is_refused_before_the_target_is_asked() {
+fn wrong_use_is_refused_before_the_target_is_contacted() {
     let folder = tempfile::tempdir().unwrap();
     for (action, part) in [
         (&[][..], "Usage"),
@@ -204,7 +204,7 @@ fn wrong_use_is_refused_before_the_target_is_asked() {
         (&["restore"], "--input <FILE>"),
         (&["watch", "--samples", "0"], "0 is not in 1.."),
     ] {
-        // Nobody listens at this port.
+        // No process listens on this port.
         let line = ["link", "--link", "tcp:localhost:1"];
         let output = dashpot(&[&line[..], action].concat(), folder.path()).code(2);
         let error = error_of(&output);
@@ -216,7 +216,7 @@ fn wrong_use_is_refused_before_the_target_is_asked() {
 }
 
 #[test]
-fn a_target_that_is_not_there_is_a_failure() {
+fn an_absent_target_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
     dashpot(
         &["link", "--link", "tcp:localhost:1", "hello"],

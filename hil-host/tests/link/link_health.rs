@@ -1,4 +1,4 @@
-//! `dashpot link health`: a model loaded, a measurement fed, the reading of the desk's own estimator.
+//! `dashpot link health`: loads a model, feeds a measurement, and compares the reading with the host's own estimator.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::link_common::Rig;
 
-/// Displacement and force of an in-service damper over the ride to and fro, as its rows write them, and the rows.
+/// Displacement and force of an in-service damper over the ride forth and back, as written to its rows, and the rows.
 fn measurement(set: &[&str], ticks: usize) -> (Vec<(f64, f64)>, String) {
     let set: Vec<String> = set.iter().map(|set| (*set).to_owned()).collect();
     let parameters = damper::load("in-service", &set).unwrap();
@@ -34,16 +34,17 @@ fn model(name: &str) -> HealthModel {
     parameters.health_model(&settings, 1e-3).unwrap()
 }
 
-/// What the command tells of a reading, to the bit.
-fn told(reading: &HealthReading, time_s: Option<f64>) -> Value {
-    // The shortest digits of a number in single precision, as JSON has them.
+/// Reading printed by the command, with all bits.
+fn expected_reading(reading: &HealthReading, time_s: Option<f64>) -> Value {
+    // JSON has the shortest digits of a number in single precision.
     let number = |number: f32| -> Value {
         serde_json::from_str(&serde_json::to_string(&number).unwrap()).unwrap()
     };
-    let estimate = |of: Estimate| json!({"value": number(of.value), "sd": number(of.sd)});
+    let estimate =
+        |estimate: Estimate| json!({"value": number(estimate.value), "sd": number(estimate.sd)});
     let names = reading.status.iter_names();
     let status: Vec<String> = names.map(|(name, _)| name.to_lowercase()).collect();
-    let mut told = json!({
+    let mut expected_reading = json!({
         "flow_factor": estimate(reading.flow_factor),
         "damping_factor": estimate(reading.damping_factor()),
         "stiffness_n_per_m": estimate(reading.stiffness_n_per_m),
@@ -58,9 +59,9 @@ fn told(reading: &HealthReading, time_s: Option<f64>) -> Value {
         "status": status,
     });
     if let Some(time_s) = time_s {
-        told["time_s"] = json!(time_s);
+        expected_reading["time_s"] = json!(time_s);
     }
-    told
+    expected_reading
 }
 
 const MODEL: [&str; 8] = [
@@ -94,28 +95,28 @@ fn a_measurement_gives_the_desks_readings() {
     assert_eq!(history.readings.len(), times_s.len());
     let pairs = history.readings.iter().zip(times_s);
     let expected: Vec<Value> = pairs
-        .map(|(reading, time_s)| told(&reading.reading, Some(time_s)))
+        .map(|(reading, time_s)| expected_reading(&reading.reading, Some(time_s)))
         .collect();
     assert_eq!(report["readings"], json!(expected));
     assert_eq!(
         (&report["fed"], &report["damper"]),
         (&json!(5001), &json!("in-service"))
     );
-    // The target keeps it, and another measurement goes on with it.
+    // The target keeps the model, so another measurement continues with it.
     let last = history.last().unwrap();
     let now = rig.json(&["health", "--place", "1"]);
-    assert_eq!(now["readings"], json!([told(last, None)]));
+    assert_eq!(now["readings"], json!([expected_reading(last, None)]));
     let more = rig.json(&["health", "--place", "1", "--input", "run.csv"]);
     let twice = samples.iter().chain(&samples).copied();
     let history = watch(&model("in-service"), twice, 100.0);
-    let expected = told(history.last().unwrap(), Some(5.0));
+    let expected = expected_reading(history.last().unwrap(), Some(5.0));
     assert_eq!(more["readings"], json!([expected]));
 }
 
 #[test]
-fn alarms_are_told_in_words_and_cleared() {
+fn alarms_are_reported_in_words_and_cleared() {
     let rig = Rig::new();
-    // A millimetre more than the model's damper has.
+    // The clearance is 1 mm larger than that of the model's damper.
     let (_, rows) = measurement(&["mount.clearance_m=2e-3"], 15_000);
     rig.write("run.csv", rows);
     let feed = ["health", "--input", "run.csv", "--clear"];
@@ -134,7 +135,7 @@ fn alarms_are_told_in_words_and_cleared() {
 }
 
 #[test]
-fn what_cannot_be_done_is_told() {
+fn invalid_requests_are_reported() {
     let rig = Rig::new();
     let none = rig.error(&["health"], 1);
     assert!(none.contains("does not watch this damper"), "{none}");

@@ -1,4 +1,4 @@
-//! `dashpot link load`: dampers and images into places.
+//! `dashpot link load`: loads dampers and images into slots.
 
 use dashpot_core::Damper;
 use dashpot_files::damper;
@@ -8,11 +8,11 @@ use crate::link_common::Rig;
 use crate::pil_common::built;
 
 #[test]
-fn a_damper_goes_where_it_is_not_yet() {
+fn a_damper_is_loaded_into_slots_that_lack_it() {
     let rig = Rig::new();
     let load = ["load", "--damper", "in-service"];
     let revision = built("in-service").revision();
-    // The second place has it from the start.
+    // The second slot has the damper from the start.
     let reported = rig.text(&load);
     assert_eq!(
         reported,
@@ -94,12 +94,12 @@ fn an_image_is_loaded_when_it_fits() {
 }
 
 #[test]
-fn a_place_that_is_not_there_is_wrong_use() {
+fn an_unknown_slot_is_wrong_use() {
     let rig = Rig::new();
     let load = ["load", "--damper", "paper", "--place", "0", "--place", "7"];
     let error = rig.error(&load, 2);
     assert!(error.contains("--place 7: the target has 3 dampers; allowed: 0 to 2"));
-    // Not even the place that is there.
+    // The valid slot is not changed either.
     let revisions = &rig.json(&["hello"])["revisions"];
     assert_eq!(revisions[0], json!(built("reduced-vertical").revision()));
 }

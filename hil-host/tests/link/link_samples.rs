@@ -32,7 +32,7 @@ fn ticks(samples: &[Value]) -> Vec<u64> {
 fn every_damper_has_its_own_samples_of_the_same_ticks() {
     let rig = running();
     rig.text(&["stop"]);
-    // The ticks before the requests of `displace` and `stop`, and no more than are kept.
+    // The ticks before the requests of `displace` and `stop`, limited to the number that is kept.
     let last = u64::from(4 * TICKS);
     let expected: Vec<u64> = (last - 63..=last).collect();
     for place in [1, 0] {
@@ -57,7 +57,7 @@ fn every_damper_has_its_own_samples_of_the_same_ticks() {
         text.contains("slot 2: 64 samples fetched; 16 overwritten"),
         "{text}"
     );
-    // A header, the samples of the third damper, a line for each place.
+    // A header, the samples of the third damper, and one line per slot.
     assert_eq!(text.lines().count(), 1 + 64 + 3);
 }
 
@@ -80,7 +80,7 @@ fn samples_go_to_a_file() {
     assert!(rows.iter().any(|(place, _, x, force, _)| {
         *place == 0 && (*x - 0.002).abs() < 1e-8 && *force > 1.0
     }));
-    // Taken once.
+    // Samples are returned only once.
     let output = rig.output(&["telemetry", "--output", "-"]);
     assert_eq!(
         output.get_output().stdout,
@@ -122,7 +122,7 @@ fn samples_are_watched_as_they_come() {
     assert_eq!(samples.len(), 200);
     let ticks = ticks(&samples);
     assert!(ticks.is_sorted_by(|a, b| a < b), "{ticks:?}");
-    // 20 ticks pass with each request, whose answer has 8 samples.
+    // 20 ticks pass with each request, and its answer has 8 samples.
     let warnings = error_of(&output);
     assert!(warnings.starts_with("warning: slot 0: "), "{warnings}");
     assert!(warnings.contains("overwritten before they were fetched"));
@@ -136,7 +136,7 @@ fn samples_are_watched_as_they_come() {
 }
 
 #[test]
-fn a_target_that_does_not_run_is_not_watched_for_ever() {
+fn watching_a_stopped_target_ends() {
     let rig = Rig::new();
     let output = rig.output(&["watch"]).code(1);
     let error = error_of(&output);
@@ -152,7 +152,7 @@ fn watch(rig: &Rig) -> Child {
 }
 
 #[test]
-fn a_reader_that_leaves_ends_the_watch() {
+fn closing_the_pipe_ends_the_watch() {
     let rig = running();
     let mut watch = watch(&rig);
     drop(watch.stdout.take());
@@ -170,7 +170,7 @@ fn an_interruption_ends_the_watch() {
     let rig = running();
     let mut watch = watch(&rig);
     let mut lines = BufReader::new(watch.stdout.take().unwrap()).lines();
-    // A header and samples, as they come.
+    // A header and samples, written as they arrive.
     assert_eq!(lines.by_ref().take(100).map(Result::unwrap).count(), 100);
     let id = watch.id().to_string();
     assert!(
@@ -180,7 +180,7 @@ fn an_interruption_ends_the_watch() {
             .unwrap()
             .success()
     );
-    // Lets nothing block the command.
+    // Keeps reading, so that the command does not block.
     lines.for_each(drop);
     assert_eq!(watch.wait().unwrap().signal(), Some(SIGINT));
 }

@@ -6,7 +6,7 @@ use serde_json::json;
 use crate::common::files_in;
 use crate::link_common::Rig;
 
-/// A bank that was moved and stopped.
+/// A bank that has been moved and stopped.
 fn moved() -> Rig {
     let rig = Rig::new();
     rig.text(&["run", "--displacement-m", "0"]);
@@ -16,7 +16,7 @@ fn moved() -> Rig {
 }
 
 #[test]
-fn a_bank_goes_on_from_its_file_to_the_bit() {
+fn a_bank_continues_from_its_file_to_the_bit() {
     let rig = moved();
     let reported = rig.text(&["save", "--output", "a.toml"]);
     assert_eq!(reported, "3 states of tick 80 in a.toml\n");
@@ -75,10 +75,10 @@ fn states_of_other_dampers_are_refused_before_they_are_sent() {
 }
 
 #[test]
-fn a_target_that_says_no_is_reported_in_words() {
+fn a_refusal_of_the_target_is_reported_in_words() {
     let rig = moved();
     rig.text(&["save", "--output", "a.toml"]);
-    // No step leaves such a force behind.
+    // No step produces such a force.
     let text = rig.read("a.toml");
     let start = text.find("force_n = ").unwrap();
     let end = start + text[start..].find('\n').unwrap();
@@ -100,7 +100,7 @@ fn a_target_that_says_no_is_reported_in_words() {
 }
 
 #[test]
-fn a_file_that_is_none_is_reported_where() {
+fn an_invalid_file_is_reported_with_its_location() {
     let rig = moved();
     rig.text(&["save", "--output", "a.toml"]);
     let text = rig.read("a.toml");

@@ -1,4 +1,4 @@
-//! A target over the link: on the desk, behind a port, in an emulator.
+//! Targets on the link: simulated in the test process, behind a TCP port, and in an emulator.
 
 #[path = "../common/mod.rs"]
 mod common;

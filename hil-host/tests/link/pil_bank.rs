@@ -1,4 +1,4 @@
-//! A damper of its own in each place of the target.
+//! A different damper in each slot of the target.
 
 use dashpot_core::Damper;
 use dashpot_hil::commands::failure::{Failure, Kind};
@@ -8,7 +8,7 @@ use dashpot_host_link::{
 
 use crate::pil_common::{RETRY_LIMITS, built, desk, motion, ride};
 
-/// Runs `dampers` and keeps the forces of the target (N), tick by tick.
+/// Runs `dampers`; returns the forces of the target (N), tick by tick.
 fn forces(
     link: impl Link,
     dampers: &[Damper<f32>],
@@ -33,7 +33,7 @@ fn three() -> [Damper<f32>; 3] {
 }
 
 #[test]
-fn place_i_has_damper_i() {
+fn slot_i_has_damper_i() {
     let dampers = three();
     let (report, forces_n) = forces(desk(), &dampers, 600).unwrap();
     assert_eq!(
@@ -55,9 +55,9 @@ fn place_i_has_damper_i() {
     }
 }
 
-/// A dozen different dampers take a dozen requests, so resets at 0.5 % of the frames are survived.
+/// Loading twelve different dampers takes twelve requests, which succeed despite resets at 0.5 % of the frames.
 #[test]
-fn after_a_reset_each_place_has_its_damper_again() {
+fn after_a_reset_each_slot_has_its_damper_again() {
     let dampers: [Damper<f32>; 12] = std::array::from_fn(|place| {
         let mut damper = three()[place % 3];
         damper.set_clearance_m(1e-4 * place as f32).unwrap();
@@ -72,7 +72,7 @@ fn after_a_reset_each_place_has_its_damper_again() {
 }
 
 #[test]
-fn one_damper_goes_into_every_place() {
+fn one_damper_is_loaded_into_every_slot() {
     let one = forces(desk(), &[built("paper")], 300).unwrap();
     let three = forces(
         desk(),
@@ -97,7 +97,7 @@ fn another_number_of_dampers_is_refused_before_the_target_is_touched() {
                 "--damper: {count} dampers, the target has 3 places; allowed: 1, for all places, or 3, one for each"
             )
         );
-        // Hello alone.
+        // Only the hello is sent.
         assert_eq!(session.link().device().counters().accepted, 1);
     }
 }

@@ -1,4 +1,4 @@
-//! A target's bank a tick at a time.
+//! Runs a target's bank one tick at a time.
 
 use dashpot_core::Damper;
 use dashpot_host_link::{Bank, Client, FaultyLink, Session, SessionError};
@@ -7,7 +7,7 @@ use crate::pil_common::{RETRY_LIMITS, built, desk, ride};
 
 const TICKS: usize = 300;
 
-/// Forces of two dampers, the second with the opposite motion, over a link with faults.
+/// Forces of two dampers, the second with the opposite motion, over a faulty link.
 fn through(rates: &str) -> (Vec<[f32; 2]>, u64) {
     let link = FaultyLink::new(desk(), rates.parse().unwrap(), 3).unwrap();
     let session = Session::open(Client::new(link, RETRY_LIMITS, 1)).unwrap();
@@ -42,7 +42,7 @@ fn its_forces_are_those_of_the_dampers_from_rest() {
 }
 
 #[test]
-fn a_target_that_was_reset_goes_on_with_the_same_bits() {
+fn after_a_reset_the_run_continues_with_the_same_bits() {
     let (expected, _) = through("drop=0");
     let (found, recoveries) = through("drop=0.02,corrupt=0.02,reset=0.02");
     assert!(recoveries > 0);
@@ -50,7 +50,7 @@ fn a_target_that_was_reset_goes_on_with_the_same_bits() {
 }
 
 #[test]
-fn no_damper_and_more_than_places_are_refused() {
+fn zero_dampers_and_more_than_slots_are_refused() {
     let started = |dampers: &[Damper<f32>]| {
         let session = Session::open(Client::new(desk(), RETRY_LIMITS, 1)).unwrap();
         Bank::start(session, dampers).map(|_| ())

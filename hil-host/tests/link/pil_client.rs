@@ -1,4 +1,4 @@
-//! The host's end of the link: how long it waits, its session numbers, and refusals in words.
+//! The host's end of the link: timeouts, session numbers, and refusals in words.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -10,7 +10,7 @@ use dashpot_host_link::{Client, Desk, Link, LinkError, RetryLimits};
 
 use crate::pil_common::{RETRY_LIMITS, desk};
 
-/// Nobody: tells how long it was to wait since it was made.
+/// Peer that never answers; records how long the host waits.
 struct Nobody(Instant, Rc<RefCell<Vec<Duration>>>);
 
 impl Link for Nobody {
@@ -35,7 +35,7 @@ fn the_wait_allows_for_the_time_a_long_frame_takes() {
     let image = &[0; Damper::<f32>::IMAGE_BYTES];
     let silent = client.request(&Request::Load { damper: 0, image });
     assert!(matches!(silent, Err(LinkError::Silent { limits, .. }) if limits == once));
-    // At 115200 bit/s a bridge is busy with these bytes for 0.58 s.
+    // At 115200 bit/s, a bridge needs 0.58 s for these bytes.
     let busy = Duration::from_secs_f64(image.len() as f64 * 10.0 / 115_200.0);
     let [wait] = waits.borrow()[..] else {
         panic!("one try, one wait")
@@ -43,7 +43,7 @@ fn the_wait_allows_for_the_time_a_long_frame_takes() {
     assert!(wait >= once.timeout + busy, "{wait:?}");
 }
 
-/// A desk that several clients reach.
+/// A simulated target that several clients can reach.
 #[derive(Clone)]
 struct Shared(Rc<RefCell<Desk<3>>>);
 
@@ -58,7 +58,7 @@ impl Link for Shared {
 }
 
 #[test]
-fn a_session_number_that_is_open_is_passed_over() {
+fn a_session_number_in_use_is_skipped() {
     let desk = Shared(Rc::new(RefCell::new(desk())));
     let mut first = Client::new(desk.clone(), RETRY_LIMITS, u16::MAX);
     first.hello().unwrap();
@@ -66,7 +66,7 @@ fn a_session_number_that_is_open_is_passed_over() {
     let mut second = Client::new(desk, RETRY_LIMITS, u16::MAX);
     second.hello().unwrap();
     second.request(&Request::Status).unwrap();
-    // The first has lost its session to the second, and takes the target back.
+    // The first client has lost its session to the second, and takes the target back.
     let lost = first.request(&Request::Status);
     assert!(matches!(lost, Err(LinkError::SessionLost)));
     let reported = LinkError::SessionLost.to_string();

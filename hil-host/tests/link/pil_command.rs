@@ -1,4 +1,4 @@
-//! `dashpot pil` against a target on the desk behind a TCP port: its files and its refusals.
+//! `dashpot pil` against a simulated target behind a TCP port: output files and errors.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use dashpot_core::link::Response;
 use dashpot_host_link::Link;
 use predicates::str::contains;
 
-use crate::common::{dashpot, files_in, json_beside, json_of, text_of};
+use crate::common::{dashpot, files_in, json_of, json_on_stderr, text_of};
 use crate::pil_common::{altered, desk, serve_tcp};
 
-/// Half a second to and fro with a gap at the end: 601 ticks.
+/// Half a second of motion forth and back with a gap at the end: 601 ticks.
 const TICKS: usize = 601;
 
 fn recording(folder: &Path) {
@@ -30,7 +30,7 @@ fn pil_with(
 ) -> Assert {
     recording(folder);
     let link = format!("tcp:{}", serve_tcp(target));
-    // On a busy machine an answer may take long; it always comes.
+    // On a busy machine an answer may be slow, but it always arrives.
     let wait = ["--timeout-ms", "60000"];
     let arguments = [
         &["pil", "--link", &link, "--input", "in.csv"],
@@ -92,14 +92,14 @@ fn the_output_has_a_row_for_each_tick() {
         assert!((time_s - (2.0 + index as f64 * 1e-3)).abs() < 1e-9);
         for place in 0..3 {
             let columns = &row[2 + 4 * place..];
-            // Place i is i ticks behind.
+            // Slot i is i ticks behind.
             assert_eq!(columns[0], rows[index.saturating_sub(place)][2]);
             assert_eq!(columns[1], columns[2]);
         }
         assert!(row[15].parse::<u64>().unwrap() > 0);
         assert_eq!(row[16], "");
     }
-    // Dampers of their own.
+    // Different dampers.
     assert!(
         rows.iter()
             .any(|row| row[3] != "0.0" && row[7] != row[3] && row[11] != row[7])
@@ -109,14 +109,14 @@ fn the_output_has_a_row_for_each_tick() {
 #[test]
 fn events_are_named_in_their_rows() {
     let folder = tempfile::tempdir().unwrap();
-    // The one fault that lets nobody wait.
+    // The only fault that does not involve a timeout.
     let faults = ["--faults", "duplicate=0.05"];
     let output = pil(
         &[&faults[..], &["--output", "-", "--format", "json"]].concat(),
         folder.path(),
     )
     .success();
-    let report = json_beside(&output);
+    let report = json_on_stderr(&output);
     let rows = rows(&text_of(&output));
     assert_eq!(rows.len(), TICKS);
     let named = rows.iter().filter(|row| row[16] == "duplicate").count() as u64;
@@ -126,7 +126,7 @@ fn events_are_named_in_their_rows() {
 }
 
 #[test]
-fn the_page_shows_each_place_and_the_results() {
+fn the_page_shows_each_slot_and_the_results() {
     let folder = tempfile::tempdir().unwrap();
     let options = [&THREE[..], &["--page", "run.html", "--format", "json"]].concat();
     let output = pil(&options, folder.path()).success();
@@ -144,7 +144,7 @@ fn the_page_shows_each_place_and_the_results() {
     {
         assert!(page.contains(&format!("<h3>Slot {place}: {damper}</h3>")));
     }
-    // Forces of three places, clock ticks how often and over time, and round trip.
+    // Forces of three slots, clock ticks as a histogram and over time, and round trip times.
     assert_eq!(page.matches("class=\"plot\"").count(), 6);
     assert_eq!(
         page.matches("Every force is bit-identical to that of the host.")
@@ -161,7 +161,7 @@ fn a_paced_run_reports_missed_deadlines() {
         "--paced", "--ticks", "30", "--output", "-", "--page", "run.html", "--format", "json",
     ];
     let output = pil(&options, folder.path()).success();
-    let report = json_beside(&output);
+    let report = json_on_stderr(&output);
     let missed = report["pacing"]["missed_deadlines"].as_u64().unwrap();
     assert_eq!(report["pacing"]["response"]["count"], 30);
     let late = rows(&text_of(&output))
@@ -209,7 +209,7 @@ fn a_force_that_differs_fails_the_command_and_is_shown() {
 }
 
 #[test]
-fn another_number_of_dampers_than_places_is_wrong_use() {
+fn a_wrong_number_of_dampers_is_wrong_use() {
     let folder = tempfile::tempdir().unwrap();
     let files = ["--output", "out.csv", "--page", "run.html"];
     pil(&[&THREE[..4], &files].concat(), folder.path())
@@ -221,7 +221,7 @@ fn another_number_of_dampers_than_places_is_wrong_use() {
 }
 
 #[test]
-fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
+fn impossible_files_are_refused_before_the_target_is_contacted() {
     for (options, code, part) in [
         (
             &["--page", "none/run.html"][..],
@@ -266,7 +266,7 @@ fn files_that_cannot_be_are_refused_before_the_target_is_asked() {
     ] {
         let folder = tempfile::tempdir().unwrap();
         recording(folder.path());
-        // Nobody listens at this port.
+        // No process listens on this port.
         let command = ["pil", "--link", "tcp:localhost:1", "--input", "in.csv"];
         dashpot(&[&command[..], options].concat(), folder.path())
             .code(code)

@@ -1,4 +1,4 @@
-//! `dashpot pil` that is interrupted leaves neither its emulator nor a file behind.
+//! An interrupted `dashpot pil` leaves neither its emulator nor a file behind.
 #![cfg(target_os = "linux")]
 
 use std::fs::File;
@@ -18,7 +18,7 @@ fn make_pipe(path: &Path) {
     assert!(made.unwrap().success());
 }
 
-/// Sends SIGTERM and waits until the process has ended by it.
+/// Sends SIGTERM and waits until it has ended the process.
 fn terminate(child: &mut Child) {
     let id = child.id().to_string();
     let sent = Command::new("kill").args(["-TERM", &id]).status();
@@ -26,8 +26,8 @@ fn terminate(child: &mut Child) {
     assert_eq!(child.wait().unwrap().signal(), Some(SIGTERM));
 }
 
-/// An emulator that never opens its serial line: it tells that it lives, waits for a line from its owner,
-/// and tells that it outlived the command if that line finds it.
+/// Emulator that never opens its serial line: it announces that it is running, waits for a line from its parent, and
+/// reports if it outlives the command.
 const EMULATOR: &str =
     "#!/bin/sh\nexec 3>alive\necho started >&3\nread line <wait\necho outlived >&3\n";
 
@@ -45,7 +45,7 @@ fn the_emulator_ends_with_the_command() {
     std::fs::write(at("in.csv"), "time_s,displacement_m\n0,0\n1,0\n").unwrap();
     make_pipe(&at("alive"));
     make_pipe(&at("wait"));
-    // Open both ways, so that no opening waits for the other end.
+    // Opened for reading and writing, so that opening does not wait for the other end.
     let mut wait = File::options()
         .read(true)
         .write(true)
@@ -64,14 +64,14 @@ fn the_emulator_ends_with_the_command() {
     assert_eq!(&reported, b"started\n");
     terminate(&mut command);
     wait.write_all(b"\n").unwrap();
-    // Ends when nobody is left to write.
+    // Ends when all writers have closed the pipe.
     let mut rest = String::new();
     alive.read_to_string(&mut rest).unwrap();
     assert_eq!(rest, "");
 }
 
 #[test]
-fn no_file_is_left_half_written() {
+fn no_partial_file_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     make_pipe(&at("in.csv"));
@@ -83,7 +83,7 @@ fn no_file_is_left_half_written() {
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
-    // Stays open: once its files are begun the command waits for more rows.
+    // The pipe stays open: once its output files exist, the command waits for more rows.
     let mut pipe = File::options().write(true).open(at("in.csv")).unwrap();
     pipe.write_all(b"time_s,displacement_m\n0,0\n0.1,0\n")
         .unwrap();

@@ -10,7 +10,7 @@ use dashpot_realtime::pacing::{Clock, Pacer};
 
 use crate::pil_common::{RETRY_LIMITS, built, desk, motion};
 
-/// Time moves by sleeping and by hand.
+/// Clock that advances by sleeping and by explicit steps.
 #[derive(Clone, Default)]
 struct SimulatedClock(Rc<Cell<u64>>);
 
@@ -23,11 +23,11 @@ impl Clock for SimulatedClock {
     }
 }
 
-/// A desk that takes 300 us for each step, 1.9 ms for step 5.
+/// Simulated target that takes 300 us per step, and 1.9 ms for step 5.
 struct Slow {
     desk: Desk<3>,
     clock: SimulatedClock,
-    /// When each step was sent (ns).
+    /// Time at which each step was sent (ns).
     sent_ns: Rc<std::cell::RefCell<Vec<u64>>>,
 }
 
@@ -90,8 +90,8 @@ fn run(pace: impl FnOnce(SimulatedClock) -> Pace<SimulatedClock>) -> Ran {
 #[test]
 fn a_tick_is_sent_when_due_and_late_when_answered_after_the_next_was_due() {
     let ran = run(|clock| Pace::Paced(Box::new(Pacer::with_clock(1e-3, clock).unwrap())));
-    // Step 5 is sent at 5 ms and answered at 6.9 ms: step 6, due at 6 ms, follows at once and is answered
-    // at 7.2 ms, after step 7 was due, which is answered at 7.5 ms, in time.
+    // Step 5 is sent at 5 ms and answered at 6.9 ms. Step 6, due at 6 ms, follows at once and is answered at 7.2 ms,
+    // after step 7 was due; step 7 is answered at 7.5 ms, in time.
     let sent_us: Vec<u64> = ran.sent_ns.iter().map(|ns| ns / 1000).collect();
     assert_eq!(
         sent_us,

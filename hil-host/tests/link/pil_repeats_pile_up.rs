@@ -1,6 +1,6 @@
-//! On a slow line or a busy machine `dashpot pil` gave up a target that answered every request: it repeated requests
-//! before their answers could arrive, the target answered each repeat too, and so every request waited for more
-//! repeats than the one before.
+//! Regression: on a slow line or a busy machine, `dashpot pil` gave up a target that answered every request. It
+//! repeated requests before their answers could arrive, and the target answered each repeat, so that every request
+//! waited for more repeats than the one before.
 
 use std::collections::VecDeque;
 use std::net::{Ipv4Addr, TcpListener};
@@ -14,8 +14,8 @@ use dashpot_host_link::{
 use crate::common::{dashpot, error_of};
 use crate::pil_common::{built, motion};
 
-/// The firmware's device behind a slow line, in a time of its own: it takes one byte in each `byte_time`, as an
-/// emulator on a busy machine does, and its answers are under way for `latency`.
+/// The firmware's device behind a slow line, on simulated time: it takes one byte per `byte_time`, like an emulator on
+/// a busy machine, and its answers travel for `latency`.
 struct SlowLine {
     device: Box<Device<3, 3>>,
     start: Instant,
@@ -26,7 +26,7 @@ struct SlowLine {
     to_host: VecDeque<(Duration, u8)>,
 }
 
-/// What the device has of the line in one pass of its loop.
+/// State of the line during one pass of the device's loop.
 struct Pass<'a> {
     byte: Option<u8>,
     arrives: Duration,
@@ -70,7 +70,7 @@ impl SlowLine {
     /// One pass of the firmware's loop.
     fn pass(&mut self) {
         self.elapsed += self.byte_time;
-        // A byte waits on the line while the device sends; while it loads, it takes none.
+        // While the device sends, a byte waits on the line; while it loads, it reads none.
         let takes = !self.device.is_sending() && !self.device.is_busy();
         let byte = takes.then(|| self.to_device.pop_front()).flatten();
         let mut line = Pass {
@@ -123,13 +123,13 @@ fn drive(byte_time: Duration, latency: Duration) -> Result<(Report, Duration), S
 #[test]
 fn a_slow_target_is_waited_for_and_repeats_do_not_pile_up() {
     for (byte_us, latency_ms, most_repeats) in [
-        // A tenth of the speed that the first wait allows for, then slower than it.
+        // First a tenth of the speed that the first timeout allows for, then even slower.
         (10, 0, 0),
         (90, 0, 0),
         (200, 0, 6),
         (400, 0, 12),
         (800, 0, 20),
-        // Longer than the first wait of 200 ms.
+        // Longer than the first timeout of 200 ms.
         (10, 505, 40),
         (90, 505, 40),
         (10, 1500, 60),
@@ -152,7 +152,7 @@ fn a_slow_target_is_waited_for_and_repeats_do_not_pile_up() {
     }
 }
 
-/// What can be done is in the error: a port where nobody answers.
+/// The error contains the remedy: nothing answers on the port.
 #[test]
 fn a_silent_target_names_the_options() {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();

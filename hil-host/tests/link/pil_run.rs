@@ -1,4 +1,4 @@
-//! The host's end of the link against the firmware's device on the desk, through every kind of fault.
+//! The host's end of the link against the firmware's device in the test process, with every kind of fault.
 
 use std::time::Duration;
 
@@ -40,13 +40,13 @@ fn without_faults_every_force_has_the_hosts_bits() {
     assert_eq!((report.recoveries, made), (0, FaultCounts::default()));
     assert_eq!(report.link_faults, Default::default());
     assert_eq!(report.target_counters.corrupt, 0);
-    // Hello twice, restore, a load for each damper, the steps, save.
+    // Two hellos, restore, one load per damper, the steps, save.
     assert_eq!(report.target_counters.accepted, 3 + 3 + 1000 + 1);
     assert_eq!(report.round_trip.count, 1000);
 }
 
 #[test]
-fn after_any_fault_the_run_goes_on_to_the_bit() {
+fn after_any_fault_the_run_continues_to_the_bit() {
     for (kind, count) in [
         ("drop", (|c| c.dropped) as fn(&FaultCounts) -> u64),
         ("corrupt", |c| c.corrupted),
@@ -64,14 +64,14 @@ fn after_any_fault_the_run_goes_on_to_the_bit() {
             assert!(report.recoveries > 0);
         } else {
             assert_eq!(report.recoveries, 0, "{kind}");
-            // Every tick was stepped once, whatever was sent twice.
+            // Each tick was stepped exactly once, however often it was sent.
             assert!(report.target_counters.accepted >= 1000);
         }
     }
 }
 
 #[test]
-fn every_tick_tells_what_happened_in_it() {
+fn every_tick_reports_its_events() {
     let rates: FaultRates =
         "drop=0.02,corrupt=0.02,delay=0.02,duplicate=0.02,reorder=0.02,reset=0.002"
             .parse()
@@ -115,7 +115,7 @@ fn every_tick_tells_what_happened_in_it() {
 }
 
 #[test]
-fn all_faults_together_and_the_same_for_the_same_seed() {
+fn all_faults_together_are_survived_and_repeatable() {
     let all = "drop=0.03,corrupt=0.03,delay=0.03,duplicate=0.03,reorder=0.03,reset=0.001";
     for seed in 1..6 {
         let (report, made) = drive(all, seed);
@@ -195,7 +195,7 @@ fn a_target_that_cannot_be_compared_is_refused() {
 
 #[test]
 fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
-    // 49 answers: two to hello, three to load, restore, the rest steps.
+    // 49 answers: two to hello, three to load, one to restore, the rest to steps.
     let last = 49 - 2 - 3 - 1;
     let mut left = 50;
     let silent = report_of(altered(

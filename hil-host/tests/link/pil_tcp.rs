@@ -1,4 +1,4 @@
-//! A TCP link to a peer that delays small packets until the last is acknowledged (Nagle).
+//! TCP link to a peer that delays small packets until the previous one is acknowledged (Nagle).
 #![cfg(target_os = "linux")]
 
 use std::io::Write;
@@ -9,14 +9,14 @@ use dashpot_host_link::{Link, Tcp};
 use rustix::net::sockopt::{set_tcp_quickack, tcp_quickack};
 
 #[test]
-fn what_was_received_is_acknowledged_at_once() {
+fn received_data_is_acknowledged_at_once() {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
     let stream = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
     let (mut peer, _) = listener.accept().unwrap();
     let same = stream.try_clone().unwrap();
     let mut link = Tcp::over(stream, "peer".into()).unwrap();
     for _ in 0..3 {
-        // As the system leaves it once answers have carried acknowledgements.
+        // State of the system's socket after answers have carried acknowledgements.
         set_tcp_quickack(&same, false).unwrap();
         peer.write_all(b"x").unwrap();
         let received = link.receive(&mut [0; 8], Duration::from_secs(300));

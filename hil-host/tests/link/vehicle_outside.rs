@@ -1,4 +1,4 @@
-//! `dashpot vehicle --outside`: dampers on a target on the desk, or as recorded forces.
+//! `dashpot vehicle --outside`: dampers on a simulated target, or recorded forces.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ use crate::pil_common::{altered, desk, serve_tcp};
 const LATERAL: &str = "front lateral damper 1";
 const VERTICAL: &str = "front vertical damper 2";
 
-/// A short run of the locomotive on straight track, with `options`.
+/// Runs the locomotive briefly on straight track, with `options`.
 fn vehicle(options: &[&str], folder: &Path) -> Assert {
     let case = ["vehicle", "--case", "straight-180", "--duration-s", "0.6"];
     let output = ["--output", ".", "--format", "json"];
@@ -45,7 +45,7 @@ fn history(damper: &str, folder: &Path) -> [Vec<f64>; 2] {
         .map(|what| column(&format!("{}_{what}", damper.replace(' ', "_")), folder))
 }
 
-/// The damper of that name, in single precision.
+/// The damper with this name, in single precision.
 fn built(name: &str, step_s: f64) -> Damper<f32> {
     let case = Case::load("straight-180").unwrap();
     let element = case.vehicle.elements.iter().find(|e| e.name == name);
@@ -55,7 +55,7 @@ fn built(name: &str, step_s: f64) -> Damper<f32> {
     parameters.build(step_s).unwrap()
 }
 
-/// Forces of a damper from rest, `steps` for each displacement on a straight line from the one before.
+/// Forces of a damper from rest, with `steps` steps per displacement on a straight line from the one before.
 fn forces(damper: &Damper<f32>, displacements_m: &[f64], steps: u32) -> Vec<f64> {
     let mut state = damper.at_rest(0.0);
     let mut from_m = 0.0;
@@ -114,7 +114,8 @@ fn the_effect_is_the_difference_from_the_run_with_the_damper_inside() {
     let effect = &report["outside"]["effect"];
     let rms =
         |values: &[f64]| (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt();
-    let is_near = |told: &Value, number: f64| (told.as_f64().unwrap() / number - 1.0).abs() < 1e-9;
+    let is_near =
+        |reported: &Value, number: f64| (reported.as_f64().unwrap() / number - 1.0).abs() < 1e-9;
     let difference = |name: &str| -> Vec<f64> {
         let [with, without] = [&with, &without].map(|folder| column(name, folder.path()));
         with.iter().zip(without).map(|(a, b)| a - b).collect()
@@ -183,7 +184,7 @@ fn a_target_whose_step_does_not_divide_the_cases_is_refused() {
 }
 
 #[test]
-fn more_dampers_than_the_target_has_places_are_refused() {
+fn more_dampers_than_slots_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let link = format!("tcp:{}", serve_tcp(|| Box::new(desk())));
     let four = [1, 2, 3, 4].map(|number| format!("front vertical damper {number}={link}"));
@@ -196,7 +197,7 @@ fn more_dampers_than_the_target_has_places_are_refused() {
     ));
 }
 
-/// What becomes of a run whose target changes its answers from tick 250 on.
+/// Result of a run whose target changes its answers from tick 250 on.
 fn lost(change: impl Fn(&mut Response<'_>) + Send + 'static, folder: &Path) -> (String, Value) {
     let target = move || -> Box<dyn Link> {
         Box::new(altered(move |header, mut response, frame| {
@@ -216,7 +217,7 @@ fn lost(change: impl Fn(&mut Response<'_>) + Send + 'static, folder: &Path) -> (
 }
 
 #[test]
-fn a_target_that_is_lost_ends_the_run_where_it_is() {
+fn a_lost_target_ends_the_run_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let (error, report) = lost(|response| *response = Response::Done, folder.path());
     assert!(
@@ -228,12 +229,12 @@ fn a_target_that_is_lost_ends_the_run_where_it_is() {
     assert_eq!(report["ending"]["time_s"], 0.25);
     assert_eq!(report["ticks"], 250);
     assert_eq!(report["outside"]["effect"]["duration_s"], 0.25);
-    // What was computed is kept.
+    // Results computed so far are kept.
     assert_eq!(column("time_s", folder.path()).last(), Some(&0.25));
 }
 
 #[test]
-fn a_force_that_is_no_number_ends_the_run() {
+fn a_nan_force_ends_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let (error, _) = lost(
         |response| {
@@ -249,7 +250,7 @@ fn a_force_that_is_no_number_ends_the_run() {
     );
 }
 
-/// The force of the lateral damper in the history of `folder`, as a recording.
+/// Force of the lateral damper in the history of `folder`, as a recording.
 fn record(folder: &Path) -> String {
     let times_s = column("time_s", folder);
     let [_, forces_n] = history(LATERAL, folder);
@@ -302,7 +303,7 @@ fn between_its_samples_a_recorded_force_is_a_straight_line() {
 }
 
 #[test]
-fn a_recording_that_does_not_last_is_refused() {
+fn too_short_a_recording_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let rows = [
         (
@@ -325,7 +326,7 @@ fn a_recording_that_does_not_last_is_refused() {
 }
 
 #[test]
-fn a_wrong_recording_is_told_with_its_columns() {
+fn a_wrong_recording_is_reported_with_its_columns() {
     let folder = tempfile::tempdir().unwrap();
     let texts = [
         (
@@ -353,7 +354,7 @@ fn a_wrong_recording_is_told_with_its_columns() {
 }
 
 #[test]
-fn wrong_use_is_told() {
+fn wrong_use_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let [one, two] = [outside(LATERAL, "desk"), outside(LATERAL, "force.csv")];
     let uses: [(&[&str], &str); 7] = [
@@ -363,7 +364,7 @@ fn wrong_use_is_told() {
         ),
         (
             &["--outside", &one, "--outside", &two],
-            "the damper is given twice, allowed: once",
+            "the damper is given twice; allowed: once",
         ),
         (
             &["--outside", LATERAL],
@@ -380,7 +381,7 @@ fn wrong_use_is_told() {
         ),
         (
             &["--case", "fault.toml", "--outside", &one],
-            "the case changes this damper at 0.1 s, allowed: dampers without faults",
+            "the case changes this damper at 0.1 s; allowed: dampers without faults",
         ),
     ];
     let fault = "name = \"f\"\nvehicle = \"locomotive\"\ntrack = \"straight\"\nspeed_km_h = 100\n\
@@ -410,11 +411,11 @@ fn a_paced_run_exchanges_within_its_ticks() {
     let realtime = &report["realtime"];
     assert_eq!(realtime["ticks"], 600);
     assert_eq!(realtime["allowed_missed_deadlines"], 0);
-    // How many a loaded machine misses is its own affair; the exit code follows from it.
+    // The number of misses depends on the load of the machine; the exit code follows from it.
     let missed = realtime["missed_deadlines"].as_u64().unwrap();
     ended.code(i32::from(missed > 0));
     assert_eq!(report["outside"]["targets"][0]["round_trip"]["count"], 600);
-    // A tick's work has its exchange.
+    // The work of a tick includes the exchange.
     let figure = |value: &Value| value["mean_ns"].as_f64().unwrap();
     let trip_ns = figure(&report["outside"]["targets"][0]["round_trip"]);
     assert!(figure(&report["realtime"]["work"]) > trip_ns);

@@ -1,4 +1,4 @@
-//! A page in headless Chromium, driven through its WebDriver.
+//! Headless Chromium showing a page, driven through WebDriver.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use tokio::runtime::{Builder, Runtime};
 use xtask::tools::{CHROMEDRIVER, CHROMIUM, have};
 
-/// Notes each text that is written on a canvas, with its font.
+/// Records each text written on a canvas, with its font.
 const LETTERING: &str = "window.lettering = [];
     const write = CanvasRenderingContext2D.prototype.fillText;
     CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {
@@ -21,7 +21,7 @@ const LETTERING: &str = "window.lettering = [];
         write.call(this, text, ...place);
     };";
 
-/// A browser with a page of its own.
+/// Browser with its own page.
 pub struct Browser {
     runtime: Runtime,
     client: Option<Client>,
@@ -30,7 +30,7 @@ pub struct Browser {
 }
 
 impl Browser {
-    /// A browser; none, and said so, where it is not installed.
+    /// Starts a browser; returns `None` with a message if it is not installed.
     pub fn start(skipped: &str) -> Option<Self> {
         if !have(&[CHROMIUM, CHROMEDRIVER], skipped) {
             return None;
@@ -50,7 +50,7 @@ impl Browser {
         });
         let arguments = [
             "--headless".into(),
-            // As on a phone, where they take no width.
+            // Overlay scroll bars, as on a phone, where they take no width.
             "--hide-scrollbars".into(),
             "--no-sandbox".into(),
             "--disable-gpu".into(),
@@ -91,7 +91,7 @@ impl Browser {
         self.client.as_ref().unwrap()
     }
 
-    /// Shows `page` in a window of `width` pixels, as a phone or as a desk has it; returns its address.
+    /// Opens `page` in a window of `width` pixels, like a phone or a desktop; returns its address.
     pub fn open(&self, page: &str, width: u32) -> String {
         self.tell(
             "Emulation.setDeviceMetricsOverride",
@@ -104,20 +104,20 @@ impl Browser {
         address
     }
 
-    /// What the body of a function returns in the page.
+    /// Runs the body of a function in the page and returns its result.
     pub fn find(&self, body: &str) -> Value {
         let found = self.client().execute(body, Vec::new());
         self.runtime.block_on(found).unwrap()
     }
 
-    /// What the body of a function gives in the page to `done`, sooner or later.
+    /// Runs the body of a function in the page and returns the value that it eventually passes to `done`.
     pub fn find_later(&self, body: &str) -> Value {
         let body = format!("const [done] = arguments; {body}");
         let found = self.client().execute_async(&body, Vec::new());
         self.runtime.block_on(found).unwrap()
     }
 
-    /// Waits until an expression is true in the page, looked at each time that the page is drawn.
+    /// Waits until an expression is true in the page; it is evaluated whenever the page is drawn.
     pub fn wait_for(&self, condition: &str) {
         let look = format!(
             "const [done] = arguments;
@@ -129,22 +129,22 @@ impl Browser {
         assert!(found.is_ok(), "never so: {condition}: {found:?}");
     }
 
-    /// Moves the mouse to a part of the width and of the height of the plot with this number.
+    /// Moves the mouse to a relative position in the plot with this index.
     pub fn point(&self, plot: usize, at: [f64; 2]) {
         self.act(plot, &[at], false);
     }
 
-    /// Drags over a part of a plot.
+    /// Drags over part of a plot.
     pub fn drag(&self, plot: usize, from: [f64; 2], to: [f64; 2]) {
         self.act(plot, &[from, to], false);
     }
 
-    /// Clicks twice in the middle of a plot.
+    /// Double-clicks in the middle of a plot.
     pub fn double_click(&self, plot: usize) {
         self.act(plot, &[[0.5, 0.5]], true);
     }
 
-    /// Moves the mouse to the corner of the window, where no plot is.
+    /// Moves the mouse to the corner of the window, outside all plots.
     pub fn leave(&self) {
         let (duration, x, y) = (Some(Duration::ZERO), 1.0, 1.0);
         let corner = PointerAction::MoveTo { duration, x, y };
@@ -182,13 +182,13 @@ impl Browser {
         self.runtime.block_on(acted).unwrap();
     }
 
-    /// What the browser noted since it was last asked: `browser` its console, `performance` its network.
+    /// Returns the browser's log entries since the last call: `browser` for the console, `performance` for the network.
     pub fn log(&self, kind: &str) -> Vec<Value> {
         let entries = self.issue("se/log", json!({ "type": kind }));
         entries.as_array().unwrap().clone()
     }
 
-    /// Addresses that the page asked for since it was last asked, itself among them.
+    /// Returns the addresses requested by the page since the last call, including its own.
     pub fn requests(&self, page: &str) -> Vec<String> {
         let messages = self.log("performance").into_iter().map(|entry| {
             let message: Value = serde_json::from_str(entry["message"].as_str().unwrap()).unwrap();
@@ -201,7 +201,7 @@ impl Browser {
             .collect()
     }
 
-    /// A command of the browser's own protocol.
+    /// Sends a command of the browser's own protocol.
     pub fn tell(&self, command: &str, parameters: Value) {
         let body = json!({ "cmd": command, "params": parameters });
         self.issue("goog/cdp/execute", body);
@@ -223,7 +223,7 @@ impl Drop for Browser {
     }
 }
 
-/// A command of this driver that the standard has not.
+/// Sends a command of this driver that is not in the standard.
 #[derive(Debug)]
 struct Extension {
     path: &'static str,

@@ -1,4 +1,4 @@
-//! How each kind of curve is drawn, in a panel of its own.
+//! Drawing of each kind of curve, in its own panel.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::browser::Browser;
 use crate::shown::DEMONSTRATION;
 
-/// Pixels of the curve's colour, opaque and pale, and all between the axes, of the first plot.
+/// Numbers of pixels in the curve's colour (opaque and pale) and of all pixels between the axes, in the first plot.
 const COUNT: &str = "
     const canvas = document.querySelector('canvas');
     const { clientWidth, clientHeight } = document.querySelector('.u-over');
@@ -25,7 +25,7 @@ fn column(values: &[f32]) -> String {
     BASE64_STANDARD.encode(bytes)
 }
 
-/// The demonstration's page with another first plot: abscissas 2, 10 and 50, lowest 2, highest 20, on these axes.
+/// The demonstration's page with the first plot replaced: abscissas 2, 10 and 50, minimum 2, maximum 20, on these axes.
 fn page(stroke: &str, decades: bool) -> String {
     let marker = "<script type=\"application/json\">";
     let (before, rest) = DEMONSTRATION.split_once(marker).unwrap();
@@ -58,10 +58,11 @@ fn bands_are_areas_and_bars_are_strokes() {
     let Some(browser) = Browser::start("kinds of curves") else {
         return;
     };
-    // From 2 to 20 is half of two decades, and from 2 to 50 are 1.4; on linear scales 18 and 48 of 99.
+    // On logarithmic scales, 2 to 20 is half of two decades and 2 to 50 is 1.4 decades; on linear scales they are 18
+    // and 48 of 99.
     for (decades, part) in [(true, 0.5 * 0.699), (false, 18.0 * 48.0 / 99.0 / 99.0)] {
         let [opaque, pale, all] = drawn(&browser, "band", decades);
-        // Lines of the grid shine through.
+        // Grid lines show through.
         let share = pale / all / part;
         assert!(opaque == 0.0 && (0.88..1.01).contains(&share), "{share}");
     }
@@ -71,7 +72,7 @@ fn bands_are_areas_and_bars_are_strokes() {
 }
 
 #[test]
-fn a_number_that_is_none_parts_a_line_and_points_stand_alone() {
+fn missing_values_interrupt_a_line_and_isolated_points_are_dots() {
     let Some(browser) = Browser::start("kinds of curves") else {
         return;
     };
@@ -80,6 +81,6 @@ fn a_number_that_is_none_parts_a_line_and_points_stand_alone() {
     // Two dots, seven pixels wide.
     assert!((60.0..90.0).contains(&points), "{points}");
     let [marks, ..] = drawn(&browser, "marks", true);
-    // Three, ten pixels high.
+    // Three dots, ten pixels high.
     assert!((110.0..130.0).contains(&marks), "{marks}");
 }

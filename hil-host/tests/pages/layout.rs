@@ -1,12 +1,13 @@
-//! Pages as wide as a phone and as a desk: nothing is too wide, too small or empty, and nothing is asked of a network.
+//! Pages at the width of a phone and of a desktop: nothing is too wide, too small or empty, and nothing is requested
+//! from a network.
 
 use serde_json::Value;
 
 use crate::browser::Browser;
 use crate::shown::all;
 
-/// The page's width, the smallest text, and of each plot: its right edge, its canvas's width, and for each curve how many pixels
-/// have its colour.
+/// Width of the page, smallest text, and for each plot: its right edge, the width of its canvas, and the number of
+/// pixels in the colour of each curve.
 const MEASURE: &str = r#"
     const size = element => parseFloat(getComputedStyle(element).fontSize);
     const text = [...document.querySelectorAll("p, td, th, figcaption, span, footer, .head li")].map(size);
@@ -44,36 +45,46 @@ fn check((name, page, plots, label): (&str, &str, usize, &str), width: u32) {
     let address = browser.open(page, width);
     let found = browser.find(MEASURE);
     let number = |value: &Value| value.as_f64().unwrap();
-    let told = format!("{name} at {width}");
-    assert_eq!(found["width"], width, "{told}: scrolls sideways");
-    assert!(number(&found["text"]) >= 13.0, "{told}: {}", found["text"]);
+    let context = format!("{name} at {width}");
+    assert_eq!(found["width"], width, "{context}: scrolls sideways");
+    assert!(
+        number(&found["text"]) >= 13.0,
+        "{context}: {}",
+        found["text"]
+    );
     assert!(
         number(&found["lettering"]) >= 10.5,
-        "{told}: {}",
+        "{context}: {}",
         found["lettering"]
     );
     let drawn = found["plots"].as_array().unwrap();
-    assert_eq!(drawn.len(), plots, "{told}");
+    assert_eq!(drawn.len(), plots, "{context}");
     for plot in drawn {
-        assert!(number(&plot["right"]) <= f64::from(width), "{told}: {plot}");
-        // On a desk up to three stand side by side.
-        let least = 300.0;
         assert!(
-            number(&plot["width"]) >= least && number(&plot["height"]) >= 200.0,
-            "{told}: {plot}"
+            number(&plot["right"]) <= f64::from(width),
+            "{context}: {plot}"
+        );
+        // On a desktop, up to three plots are side by side.
+        let min_px = 300.0;
+        assert!(
+            number(&plot["width"]) >= min_px && number(&plot["height"]) >= 200.0,
+            "{context}: {plot}"
         );
         let curves = plot["drawn"].as_array().unwrap();
         assert!(
             curves.iter().any(|pixels| number(pixels) >= 40.0),
-            "{told}: {plot}"
+            "{context}: {plot}"
         );
     }
     let written = found["written"].as_array().unwrap();
     let is_written = |text: &str| written.iter().any(|other| other == text);
-    assert!(is_written(label) && is_written("0"), "{told}: {written:?}");
+    assert!(
+        is_written(label) && is_written("0"),
+        "{context}: {written:?}"
+    );
     let console = browser.log("browser");
-    assert!(console.is_empty(), "{told}: {console:?}");
-    assert_eq!(browser.requests(&address), [address], "{told}");
+    assert!(console.is_empty(), "{context}: {console:?}");
+    assert_eq!(browser.requests(&address), [address], "{context}");
 }
 
 #[test]

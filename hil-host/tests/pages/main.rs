@@ -1,4 +1,4 @@
-//! Pages in a browser: what they look like on a desk and on a phone, what they do under the mouse, and what they may load.
+//! Pages in a browser: layout on a desktop and a phone, mouse interaction, and what they may load.
 
 mod browser;
 #[path = "../common/mod.rs"]

@@ -1,4 +1,4 @@
-//! A page loads nothing: a request that a script makes in it never leaves the browser.
+//! A page loads nothing: a request made by a script in it never leaves the browser.
 
 use std::io::{BufRead, BufReader, ErrorKind, Write};
 use std::net::{SocketAddr, TcpListener};
@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::browser::Browser;
 use crate::shown::{DEMONSTRATION, all};
 
-/// How a request of a server on this machine ended.
+/// Result of a request to a server on this machine.
 fn fetched(browser: &Browser, server: SocketAddr) -> Value {
     browser.find_later(&format!(
         "addEventListener('securitypolicyviolation', event => done(event.effectiveDirective));
@@ -29,7 +29,7 @@ fn the_policy_of_a_page_stops_a_request() {
     let nobody = listener.accept().unwrap_err();
     assert_eq!(nobody.kind(), ErrorKind::WouldBlock);
 
-    // The same page without its policy reaches the server: it was the policy that stopped the request.
+    // Without its policy, the same page reaches the server, so the policy blocks the request.
     listener.set_nonblocking(false).unwrap();
     let serving = std::thread::spawn(move || {
         let (mut asked, _) = listener.accept().unwrap();
@@ -45,9 +45,9 @@ fn the_policy_of_a_page_stops_a_request() {
     serving.join().unwrap();
 }
 
-/// Nothing in a page is allowed by a word instead of by its hash, and nothing in it has an address.
+/// The policy allows content of the page only by its hash, never by a keyword, and the content has no address.
 #[test]
-fn the_policy_allows_what_is_in_the_page_only() {
+fn the_policy_allows_only_the_content_of_the_page() {
     for (name, page, ..) in all() {
         let policy = page
             .split_once("Content-Security-Policy\" content=\"")

@@ -1,11 +1,11 @@
-//! A sheet on paper: white, no table beyond the paper's edge, no number broken into two lines.
+//! A printed sheet: white, no table wider than the paper, no number broken over two lines.
 
 use serde_json::json;
 
 use crate::browser::Browser;
 use crate::shown::SHEET;
 
-/// A4 less the margins of the style, at 96 pixels an inch.
+/// A4 minus the margins of the style, at 96 pixels per inch.
 const WIDTH: u32 = 687;
 
 const MEASURE: &str = r#"
@@ -37,7 +37,7 @@ fn a_sheet_fits_paper_and_is_white_from_a_dark_screen() {
     );
     assert_eq!(found["width"], WIDTH, "{found}");
     assert_eq!(found["scrolls"], 0, "{found}");
-    // Six tests have nine indices each.
+    // Six tests with nine indices each.
     assert!(found["numbers"].as_u64().unwrap() > 60, "{found}");
     assert_eq!(found["broken"], json!([]), "{found}");
     assert_eq!(found["paper"], "rgb(255, 255, 255)", "{found}");

@@ -1,11 +1,12 @@
-//! Plots follow the screen, light or dark, and are light on paper.
+//! Plots follow the light or dark scheme of the screen, and are light on paper.
 
 use serde_json::json;
 
 use crate::browser::Browser;
 use crate::shown::DEMONSTRATION;
 
-/// Whether the key of the first curve and some of the first canvas have the curve's colour on a light (0) or dark (1) screen.
+/// True if the legend of the first curve and some of the first canvas have the curve's colour for a light (0) or dark
+/// (1) screen.
 fn is(scheme: usize) -> String {
     format!(
         "(() => {{

@@ -1,4 +1,4 @@
-//! Under the mouse a plot tells its values, and so does each plot that shares its cursor.
+//! Under the mouse, a plot shows its values, and so does each plot that shares its cursor.
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -7,8 +7,8 @@ use serde_json::Value;
 use crate::browser::Browser;
 use crate::shown::VEHICLE;
 
-/// What each plot tells: where the cursor is, its values, and whether its line is seen.
-const TOLD: &str = "return [...document.querySelectorAll('.panel')].map(panel => {
+/// Readout of each plot: cursor position, values, and whether the cursor line is visible.
+const READOUTS: &str = "return [...document.querySelectorAll('.panel')].map(panel => {
     const plot = panel.querySelector('.plot').getBoundingClientRect();
     const line = panel.querySelector('.u-cursor-x')?.getBoundingClientRect();
     return {
@@ -19,7 +19,7 @@ const TOLD: &str = "return [...document.querySelectorAll('.panel')].map(panel =>
     };
 });";
 
-/// The abscissas (0) or ordinates (1) of a curve of a plot.
+/// Abscissas (0) or ordinates (1) of a curve of a plot.
 fn column(plot: &Value, curve: &Value, number: usize) -> Vec<f32> {
     let place = curve["columns"][number].as_u64().unwrap() as usize;
     let bytes = BASE64_STANDARD.decode(plot["columns"][place].as_str().unwrap());
@@ -30,12 +30,12 @@ fn column(plot: &Value, curve: &Value, number: usize) -> Vec<f32> {
         .collect()
 }
 
-/// A number as the page writes it.
+/// Formats a number like the page.
 fn number(text: &str) -> f32 {
     text.replace('−', "-").parse().unwrap()
 }
 
-/// The value of a curve at its abscissa nearest to `x`.
+/// Value of a curve at its abscissa nearest to `x`.
 fn value_at(plot: &Value, curve: &Value, x: f32) -> f32 {
     let samples = column(plot, curve, 0)
         .into_iter()
@@ -51,10 +51,10 @@ fn check(width: u32) {
     browser.open(&VEHICLE, width);
     browser.point(1, [0.4, 0.6]);
     browser.wait_for("document.querySelectorAll('.at')[0].textContent !== ''");
-    let told = browser.find(TOLD);
-    let told = told.as_array().unwrap();
+    let readouts = browser.find(READOUTS);
+    let readouts = readouts.as_array().unwrap();
     let (mut histories, mut loops) = (0, 0);
-    for panel in told {
+    for panel in readouts {
         if panel["data"]["x"]["label"] != "time, s" {
             loops += 1;
             assert_eq!((&panel["at"], &panel["line"]), (&"".into(), &false.into()));
@@ -63,7 +63,7 @@ fn check(width: u32) {
         histories += 1;
         assert_eq!(
             (&panel["at"], &panel["line"]),
-            (&told[1]["at"], &true.into()),
+            (&readouts[1]["at"], &true.into()),
             "{width}"
         );
         let at = panel["at"].as_str().unwrap();
@@ -74,24 +74,26 @@ fn check(width: u32) {
         assert_eq!(curves.len(), values.len());
         let range = &panel["data"]["y"]["range"];
         let apart = (range[1].as_f64().unwrap() - range[0].as_f64().unwrap()) as f32;
-        for (curve, told) in curves.iter().zip(values) {
-            // The time is told to the millisecond: the neighbouring samples are as good.
+        for (curve, shown) in curves.iter().zip(values) {
+            // The time is shown to the millisecond, so neighbouring samples are acceptable too.
             let near =
                 [time - 1e-3, time, time + 1e-3].map(|time| value_at(&panel["data"], curve, time));
-            let told = number(told.as_str().unwrap());
-            let is_near = near.iter().any(|value| (value - told).abs() < 2e-3 * apart);
+            let shown = number(shown.as_str().unwrap());
+            let is_near = near
+                .iter()
+                .any(|value| (value - shown).abs() < 2e-3 * apart);
             assert!(
                 is_near,
-                "{width}, {}: {told}, {near:?}",
+                "{width}, {}: {shown}, {near:?}",
                 panel["data"]["y"]["label"]
             );
         }
     }
     assert!(histories == 8 && loops > 3, "{histories} {loops}");
-    // Away from the plots nothing is told.
+    // With the mouse outside the plots, no values are shown.
     browser.leave();
     browser.wait_for(
-        "[...document.querySelectorAll('.at, .value')].every(told => told.textContent === '')",
+        "[...document.querySelectorAll('.at, .value')].every(readout => readout.textContent === '')",
     );
 }
 

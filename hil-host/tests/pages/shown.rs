@@ -1,4 +1,4 @@
-//! The pages that the tests look at, each made once.
+//! Pages examined by the tests; each is generated once.
 
 use std::fs;
 use std::sync::LazyLock;
@@ -6,17 +6,17 @@ use std::sync::LazyLock;
 use crate::common::dashpot;
 use crate::pil_common::{desk, serve_tcp};
 
-/// The demonstration's: histories and loops.
+/// Page of the demonstration: histories and loops.
 pub static DEMONSTRATION: LazyLock<String> =
     LazyLock::new(|| made(&["--output", "page.html"], "page.html"));
 
-/// That of a locomotive: histories that share their cursor.
+/// Page of a locomotive: histories that share their cursor.
 pub static VEHICLE: LazyLock<String> = LazyLock::new(|| {
     let arguments = ["vehicle", "--case", "straight-180", "--output", "run"];
     made(&arguments, "run/report.html")
 });
 
-/// That of a damper on a target that is this machine: a histogram, a scale of decades, dashes.
+/// Page of a damper on a target simulated in this process: a histogram, a logarithmic scale, dashed lines.
 pub static BANK: LazyLock<String> = LazyLock::new(|| {
     let link = format!("tcp:{}", serve_tcp(|| Box::new(desk())));
     let input = concat!(
@@ -28,7 +28,7 @@ pub static BANK: LazyLock<String> = LazyLock::new(|| {
     made(&[&line[..], &run].concat(), "page.html")
 });
 
-/// That of a study with a figure of each kind.
+/// Page of a study with a figure of each kind.
 pub static STUDY: LazyLock<String> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("study.toml");
@@ -37,7 +37,7 @@ pub static STUDY: LazyLock<String> = LazyLock::new(|| {
     made(&["sweep", study, "--output", "study"], "study/report.html")
 });
 
-/// That of a calibration: profiles, loops of points and lines.
+/// Page of a calibration: profiles, loops with points and lines.
 pub static CALIBRATION: LazyLock<String> = LazyLock::new(|| {
     let input = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/bench/bench_made.mf4");
     let line = ["calibrate", "--damper", "in-service", "--input", input];
@@ -52,7 +52,7 @@ pub static CALIBRATION: LazyLock<String> = LazyLock::new(|| {
     made(&[&line[..], &found].concat(), "page.html")
 });
 
-/// That of a damper's health: bands and levels.
+/// Page of a damper's health: bands and levels.
 pub static HEALTH: LazyLock<String> = LazyLock::new(|| {
     let input = concat!(env!("CARGO_MANIFEST_DIR"), "/../data/bench/worn_made.mf4");
     let line = ["replay", "--damper", "in-service", "--input", input];
@@ -62,13 +62,13 @@ pub static HEALTH: LazyLock<String> = LazyLock::new(|| {
     )
 });
 
-/// That of a bench sheet: tables, loops, limits as bars, forces over temperature.
+/// Page of a bench sheet: tables, loops, limits as bars, forces over temperature.
 pub static SHEET: LazyLock<String> = LazyLock::new(|| {
     let line = ["rig", "--damper", "in-service", "--sheet", "example"];
     made(&[&line[..], &["--page", "page.html"]].concat(), "page.html")
 });
 
-/// That of a frequency response: decades both ways, points over lines.
+/// Page of a frequency response: logarithmic scales on both axes, points over lines.
 pub static RESPONSE: LazyLock<String> = LazyLock::new(|| {
     let line = ["response", "--damper", "in-service", "--swept"];
     made(&[&line[..], &["--page", "page.html"]].concat(), "page.html")
@@ -80,7 +80,7 @@ fn made(arguments: &[&str], page: &str) -> String {
     fs::read_to_string(folder.path().join(page)).unwrap()
 }
 
-/// All of them, with their plots and the label of an axis.
+/// All pages, with the number of their plots and the label of an axis.
 pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
     [
         ("demonstration", &DEMONSTRATION, 13, "time, s"),
@@ -89,9 +89,9 @@ pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
         ("study", &STUDY, 9, "time, s"),
         ("sheet", &SHEET, 6, "peak velocity, m/s"),
         ("response", &RESPONSE, 3, "frequency, Hz"),
-        // Three profiles, and for each of four tests two loops and what is missed.
+        // Three profiles, and two loops and the residual for each of four tests.
         ("calibration", &CALIBRATION, 15, "time, s"),
-        // Flow, stiffness, clearance, lag, zero of the force and friction.
+        // Flow, stiffness, clearance, lag, force offset and friction.
         ("health", &HEALTH, 6, "time, s"),
     ]
 }

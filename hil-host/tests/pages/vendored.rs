@@ -1,4 +1,4 @@
-//! The library in the pages is the one that its README names.
+//! The library in the pages is the one named by its README.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ fn the_plotting_library_is_what_its_readme_says() {
     are_as_their_readme_says(&folder);
 }
 
-/// Its licence: "in all copies or substantial portions of the Software".
+/// Its licence requires: "in all copies or substantial portions of the Software".
 #[test]
 fn pages_have_the_librarys_licence() {
     let licence = include_str!("../../../report/src/page/uplot/LICENSE");

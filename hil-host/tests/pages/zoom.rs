@@ -1,16 +1,16 @@
-//! Dragging over a plot enlarges what was dragged over, a double click shows all again.
+//! Dragging over a plot enlarges the selected part; a double click shows everything again.
 
 use serde_json::Value;
 
 use crate::browser::Browser;
 use crate::shown::{DEMONSTRATION, VEHICLE};
 
-/// Forgets what was written on canvases, before the mouse does something.
+/// Clears the recorded canvas texts before a mouse action.
 const FORGET: &str = "window.lettering = [];";
-/// Waits until that was drawn: the texts are of every canvas that was drawn again.
+/// Waits until the plots are redrawn; returns the texts of all redrawn canvases.
 const WRITTEN: &str = "return window.lettering.map(({ text }) => text);";
 
-/// Texts of the canvases that are drawn again when the mouse did something.
+/// Texts of the canvases that are redrawn after a mouse action.
 fn written_after(browser: &Browser, act: impl FnOnce()) -> Vec<String> {
     browser.find(FORGET);
     act();
@@ -19,7 +19,7 @@ fn written_after(browser: &Browser, act: impl FnOnce()) -> Vec<String> {
     serde_json::from_value(written).unwrap()
 }
 
-fn told(browser: &Browser, plot: usize) -> f64 {
+fn shown_at_cursor(browser: &Browser, plot: usize) -> f64 {
     browser.point(plot, [0.5, 0.5]);
     let at = format!("document.querySelectorAll('.at')[{plot}].textContent");
     browser.wait_for(&format!("{at} !== ''"));
@@ -38,21 +38,24 @@ fn check_histories(width: u32) {
         return;
     };
     browser.open(&VEHICLE, width);
-    let middle = told(&browser, 0);
+    let middle = shown_at_cursor(&browser, 0);
     assert!((middle - 2.5).abs() < 0.02, "{middle}");
     let zoomed = written_after(&browser, || browser.drag(0, [0.2, 0.5], [0.4, 0.52]));
     assert!(
         zoomed.iter().any(|text| text == "1.5" || text == "1.50"),
         "{width}: {zoomed:?}"
     );
-    // From 1 to 2 s, in the other panel and in other figures too.
+    // From 1 to 2 s, in the other panel and in the other figures too.
     for plot in [0, 1, 4] {
-        let middle = told(&browser, plot);
+        let middle = shown_at_cursor(&browser, plot);
         assert!((middle - 1.5).abs() < 0.02, "{width}, {plot}: {middle}");
     }
     written_after(&browser, || browser.double_click(4));
     for plot in [0, 1, 4] {
-        assert!((told(&browser, plot) - 2.5).abs() < 0.02, "{width}, {plot}");
+        assert!(
+            (shown_at_cursor(&browser, plot) - 2.5).abs() < 0.02,
+            "{width}, {plot}"
+        );
     }
 }
 
@@ -72,7 +75,7 @@ fn check_loops(width: u32) {
             .filter_map(|text| text.replace('−', "-").parse::<f64>().ok());
         numbers.fold(0.0, f64::max)
     };
-    // Displacement to 8 mm and force to 10 kN; a part of it both ways.
+    // Displacement up to 8 mm and force up to 10 kN; the selection is a part of both.
     assert!(
         last(&zoomed) < 0.7 * last(&whole),
         "{width}: {zoomed:?} of {whole:?}"

@@ -13,7 +13,7 @@ use crate::common::dashpot;
 #[test]
 fn history_parquet_has_the_numbers_of_history_csv() {
     let folder = tempfile::tempdir().unwrap();
-    // More rows than one row group has.
+    // More rows than fit into one row group.
     let case = ["vehicle", "--case", "straight-180", "--duration-s", "0.35"];
     let options = ["--step-us", "20", "--no-page", "--parquet", "--output", "."];
     dashpot(&[&case[..], &options].concat(), folder.path())

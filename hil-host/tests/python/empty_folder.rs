@@ -1,4 +1,4 @@
-//! An environment with numpy alone, an empty folder, and the examples.
+//! The examples in an environment with only numpy, in an empty folder.
 
 use crate::installed::{alone, package, run, unpacked};
 use xtask::python::have_packages;
@@ -17,8 +17,12 @@ fn the_examples_run_from_an_empty_folder_with_numpy_alone() {
             continue;
         }
         let folder = tempfile::tempdir().unwrap();
-        let told = run(&python, folder.path(), None, &[example.to_str().unwrap()]);
-        assert!(!told.contains("Warning"), "{}: {told}", example.display());
+        let output = run(&python, folder.path(), None, &[example.to_str().unwrap()]);
+        assert!(
+            !output.contains("Warning"),
+            "{}: {output}",
+            example.display()
+        );
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
         count += 1;
     }

@@ -1,4 +1,4 @@
-//! The wheel, built once for all tests here, and what it is installed with.
+//! The wheel, built once for all tests here, and its installation.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use xtask::wheel::wheel;
 
 use crate::common::program;
 
-/// The wheel, of the profile that tests are built in.
+/// The wheel, built with the profile of the tests.
 pub fn built() -> &'static Path {
     static WHEEL: LazyLock<PathBuf> = LazyLock::new(|| {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheels");
@@ -18,12 +18,12 @@ pub fn built() -> &'static Path {
     &WHEEL
 }
 
-/// The package's folder in the repository.
+/// Folder of the package in the repository.
 pub fn package() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../python")
 }
 
-/// A folder with the package, for the path of an interpreter that has what else it needs.
+/// Folder that contains the package, for the path of an interpreter with the other dependencies.
 pub fn unpacked(python: &Path) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let (target, wheel) = (folder.path().to_str().unwrap(), built().to_str().unwrap());
@@ -36,7 +36,7 @@ pub fn unpacked(python: &Path) -> tempfile::TempDir {
     folder
 }
 
-/// The interpreter of a new environment that has the package and numpy, and nothing else.
+/// Interpreter of a new environment with only the package and numpy.
 pub fn alone(folder: &Path) -> PathBuf {
     make(folder).unwrap();
     let python = interpreter(folder);
@@ -51,7 +51,8 @@ pub fn alone(folder: &Path) -> PathBuf {
     python
 }
 
-/// Runs Python in `folder`, where it must end well; what it printed. The command is named to it, and the folder of kept contact tables.
+/// Runs Python in `folder`, which must succeed; returns its output. Environment variables name the command and the
+/// folder of contact tables.
 pub fn run(python: &Path, folder: &Path, path: Option<&Path>, arguments: &[&str]) -> String {
     let mut command = Command::new(python);
     command

@@ -1,4 +1,4 @@
-//! What may be done with the package is told in it.
+//! The package contains its licences.
 
 use std::fs::{File, read_to_string};
 use std::io::Read;
@@ -36,15 +36,15 @@ fn the_wheel_has_the_licences_of_the_repository() {
         "{metadata}"
     );
     for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
-        let told = text(&format!(".dist-info/licenses/{licence}"));
+        let packaged = text(&format!(".dist-info/licenses/{licence}"));
         let ours = package().join("..").join(licence);
-        assert_eq!(told, read_to_string(ours).unwrap());
+        assert_eq!(packaged, read_to_string(ours).unwrap());
         assert!(
             metadata.contains(&format!("License-File: {licence}")),
             "{metadata}"
         );
     }
-    // What others ask to be kept with their texts is told where those are: none of them is in the package.
+    // Licences of third-party texts are kept with those texts; none of them is in the package.
     let library = bytes("dashpot/_dashpot.");
     for other in ["uPlot", "Modelica Association"] {
         let is_other = |window: &[u8]| window == other.as_bytes();

@@ -1,4 +1,4 @@
-//! The package `dashpot` of Python: built as a wheel, installed, and used as its users do, beside the command.
+//! The Python package `dashpot`: built as a wheel, installed, used as a user does, and compared with the command.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,9 +1,9 @@
-//! The package's own tests, a file each, under an interpreter that has pandas, Dask and mypy beside it.
+//! The package's own tests, one test per file, under an interpreter with pandas, Dask and mypy.
 
 use crate::installed::{package, run, unpacked};
 use xtask::python::have_packages;
 
-/// Runs a file of tests, in which there must be some.
+/// Runs a file of tests, which must contain at least one.
 fn suite(name: &str) {
     let Some(python) = have_packages("the package of Python") else {
         return;
@@ -21,10 +21,10 @@ fn suite(name: &str) {
         "--pattern",
         name,
     ];
-    let told = run(&python, folder.path(), Some(path.path()), &arguments);
+    let output = run(&python, folder.path(), Some(path.path()), &arguments);
     assert!(
-        told.contains("\nOK\n") && !told.contains("Ran 0 tests"),
-        "{told}"
+        output.contains("\nOK\n") && !output.contains("Ran 0 tests"),
+        "{output}"
     );
 }
 
@@ -52,9 +52,9 @@ suites!(
     test_vehicle,
 );
 
-/// Whether every file of tests is run by a test here.
+/// Checks that a test here runs every file of tests.
 #[test]
-fn no_file_of_tests_is_forgotten() {
+fn every_file_of_tests_is_run() {
     let here = include_str!("suites.rs");
     let mut count = 0;
     for entry in std::fs::read_dir(package().join("tests")).unwrap() {
@@ -70,22 +70,22 @@ fn no_file_of_tests_is_forgotten() {
     assert!(count > 0);
 }
 
-/// Whether the stubs tell what the compiled package has: names, parameters, defaults.
+/// Checks that the stubs agree with the compiled package: names, parameters, defaults.
 #[test]
-fn the_stubs_are_those_of_the_package() {
+fn the_stubs_agree_with_the_package() {
     let Some(python) = have_packages("the stubs of the package of Python") else {
         return;
     };
     let path = unpacked(&python);
     let folder = tempfile::tempdir().unwrap();
-    let told = run(
+    let output = run(
         &python,
         folder.path(),
         Some(path.path()),
         &["-m", "mypy.stubtest", "dashpot"],
     );
-    assert!(told.contains("Success: no issues found"), "{told}");
-    // And whether a user's types are checked by them.
+    assert!(output.contains("Success: no issues found"), "{output}");
+    // Checks that the stubs are used to type-check a user's code.
     let example = folder.path().join("example.py");
     std::fs::write(
         &example,
@@ -93,9 +93,9 @@ fn the_stubs_are_those_of_the_package() {
     )
     .unwrap();
     let arguments = ["-m", "mypy", "--strict", "example.py"];
-    let told = run(&python, folder.path(), Some(path.path()), &arguments);
+    let output = run(&python, folder.path(), Some(path.path()), &arguments);
     assert!(
-        told.contains("\"builtins.float\"") || told.contains("\"float\""),
-        "{told}"
+        output.contains("\"builtins.float\"") || output.contains("\"float\""),
+        "{output}"
     );
 }

@@ -1,4 +1,4 @@
-"""Compares force.parquet and force.mf4 in a folder with force.csv there, with units: compare.py FOLDER."""
+"""Compares values and units of force.parquet and force.mf4 with force.csv in the same folder: compare.py FOLDER."""
 
 import json
 import sys

@@ -1,5 +1,5 @@
-//! Channels of MDF4 that have no bytes and count their rows began at 0 again with every part of 16 384 rows: a time so
-//! counted was refused as one that goes back, any other value was wrong without a word.
+//! Regression: MDF4 channels that have no bytes and count their rows restarted at 0 with every part of 16 384 rows. A
+//! time counted like this was rejected as going backwards; any other value was silently wrong.
 
 use dashpot_recording::{Channel, Channels, Recording};
 

@@ -1,4 +1,4 @@
-//! A text cut inside the last number of its last line (1250.5 to 125) was read without a word.
+//! Regression: a text cut off inside the last number of its last line (1250.5 to 125) was read silently.
 
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -7,7 +7,7 @@ use dashpot_recording::{Channels, ForceHistory, Measurement};
 
 use crate::common::{dashpot, json_of, text_of};
 
-/// The line that is said to have no end.
+/// Line that is reported as incomplete.
 fn unended(bytes: &[u8]) -> Option<u64> {
     let source = Box::new(Cursor::new(bytes.to_vec()));
     let mut measurement =
@@ -32,7 +32,7 @@ fn in_gzip(bytes: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn a_last_line_without_an_end_is_named() {
+fn an_incomplete_last_line_is_named() {
     let header = "time_s,displacement_m,force_n";
     let cases = [
         (format!("{header}\n0,0,1\n1,0,1250.5\n"), None),
@@ -41,13 +41,13 @@ fn a_last_line_without_an_end_is_named() {
         (format!("{header}\r\n0,0,1\r\n1,0,125"), Some(3)),
         (format!("{header}\r0,0,1\r1,0,1250.5\r"), None),
         (format!("# logger\n\n{header}\n0,0,1\n1,0,125"), Some(5)),
-        // One row.
+        // A single row.
         (format!("{header}\n0,0,125"), Some(2)),
         (format!("{header}\ns,m,N\n0,0,125"), Some(3)),
-        // What is cut is no row.
+        // An incomplete line is not a row.
         (format!("{header}\n0,0,1\n1,0,1250.5\n# end\n"), None),
         (format!("{header}\n0,0,1\n1,0,1250.5\n\n\n"), None),
-        // A quote that ends, a blank: the number was whole, but there is no sign that the row was.
+        // A closing quote or a blank: the number is complete, but nothing shows that the row is.
         (format!("{header}\n0,0,1\n1,0,\"125\""), Some(3)),
     ];
     for (text, expected) in cases {
@@ -60,16 +60,16 @@ fn a_last_line_without_an_end_is_named() {
             assert_eq!(unended(&in_utf_16(&text)), expected, "{text:?} in UTF-16");
         }
     }
-    // A text that is longer than what is looked at first.
+    // A text longer than the part that is examined first.
     let rows: String = (0..9000).map(|i| format!("{i},0.5,1250.5\n")).collect();
     let text = format!("{header}\n{rows}");
     assert_eq!(unended(text.as_bytes()), None);
     assert_eq!(unended(&text.as_bytes()[..text.len() - 3]), Some(9001));
 }
 
-/// As `vehicle --outside` takes them.
+/// The same for recorded forces, as read by `vehicle --outside`.
 #[test]
-fn recorded_forces_name_it_too() {
+fn recorded_forces_name_an_incomplete_last_line() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("force.csv");
     for (rows, expected) in [("0,0\n1,125", Some(3)), ("0,0\n1,1250.5\n", None)] {

@@ -1,4 +1,5 @@
-//! Files that were cut off or have a bit turned over: refused, or the rows that are there; no panic, no endless loop.
+//! Files that are truncated or have a flipped bit: they are rejected, or only existing rows are read; no panic, no
+//! endless loop.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -19,24 +20,24 @@ fn is_binary(form: &&Form) -> bool {
 }
 
 #[test]
-fn files_that_are_cut_off_are_refused() {
+fn truncated_files_are_refused() {
     for form in FORMS.iter().filter(is_binary) {
         let whole = std::fs::read(samples().join(form.file)).unwrap();
         let rows = read(&whole, form).unwrap();
         for length in (0..whole.len()).step_by(61) {
             match read(&whole[..length], form) {
                 Err(error) => assert!(error.starts_with(form.file), "{error}"),
-                // What follows may be of other groups, or nothing that is needed.
+                // The missing part may belong to other groups, or to nothing that is needed.
                 Ok(read) => assert_eq!(read, rows, "{} of {length} bytes", form.file),
             }
         }
     }
 }
 
-/// MDF4 and Parquet have sums of their contents only where these are compressed, or the writer was asked for them: a turned bit may make
-/// another number, but neither more rows nor anything that is no number.
+/// MDF4 and Parquet have checksums only where their contents are compressed or the writer adds them. A flipped bit may
+/// change a value, but it may not add rows or produce values that are not numbers.
 #[test]
-fn files_with_a_turned_bit_are_refused_or_read() {
+fn files_with_a_flipped_bit_are_refused_or_read() {
     for form in FORMS.iter().filter(is_binary) {
         let mut bytes = std::fs::read(samples().join(form.file)).unwrap();
         let rows = read(&bytes, form).unwrap();

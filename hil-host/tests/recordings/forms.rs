@@ -1,4 +1,4 @@
-//! One recording in every form: the same numbers from all.
+//! One recording in every file format gives the same values.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,8 @@ use dashpot_files::FileError;
 use dashpot_recording::Remedy;
 use dashpot_recording::{Channel, Channels, MeasuredSample, Measurement, Quantity};
 
-/// A file, the names of its channels (time, displacement, force; empty for the default) with units that it does not tell.
+/// A file, and its channel names (time, displacement, force; empty for the default) with the units that the file does
+/// not state.
 pub struct Form {
     pub file: &'static str,
     names: [&'static str; 3],
@@ -23,12 +24,12 @@ const fn form(file: &'static str, names: [&'static str; 3]) -> Form {
     }
 }
 
-/// The time of MDF4 is the group's own.
+/// The time channel of MDF4 is the group's master channel.
 const MDF: [&str; 3] = ["", "Weg", "Kraft"];
 const OWN: [&str; 3] = [""; 3];
 const GERMAN: [&str; 3] = ["Zeit", "Weg", "Kraft"];
 
-/// What `make.py` writes, but for files that lack values.
+/// Files written by `make.py`, except those that lack values.
 pub const FORMS: [Form; 26] = [
     form("plain.mf4", MDF),
     form("deflated.mf4", MDF),
@@ -73,13 +74,13 @@ pub const FORMS: [Form; 26] = [
     form("expected.csv", OWN),
 ];
 
-/// The samples that lie here.
+/// Samples stored in this folder.
 pub fn samples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recordings/samples")
 }
 
 impl Form {
-    /// Its channels.
+    /// Channels of a file.
     pub fn channels(&self) -> Channels {
         let quantities = [Quantity::Time, Quantity::Displacement, Quantity::Force];
         let [time, displacement, force] = [0, 1, 2].map(|place| Channel {
@@ -102,7 +103,7 @@ pub fn rows(path: &Path, channels: &Channels) -> Result<Vec<MeasuredSample>, Fil
     Measurement::open(path, channels)?.read_all()
 }
 
-/// Asserts that every form in `folder` has what expected.csv there has.
+/// Asserts that every file format in `folder` has the rows of expected.csv there.
 pub fn compare(folder: &Path) {
     let expected = rows(&folder.join("expected.csv"), &Channels::default()).unwrap();
     assert!(expected.len() >= 60);
@@ -110,7 +111,7 @@ pub fn compare(folder: &Path) {
         let found = rows(&folder.join(form.file), &form.channels());
         let found = found.unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(found.len(), expected.len(), "{}", form.file);
-        // The decimals of text and the factors of units are exact, but for binary fractions of either.
+        // Decimals of text and unit factors are exact up to binary rounding.
         let near = |a: f64, b: f64| (a - b).abs() <= 2.0 * f64::EPSILON * b.abs();
         for (found, expected) in found.iter().zip(&expected) {
             assert!(
@@ -129,7 +130,7 @@ fn every_form_has_the_same_rows() {
     compare(&samples());
 }
 
-/// Rows that lack a value: as many as `make.py` marks, one in a hundred.
+/// Number of rows that lack a value: `make.py` marks one in a hundred.
 pub fn compare_invalid(folder: &Path) {
     let expected = rows(&folder.join("expected.csv"), &Channels::default()).unwrap();
     for (file, names) in [("invalid.mf4", MDF), ("nulls.parquet", OWN)] {
@@ -148,7 +149,7 @@ pub fn compare_invalid(folder: &Path) {
         let is_marked = |row: usize| row % 100 == 10;
         let left: Vec<_> = (0..expected.len()).filter(|row| !is_marked(*row)).collect();
         assert_eq!(found.len(), left.len());
-        let times = |of: &MeasuredSample| of.time_s;
+        let times = |sample: &MeasuredSample| sample.time_s;
         assert!(
             left.iter()
                 .map(|row| times(&expected[*row]))
@@ -160,11 +161,11 @@ pub fn compare_invalid(folder: &Path) {
 }
 
 #[test]
-fn rows_that_lack_a_value_are_refused_or_left_out() {
+fn rows_that_lack_a_value_are_refused_or_skipped() {
     compare_invalid(&samples());
 }
 
-/// As a pipe has them: not a file to jump in.
+/// The same contents through a pipe, which cannot be sought.
 #[test]
 fn streams_and_compressed_files_are_read_alike() {
     use std::io::Write;

@@ -1,4 +1,4 @@
-//! Floats of 16 bits in MDF4 were read as zeros, and so were floats of other widths than 32 and 64 bits.
+//! Regression: 16-bit floats in MDF4 were read as zeros, and so were floats of widths other than 32 and 64 bits.
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn record(row: usize, field: &[u8]) -> Vec<u8> {
     [&(row as f64 / 1e3).to_le_bytes()[..], field].concat()
 }
 
-/// As asammdf writes them, little- and big-endian.
+/// Files written by asammdf, little- and big-endian.
 #[test]
 fn half_floats_of_another_program_are_read() {
     let expected = rows(&samples().join("expected.csv"), &Channels::default()).unwrap();
@@ -51,7 +51,7 @@ fn half_floats_of_another_program_are_read() {
     }
 }
 
-/// Every finite half, against its definition: 2^(e - 25) times 1024 + f, or 2^-24 times f where e is 0.
+/// Every finite half-precision number against its definition: 2^(e - 25) times 1024 + f, or 2^-24 times f if e is 0.
 #[test]
 fn every_half_has_its_value() {
     let folder = tempfile::tempdir().unwrap();
@@ -89,7 +89,7 @@ fn every_half_has_its_value() {
 }
 
 #[test]
-fn other_widths_and_places_are_refused() {
+fn other_widths_and_bit_offsets_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("odd.mf4");
     let records: Vec<Vec<u8>> = (0..9).map(|row| record(row, &[1; 16])).collect();
@@ -144,7 +144,7 @@ fn other_widths_and_places_are_refused() {
         let error = displacements(&path, "Weg").unwrap_err();
         let expected = format!("odd.mf4: displacement: channel Weg holds {expected}");
         assert!(error.ends_with(&expected), "{error}");
-        // The other channels are read, and the list says what is not.
+        // The other channels are read, and the list names the unreadable one.
         let list = overview(&path, &Channels::default()).unwrap();
         assert_eq!(list.channels[0].first, Some(0.0));
         assert_eq!((list.channels[1].first, list.channels[1].rows), (None, 9));

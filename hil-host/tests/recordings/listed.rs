@@ -1,4 +1,4 @@
-//! `dashpot channels`: what it lists, and that what it says to type works.
+//! `dashpot channels`: its list, and that the options it suggests work.
 
 use crate::common::{dashpot, error_of, json_of, text_of};
 use crate::forms::samples;
@@ -22,7 +22,7 @@ fn channels_units_and_times_are_listed() {
     );
     let time = &report["times"][1];
     assert_eq!(time["from_to_s"], serde_json::json!([0.0, 0.059_125]));
-    // Stamps that are late by a multiple of an eighth of a millisecond, up to a half.
+    // Time stamps that are late by multiples of an eighth of a millisecond, up to a half.
     assert!((time["rate_hz"].as_f64().unwrap() - 59.0 / 0.059_125).abs() < 1e-6);
     assert!((time["largest_deviation_s"].as_f64().unwrap() - 5e-4).abs() < 1e-5);
     assert_eq!(time["gaps"]["count"], 0);
@@ -32,7 +32,7 @@ fn channels_units_and_times_are_listed() {
 }
 
 #[test]
-fn jitter_gaps_and_times_that_stand_still_are_told() {
+fn jitter_gaps_and_repeated_times_are_reported() {
     let folder = tempfile::tempdir().unwrap();
     let text = "t [ms];x [mm];note\n0;0;a\n1;0;\n2;nan;b\n3;1,5;c\n3;0;d\n103;0;e\n104;0;f\n";
     std::fs::write(folder.path().join("run.csv"), text).unwrap();
@@ -52,7 +52,7 @@ fn jitter_gaps_and_times_that_stand_still_are_told() {
 }
 
 #[test]
-fn what_it_says_to_type_works() {
+fn suggested_options_work() {
     let folder = tempfile::tempdir().unwrap();
     for (file, line) in [
         ("plain.mf4", "--displacement Weg"),
@@ -73,7 +73,7 @@ fn what_it_says_to_type_works() {
 }
 
 #[test]
-fn what_is_no_recording_is_refused() {
+fn files_that_are_no_recordings_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("empty.csv"), "").unwrap();
     std::fs::write(folder.path().join("header.csv"), "time_s,displacement_m\n").unwrap();

@@ -1,4 +1,4 @@
-//! Recordings in every form that is read and written, as other programs write and read them.
+//! Recordings in every file format, as other programs write and read them.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,6 +1,6 @@
-"""Writes the same recording with asammdf, pyarrow and pandas in every form that is read: make.py FOLDER ROWS.
+"""Writes the same recording with asammdf, pyarrow and pandas in every supported file format: make.py FOLDER ROWS.
 
-expected.csv has it in SI. Names, units and forms are those that samples.rs of this folder reads.
+expected.csv contains it in SI units. Names, units and formats are those read by forms.rs in this folder.
 """
 
 import json
@@ -18,7 +18,7 @@ import unsorted
 folder, rows = Path(sys.argv[1]), int(sys.argv[2])
 folder.mkdir(parents=True, exist_ok=True)
 
-# Numbers that every form holds to the bit: eighths of a millisecond, of a millimetre and of a newton.
+# Values that every format represents exactly: multiples of 1/8 ms, 1/8 mm and 1/8 N.
 number = np.arange(rows)
 time_us = 1000 * number + 125 * (number * 7919 % 5)
 counts = (number * 104729 % 4001 - 2000).astype(np.int16)
@@ -51,7 +51,7 @@ mdf("transposed.mf4", [(signals(), "Messung")], compression=2)
 raw = Signal(counts, time_s, "mm", "Weg", conversion={"a": 0.125, "b": 0.0})
 single = Signal(force_n.astype(np.float32), time_s, "N", "Kraft")
 mdf("converted.mf4", [(signals(weg=raw, kraft=single), "Messung")], compression=2)
-# Floats of 16 bits have 11 digits of the displacement's eighths, and not the force's 13.
+# 16-bit floats have 11 bits, enough for the displacement but not for the 13 bits of the force.
 halves = Signal(displacement_mm.astype("<f2"), time_s, "mm", "Weg")
 turned = Signal(displacement_mm.astype(">f2"), time_s, "mm", "geW")
 big_endian = Signal(force_n.astype(">f4"), time_s, "N", "Kraft")
@@ -65,7 +65,7 @@ slow = Signal(20.0 + number[::10] / 8, time_s[::10], "degC", "Temperatur")
 other = Signal(displacement_mm[::10], time_s[::10], "mm", "Weg")
 mdf("groups.mf4", [([slow, other], "langsam"), (signals(), "Messung")])
 
-# One block of data, and blocks that end in the midst of records.
+# One data block, and several blocks that end within records.
 for name, block_bytes in [("unsorted.mf4", None), ("unsorted_parts.mf4", 333)]:
     unsorted.write(folder / name, time_s, displacement_mm, force_n, block_bytes)
     with MDF(folder / name) as file:

@@ -1,24 +1,25 @@
-//! Small MDF4 files of any channels, block by block by ASAM MDF 4.1: what no program at hand writes.
+//! Small MDF4 files with any channels, written block by block according to ASAM MDF 4.1, for features that no available
+//! program writes.
 
 use std::path::Path;
 
-/// A channel: what its values are and where in the record.
+/// Channel: type of its values and their position in the record.
 pub struct Channel {
     pub name: String,
-    /// `cn_type`: 0 a value, 2 the time, 3 a time that is counted, 6 a value that is counted.
+    /// `cn_type`: 0 a value, 2 the time, 3 a virtual time, 6 a virtual value (both count rows).
     pub kind: u8,
-    /// `cn_data_type`: 0 and 1 whole numbers, 2 and 3 with sign, 4 and 5 floats; odd ones big-endian.
+    /// `cn_data_type`: 0 and 1 unsigned integers, 2 and 3 signed integers, 4 and 5 floats; odd types are big-endian.
     pub number: u8,
     pub byte: u32,
     pub bit: u8,
     pub bits: u32,
     pub unit: &'static str,
-    /// Offset and factor of the numbers.
+    /// Offset and factor of the values.
     pub linear: Option<[f64; 2]>,
 }
 
 impl Channel {
-    /// The time, a double at the start of the record.
+    /// Time channel: a double at the start of the record.
     pub fn time() -> Self {
         Self {
             kind: 2,
@@ -27,7 +28,7 @@ impl Channel {
         }
     }
 
-    /// A value of a length (m) at a byte, a bit in it and of so many bits.
+    /// Length channel (m) at a byte and bit offset, with this number of bits.
     pub fn value(name: &str, number: u8, [byte, bit, bits]: [u32; 3]) -> Self {
         Self {
             name: name.into(),
@@ -42,7 +43,7 @@ impl Channel {
     }
 }
 
-/// Blocks behind one another, each written before those that link to it.
+/// Sequence of blocks, each written before those that link to it.
 struct Blocks(Vec<u8>);
 
 impl Blocks {
@@ -92,7 +93,7 @@ fn block(mark: &[u8; 4], links: &[u64], data: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// A file of one group with these channels and records, which are of one length.
+/// Builds a file with one group with these channels and records, which all have the same length.
 pub fn file(channels: &[Channel], records: &[Vec<u8>]) -> Vec<u8> {
     let mut blocks = Blocks(b"MDF     4.10    made    ".to_vec());
     blocks.0.resize(28, 0);
@@ -117,7 +118,7 @@ pub fn file(channels: &[Channel], records: &[Vec<u8>]) -> Vec<u8> {
     blocks.0
 }
 
-/// Writes a file of one group with these channels and records.
+/// Writes a file with one group with these channels and records.
 pub fn write(path: &Path, channels: &[Channel], records: &[Vec<u8>]) {
     std::fs::write(path, file(channels, records)).unwrap();
 }

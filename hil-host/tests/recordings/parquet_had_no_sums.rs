@@ -1,5 +1,5 @@
-//! A changed byte of a Parquet file that Dashpot wrote gave other numbers without a word: nothing in the file said what
-//! they were.
+//! Regression: a changed byte in a Parquet file written by Dashpot silently changed values, because the file had no
+//! checksums.
 
 use std::fs::File;
 use std::io::Cursor;
@@ -21,7 +21,7 @@ fn read(bytes: &[u8]) -> Result<Vec<MeasuredSample>, String> {
         .map_err(|error| error.to_string())
 }
 
-/// A file of our own, in `folder`.
+/// Writes one of our own files into `folder`.
 fn own(folder: &Path, rows: usize) -> Vec<u8> {
     let path = folder.join("own.parquet");
     let mut file = File::create(&path).unwrap();
@@ -36,7 +36,7 @@ fn own(folder: &Path, rows: usize) -> Vec<u8> {
 }
 
 #[test]
-fn no_changed_byte_of_our_own_gives_other_numbers() {
+fn no_changed_byte_of_our_own_files_changes_values() {
     let folder = tempfile::tempdir().unwrap();
     let mut bytes = own(folder.path(), 100);
     let whole = read(&bytes).unwrap();
@@ -55,14 +55,14 @@ fn no_changed_byte_of_our_own_gives_other_numbers() {
             bytes[at] ^= bit;
         }
     }
-    // Most bytes are numbers that Snappy did not compress; what reads the same is of statistics and names of programs.
+    // Most bytes are values that Snappy did not compress; bytes without effect belong to statistics and program names.
     assert!(by_sum > bytes.len() / 2, "{by_sum} of {}", 2 * bytes.len());
     assert!(unchanged < bytes.len(), "{unchanged}");
 }
 
-/// More rows than a row group has.
+/// More rows than fit into a row group.
 #[test]
-fn long_files_have_sums_of_all_their_rows() {
+fn long_files_have_checksums_of_all_rows() {
     let folder = tempfile::tempdir().unwrap();
     let bytes = own(folder.path(), 70_000);
     assert_eq!(read(&bytes).unwrap().len(), 70_000);
@@ -102,9 +102,9 @@ fn the_commands_refuse_a_changed_column_and_name_it() {
     }
 }
 
-/// Tables of a vehicle's history, with texts and empty cells.
+/// Tables of a vehicle's history, with text and empty cells.
 #[test]
-fn tables_have_sums_of_their_numbers() {
+fn tables_have_checksums_of_their_values() {
     let folder = tempfile::tempdir().unwrap();
     let [csv, path] = ["table.csv", "table.parquet"].map(|name| folder.path().join(name));
     let rows: String = (0..100).map(|i| format!("{i},0.5,{},a\n", 2 * i)).collect();

@@ -1,4 +1,4 @@
-//! Files that asammdf, pyarrow and pandas write at the time of the test, and what they read of ours.
+//! Files written by asammdf, pyarrow and pandas during the test, and our files read by them.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +9,7 @@ use xtask::python::have_packages;
 use crate::forms::{compare, compare_invalid, rows};
 use crate::written::replay;
 
-/// Runs a script of this folder.
+/// Runs a script in this folder.
 pub fn run(python: PathBuf, script: &str, arguments: &[&str]) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recordings");
     let output = Command::new(python)

@@ -1,4 +1,4 @@
-//! What is asked for and is not in the file, or may be several things.
+//! Requests that a file does not contain, or that are ambiguous.
 
 use dashpot_recording::{Channel, Channels};
 
@@ -17,7 +17,7 @@ fn named(displacement: &str, force: &str) -> Channels {
 }
 
 #[test]
-fn groups_are_asked_for() {
+fn an_ambiguous_group_must_be_chosen() {
     let mut other_group = named("Weg", "Kraft");
     other_group.group = Some("langsam".into());
     let mut no_group = named("Weg", "Kraft");

@@ -1,18 +1,19 @@
-"""Unsorted MDF4, which asammdf reads and does not write: records of several groups in the order of time in one data group, each behind its
-group's number, texts of any length among them. Blocks by ASAM MDF 4.1; make.py asserts that asammdf reads what it was given.
+"""Unsorted MDF4, which asammdf can read but not write: one data group with the records of several channel groups in the order
+of time, each preceded by its group's number, and variable-length texts among them. The blocks follow ASAM MDF 4.1; make.py
+asserts that asammdf reads the same values.
 """
 
 import struct
 
-# Types of channels (cn_type), and of their numbers (cn_data_type), little-endian.
+# Types of channels (cn_type) and of their values (cn_data_type), little-endian.
 FIXED, VARIABLE_LENGTH, MASTER = 0, 1, 2
 REAL, STRING_UTF8 = 4, 7
 IS_VARIABLE_LENGTH = 1  # cg_flags
-FAST, SLOW, NOTES = 1, 2, 3  # Numbers of the groups' records.
+FAST, SLOW, NOTES = 1, 2, 3  # Record numbers of the groups.
 
 
 class Blocks:
-    """Blocks behind one another, each written before those that link to it."""
+    """Sequence of blocks, each written before those that link to it."""
 
     def __init__(self):
         header_bytes = 24 + 6 * 8 + 32
@@ -47,7 +48,7 @@ class Blocks:
 
 
 def records(time_s, displacement_mm, force_n):
-    """The records as a logger has them: each tenth row is one of the slow group too, each seventh has a note of another length."""
+    """Records as written by a logger: every tenth row also has a record of the slow group, every seventh a note of varying length."""
     notes_bytes = 0
     for row, values in enumerate(zip(time_s, displacement_mm, force_n)):
         if row % 10 == 0:
@@ -60,12 +61,12 @@ def records(time_s, displacement_mm, force_n):
 
 
 def write(path, time_s, displacement_mm, force_n, block_bytes=None):
-    """Writes the file; its records in blocks of so many bytes, which records go over the ends of, where that is given."""
+    """Writes the file. With `block_bytes`, the records are divided into blocks of this size, which also divides records."""
     blocks, rows = Blocks(), len(time_s)
     slow_rows, notes = -(-rows // 10), -(-rows // 7)
     data = b"".join(records(time_s, displacement_mm, force_n))
     notes_bytes = sum(4 + len(f"row {row}") + row % 50 + 1 for row in range(0, rows, 7))
-    # The bytes of the texts are told in place of the sizes of a record, which they do not have.
+    # Texts have no record size; these fields contain their number of bytes instead.
     texts = blocks.group(0, 0, "", NOTES, notes, IS_VARIABLE_LENGTH, [notes_bytes, 0])
     temperature = blocks.channel(0, "Temperatur", "degC", FIXED, REAL, 8, 32)
     time = blocks.channel(temperature, "time", "s", MASTER, REAL, 0, 64)
@@ -80,9 +81,9 @@ def write(path, time_s, displacement_mm, force_n, block_bytes=None):
     else:
         parts = [data[at : at + block_bytes] for at in range(0, len(data), block_bytes)]
         parts = [blocks.add(b"##DT", [], part) for part in parts]
-        list_data = struct.pack("<B3xIQ", 1, len(parts), block_bytes)  # Blocks of one length.
+        list_data = struct.pack("<B3xIQ", 1, len(parts), block_bytes)  # Blocks of equal length.
         data = blocks.add(b"##DL", [0, *parts], list_data)
-    whole = blocks.add(b"##DG", [0, fast, data, 0], struct.pack("<B7x", 1))  # Numbers of one byte.
+    whole = blocks.add(b"##DG", [0, fast, data, 0], struct.pack("<B7x", 1))  # Record numbers of one byte.
     comment = blocks.text("made")
     history = blocks.add(b"##FH", [0, comment], struct.pack("<QhhB3x", 0, 0, 0, 0))
     header = [whole, history, 0, 0, 0, 0]

@@ -1,4 +1,4 @@
-//! MDF4 whose records are not sorted: several groups and texts of any length in one stream, as loggers write as they go.
+//! Unsorted MDF4: several groups and variable-length texts in one stream, as loggers write them.
 
 use std::path::Path;
 
@@ -45,7 +45,7 @@ fn channels_of_all_groups_are_listed() {
     assert_eq!(channels[3]["min"], serde_json::Value::Null);
 }
 
-/// The force over `file`.
+/// Returns the force in `file`.
 fn replayed(file: &str, folder: &Path) -> Vec<u8> {
     let input = samples().join(file);
     let replay = ["replay", "--input", input.to_str().unwrap()];
@@ -63,7 +63,7 @@ fn a_replay_is_that_of_the_sorted_file() {
 }
 
 #[test]
-fn texts_are_no_signal() {
+fn texts_are_not_signals() {
     let channels = Channels {
         displacement: Channel {
             name: Some("Weg".into()),
@@ -83,9 +83,10 @@ fn texts_are_no_signal() {
     );
 }
 
-/// The library does not join records that blocks of data divide: no row is taken from what follows, none is lost unsaid.
+/// The library does not join records that are divided between data blocks: no row may be read from the following bytes,
+/// and none may be lost silently.
 #[test]
-fn records_over_the_ends_of_blocks_are_refused() {
+fn records_divided_between_blocks_are_refused() {
     let path = samples().join("unsorted_parts.mf4");
     let ended = dashpot(
         &[

@@ -1,6 +1,6 @@
-"""Compares widths.mf4 in a folder, which widths.rs writes, with widths.csv there, as asammdf reads it: widths.py FOLDER.
+"""Compares widths.mf4, as read by asammdf, with widths.csv in the same folder; widths.rs writes both: widths.py FOLDER.
 
-Numbers of more than 53 bits are left out: asammdf 8.8.28 reads some of them with a wrong sign, or not at all.
+Integers of more than 53 bits are skipped: asammdf 8.8.28 reads some of them with a wrong sign, or not at all.
 """
 
 import csv

@@ -1,5 +1,5 @@
-//! Whole numbers of MDF4 of every width from 1 to 64 bits, with and without sign, little- and big-endian, at every bit
-//! of a byte, and floats.
+//! MDF4 integers of every width from 1 to 64 bits, signed and unsigned, little- and big-endian, at every bit offset;
+//! and floats.
 
 use std::path::Path;
 
@@ -11,14 +11,14 @@ use crate::python::run;
 
 const ROWS: usize = 12;
 
-/// A channel with the bits of its numbers in its rows, and the numbers.
+/// Channel with the raw bits of its values in each row, and the values.
 struct Column {
     field: Field,
     raw: Vec<u128>,
     numbers: Vec<f64>,
 }
 
-/// Bits that look random (SplitMix64).
+/// Pseudo-random bits (SplitMix64).
 fn random(state: &mut u64) -> u64 {
     *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut z = *state;
@@ -68,7 +68,7 @@ fn columns() -> Vec<Column> {
         }
     }
     for number in 4..6 {
-        // Finite ones: a bit of the exponent is not set.
+        // Finite values: one bit of the exponent is cleared.
         add(number, 0, 32, &|random| {
             let bits = random as u32 & !(1 << 26);
             (u128::from(bits), f64::from(f32::from_bits(bits)))
@@ -114,7 +114,7 @@ fn write(folder: &Path, columns: &[Column]) {
 }
 
 #[test]
-fn every_width_and_place_is_read() {
+fn every_width_and_bit_offset_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let columns = columns();
     write(folder.path(), &columns);

@@ -1,4 +1,4 @@
-//! What `replay` writes as Parquet and MDF4, read back.
+//! Parquet and MDF4 files written by `replay`, read back.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use dashpot_recording::{Channels, MeasuredSample};
 use crate::common::{dashpot, error_of, files_in};
 use crate::forms::{rows, samples};
 
-/// Replays a sample into `folder` under each name.
+/// Replays a sample into `folder` under each file name.
 pub fn replay(folder: &Path, outputs: &[&str]) {
     let input = samples().join("plain.mf4");
     for output in outputs {

@@ -1,4 +1,4 @@
-//! Nothing is allocated between two ticks.
+//! No memory is allocated between two ticks.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -10,13 +10,13 @@ thread_local! {
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
 }
 
-/// The system's allocator, counting the calls of each thread.
+/// The system allocator with a count of calls per thread.
 struct Counting;
 
-// SAFETY: every call goes to the system's allocator unchanged.
+// SAFETY: every call is passed to the system allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // While a thread ends its counter may be gone.
+        // The counter may already be destroyed while a thread ends.
         let _is_counted = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
         unsafe { System.alloc(layout) }
     }
@@ -29,7 +29,8 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Past the ticks at which the envelopes of a page grow and fold, and past a window of 5 s of the ride indices.
+/// Number of ticks: beyond those at which the envelopes of a page grow and fold, and beyond a window of 5 s of the ride
+/// indices.
 const TICKS: u64 = 5200;
 
 #[test]

@@ -1,5 +1,5 @@
-//! The ticks at which a report would grow take as many instructions as their neighbours: counted by Valgrind's Callgrind, which runs this test
-//! again and writes its counts between every two ticks of some windows.
+//! Ticks at which a report would grow take as many instructions as their neighbours. Valgrind's Callgrind runs this
+//! test again, counts the instructions, and writes the counts between every two ticks of some windows.
 
 use std::process::Command;
 
@@ -7,34 +7,36 @@ use xtask::tools::{VALGRIND, have};
 
 use crate::driven;
 
-/// Past the ticks at which the envelopes of a page grow and fold, and past a window of 5 s of the ride indices.
+/// Number of ticks: beyond those at which the envelopes of a page grow and fold, and beyond a window of 5 s of the ride
+/// indices.
 const TICKS: u64 = 5200;
 
-/// Windows of ticks that are counted, around those at which a list that doubles grows, at which the curves of a page fold, and at which a
-/// window of 5 s of the ride indices ends.
+/// Windows of counted ticks: around those at which a doubling list grows, at which the curves of a page fold, and at
+/// which a window of 5 s of the ride indices ends.
 const WINDOWS: [u64; 5] = [512, 1024, 2048, 4096, 5000];
 
-/// Ticks counted before and from each of them on.
+/// Number of counted ticks before each of these ticks, and from it on.
 const AROUND: u64 = 4;
 
-/// Greatest count of a tick over the median: flange contact adds patches, and a new damper is met once.
+/// Maximum ratio of the count of a tick to the median: flange contact adds patches, and one tick replaces a damper.
 const MAX_OVER_MEDIAN: f64 = 1.5;
 
-/// Set in the process under Valgrind.
+/// Environment variable set in the process under Valgrind.
 const IS_COUNTED: &str = "DASHPOT_TICKS_ARE_COUNTED";
 
-/// `CALLGRIND_DUMP_STATS`, the first request of a tool whose letters are C and T: it writes what was counted since the last time.
+/// `CALLGRIND_DUMP_STATS`, the first request of the tool with the letters C and T: writes the counts since the last
+/// request.
 const DUMP_STATS: u64 = 0x4354_0000;
 
-/// `CALLGRIND_START_INSTRUMENTATION` and `CALLGRIND_STOP_INSTRUMENTATION`: while nothing is counted Valgrind is faster.
+/// `CALLGRIND_START_INSTRUMENTATION` and `CALLGRIND_STOP_INSTRUMENTATION`: Valgrind is faster while it does not count.
 const START: u64 = 0x4354_0004;
 const STOP: u64 = 0x4354_0005;
 
-/// Sends a request to Callgrind. Nothing happens without Valgrind: the instructions rotate a register by 128 bits in all and exchange another
-/// with itself.
+/// Sends a request to Callgrind. Without Valgrind it has no effect: the instructions rotate a register by 128 bits in
+/// total and exchange another register with itself.
 fn request(request: u64) {
     let request = [request, 0, 0, 0, 0, 0];
-    // SAFETY: Valgrind reads the six numbers; rdx has its answer.
+    // SAFETY: Valgrind reads the six numbers and returns its answer in rdx.
     unsafe {
         std::arch::asm!(
             "rol rdi, 3",
@@ -49,13 +51,13 @@ fn request(request: u64) {
     }
 }
 
-/// Whether the counts are written before this tick: those of the tick before it.
+/// True if the counts are written before this tick; they are those of the previous tick.
 fn is_counted(tick: u64) -> bool {
     let mut windows = WINDOWS.iter();
     windows.any(|middle| (middle - AROUND + 1..=middle + AROUND).contains(&tick))
 }
 
-/// What runs under Valgrind; nothing by itself.
+/// Runs under Valgrind; does nothing otherwise.
 #[test]
 fn counted() {
     if std::env::var_os(IS_COUNTED).is_some() {
@@ -77,12 +79,12 @@ fn counted() {
 }
 
 #[test]
-fn no_tick_takes_many_more_instructions_than_the_others() {
+fn all_ticks_take_about_the_same_number_of_instructions() {
     if !have(&[VALGRIND], "instructions of each tick") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    // The tables of the contact are computed and kept without Valgrind.
+    // The contact tables are computed and cached outside Valgrind.
     driven(1, || {});
     let counts = folder.path().join("counts");
     let output = Command::new(VALGRIND.program)
@@ -104,10 +106,10 @@ fn no_tick_takes_many_more_instructions_than_the_others() {
         .lines()
         .filter_map(|line| line.strip_prefix("summary: ")?.trim().parse().ok())
         .collect();
-    // The last is written when the program ends, and has nothing to count.
+    // The last summary is written when the program ends and contains no ticks.
     let ticks: Vec<u64> = (0..TICKS).filter(|tick| is_counted(*tick)).collect();
     assert_eq!(counts.len(), ticks.len() + 1, "{error}");
-    // The first count after a start lacks what Callgrind had counted when it stopped.
+    // The first count after a start lacks the instructions counted before the last stop.
     let (ticks, counts): (Vec<u64>, Vec<u64>) = ticks
         .into_iter()
         .zip(counts)

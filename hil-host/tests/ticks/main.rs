@@ -1,7 +1,8 @@
-//! What the thread of the ticks does between two ticks: every allocation, and every instruction under Valgrind.
+//! Work of the tick thread between two ticks: no allocations, and a constant number of instructions under Valgrind.
 //!
-//! `dashpot vehicle --realtime` was late on a quiet machine at ticks 512, 1024, 2048 and 4096 by 1.4 to 11.7 ms, and reported 60 us: the
-//! envelopes of its page grew and folded on the thread of the ticks, after the time had been taken.
+//! Regression: on a quiet machine, `dashpot vehicle --realtime` was late by 1.4 to 11.7 ms at ticks 512, 1024, 2048 and
+//! 4096, but reported 60 us. The envelopes of its page grew and folded on the tick thread, after the time had been
+//! taken.
 
 mod allocations;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
@@ -15,7 +16,7 @@ use dashpot_realtime::handover::handover;
 use dashpot_realtime::pacing::{Clock, Pacer};
 use dashpot_vehicle_run::{Ending, Run, TickRecord};
 
-/// A clock of its own time, on which a tick takes 100 us. Each sleep lies between two ticks: `between` is called there.
+/// Simulated clock on which a tick takes 100 us. Each sleep is between two ticks, and calls `between`.
 struct Ticks<F> {
     now_ns: Cell<u64>,
     between: RefCell<F>,
@@ -32,8 +33,8 @@ impl<F: FnMut()> Clock for Ticks<F> {
     }
 }
 
-/// Drives `ticks` ticks of the locomotive at 180 km/h as the command does in real time, with a fault of a damper on the way, and calls
-/// `between` before each tick. The records are read after the run, so that the thread does nothing else.
+/// Drives `ticks` ticks of the locomotive at 180 km/h as the command does in real time, with a damper fault during the
+/// run, and calls `between` before each tick. The records are read after the run, so that the thread does nothing else.
 fn driven(ticks: u64, between: impl FnMut()) {
     let mut case = Case::load("straight-180").unwrap();
     case.duration_s = ticks as f64 * case.step_s;

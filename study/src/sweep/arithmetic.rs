@@ -1,13 +1,13 @@
-//! How a processor multiplies and adds.
+//! Floating-point arithmetic of a processor, on which the bits of a row depend.
 
 use std::fmt;
 
-/// How a processor multiplies and adds.
+/// Rounding of a multiplication followed by an addition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arithmetic {
-    /// With one rounding.
+    /// One rounding: fused multiply-add.
     Fused,
-    /// With a rounding each.
+    /// Two roundings, one for each operation.
     Separate,
 }
 
@@ -18,7 +18,7 @@ impl fmt::Display for Arithmetic {
 }
 
 impl Arithmetic {
-    /// Of this processor.
+    /// Arithmetic of this processor.
     pub fn here() -> Self {
         if dashpot_rail::fuses_multiplication() {
             Self::Fused
@@ -27,7 +27,7 @@ impl Arithmetic {
         }
     }
 
-    /// As rows have it.
+    /// Word for this arithmetic in a row.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Fused => "fused",

@@ -1,4 +1,4 @@
-//! Rows that are run again and compared.
+//! Check of rows by running their cases again.
 
 use fastrand::Rng;
 
@@ -8,45 +8,47 @@ use super::rows::Rows;
 use super::run::{RunError, run};
 use super::study::Study;
 
-/// Why rows that were run again do not confirm a study.
+/// Error from running rows again.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
-    /// The rows are of a processor of the other kind.
-    #[error("the rows are of arithmetic {found}, and this processor has {here}: its bits differ")]
+    /// The rows were computed with the other arithmetic.
+    #[error(
+        "the rows were computed with {found} arithmetic, but this processor has {here} arithmetic, so their bits differ"
+    )]
     Arithmetic {
-        /// That of the rows.
+        /// Arithmetic of the rows.
         found: Arithmetic,
-        /// That of this processor.
+        /// Arithmetic of this processor.
         here: Arithmetic,
     },
     /// A case cannot be run.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A row has other cells than the run.
+    /// A cell of a row differs from the result of the new run.
     #[error("case {case}: column {column}: `{found}`, run again: `{computed}`")]
     Differs {
         /// Number of the case.
         case: u64,
-        /// The first column that differs.
+        /// First column that differs.
         column: String,
-        /// The cell of the row.
+        /// Cell of the row.
         found: String,
-        /// The cell of the run.
+        /// Cell computed by the new run.
         computed: String,
     },
-    /// The user did not wait.
+    /// Interrupted by the user.
     #[error("interrupted: {done} of {all} cases were run again")]
     Interrupted {
-        /// Cases that were run.
+        /// Number of cases run so far.
         done: usize,
-        /// Cases that were chosen.
+        /// Number of chosen cases.
         all: usize,
     },
 }
 
-/// Chooses `count` cases of `rows` at random, all where there are fewer; the same for the same seed.
-pub fn chosen(rows: &Rows, count: usize, seed: u64) -> Vec<u64> {
+/// Chooses `count` cases of `rows` at random, or all if there are fewer. The choice is the same for the same seed.
+pub fn choose(rows: &Rows, count: usize, seed: u64) -> Vec<u64> {
     let count = count.min(rows.len());
     let mut cases = Rng::with_seed(seed).choose_multiple(rows.keys().copied(), count);
     cases.sort_unstable();
@@ -56,13 +58,13 @@ pub fn chosen(rows: &Rows, count: usize, seed: u64) -> Vec<u64> {
 /// Runs `cases` again and compares each with its row, bit for bit.
 ///
 /// # Errors
-/// A row that differs; rows of another arithmetic; a case that is refused; an interruption.
+/// A row that differs, rows of another arithmetic, an invalid case, or an interruption.
 pub fn check(
     study: &Study,
     rows: &Rows,
     cases: &[u64],
     threads: usize,
-    is_unwanted: &(dyn Fn() -> bool + Sync),
+    is_cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<(), CheckError> {
     let here = Arithmetic::here();
     let mut found = rows.values().map(|row| row.arithmetic);
@@ -70,7 +72,7 @@ pub fn check(
         return Err(CheckError::Arithmetic { found, here });
     }
     let mut done = 0;
-    run(study, cases, threads, is_unwanted, |row| {
+    run(study, cases, threads, is_cancelled, |row| {
         done += 1;
         compare(study, rows, &row)
     })?;
@@ -83,7 +85,7 @@ pub fn check(
     }
 }
 
-/// Cells tell numbers apart by every bit.
+/// Compares a new row with the kept one. Cells contain enough digits to distinguish all numbers.
 fn compare(study: &Study, rows: &Rows, computed: &Row) -> Result<(), CheckError> {
     let (Some(kept), Some(case)) = (rows.get(&computed.case), study.case(computed.case)) else {
         return Ok(());

@@ -1,5 +1,5 @@
-//! Digests: of the cases of a study, so that rows of different studies are not mixed, and of a row, so that an
-//! altered one is noticed.
+//! Digests of the cases of a study, which keep rows of different studies apart, and of a row, which reveals altered
+//! cells.
 
 use std::fmt::Debug;
 
@@ -10,8 +10,8 @@ use dashpot_files::input;
 use dashpot_files::track::IrregularityParameters;
 use dashpot_files::{FileError, study::StudyFileError};
 
-/// The digest of a row's cells, those before its own: the first 16 hexadecimal digits of the SHA-256 of each cell and
-/// its length.
+/// Computes the digest of the cells of a row before the digest itself: the first 16 hexadecimal digits of the SHA-256
+/// over the length and text of each cell.
 ///
 /// ```
 /// use dashpot_study::sweep::digest_of_cells;
@@ -28,20 +28,20 @@ pub fn digest_of_cells<'a>(cells: impl IntoIterator<Item = &'a str>) -> String {
     digest.hexadecimal()
 }
 
-/// SHA-256 of what it is given.
+/// SHA-256 of the values added.
 #[derive(Default)]
 pub(super) struct Digest(Sha256);
 
 impl Digest {
-    /// Adds what a value is written as, which for numbers is exact.
+    /// Adds the `Debug` text of a value, which is exact for numbers.
     pub fn add(&mut self, value: &impl Debug) {
         self.0.update(format!("{value:?}\n"));
     }
 
-    /// Adds a case: its numbers, its vehicle and its track, whatever their files are called.
+    /// Adds a case: its values, vehicle and track, independent of file names.
     ///
     /// # Errors
-    /// A measured irregularity that cannot be read.
+    /// The file of a measured irregularity cannot be read.
     pub fn add_case(&mut self, case: &Case) -> Result<(), StudyFileError> {
         let Case {
             name: _,
@@ -73,7 +73,7 @@ impl Digest {
         Ok(())
     }
 
-    /// The first 16 hexadecimal digits.
+    /// Returns the first 16 hexadecimal digits.
     pub fn hexadecimal(self) -> String {
         let bytes = self.0.finalize();
         bytes

@@ -1,4 +1,4 @@
-//! Signals of a case over time.
+//! Time histories of signals of a case.
 
 use super::RunError;
 use super::shared::Shared;
@@ -9,20 +9,20 @@ use dashpot_files::study::{Sweep, Value};
 use dashpot_vehicle_run::VehicleRunError;
 use dashpot_vehicle_run::signals::{self, Signal};
 
-/// Signals of a case, tick by tick.
+/// Time histories of signals of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
-    /// Step, s.
+    /// Step size, s.
     pub step_s: f64,
-    /// Of each signal that was asked for.
+    /// Values of each requested signal, tick by tick.
     pub signals: Vec<Vec<f64>>,
 }
 
 impl Study {
-    /// The case of a sweep at a value of its first axis, the others at their first.
+    /// Builds the case of a sweep with a value of its first axis; the other axes are at their first value.
     ///
     /// # Errors
-    /// As [`Self::case_at`].
+    /// See [`Self::case_at`].
     pub fn case_with(
         &self,
         sweep: &Sweep,
@@ -36,17 +36,17 @@ impl Study {
         Ok(self.case_at(sweep, &values, seed)?)
     }
 
-    /// Whether the vehicle of a sweep has signals of these names.
+    /// Checks that the vehicle of a sweep has signals with these names.
     ///
     /// # Errors
-    /// It has not, with the nearest name; a case that is refused.
-    pub fn has_signals(
+    /// Unknown signal, with the nearest name, or invalid case.
+    pub fn check_signals(
         &self,
         sweep: &Sweep,
         names: &[String],
         shared: &Shared,
     ) -> Result<(), RunError> {
-        let failed = |source| RunError::of_sweep(sweep, source);
+        let failed = |source| RunError::in_sweep(sweep, source);
         let case = self.case_with(sweep, None, sweep.seeds.first().copied())?;
         let run = shared.run(&case).map_err(failed)?;
         let all = signals::all(run.vehicle());
@@ -64,20 +64,20 @@ impl Study {
     }
 }
 
-/// Runs a case and records signals by their names; a signal that there is not, which [`Study::has_signals`] tells, stays empty.
+/// Runs a case and records signals by their names. An unknown signal stays empty; [`Study::check_signals`] reports it.
 ///
 /// # Errors
-/// As [`Shared::run`].
+/// See [`Shared::run`].
 pub fn record(case: &Case, names: &[String], shared: &Shared) -> Result<History, VehicleRunError> {
     let mut run = shared.run(case)?;
     let all = signals::all(run.vehicle());
-    let named = |name: &String| all.iter().find(|signal| signal.name() == name);
-    let chosen: Vec<Option<&Signal>> = names.iter().map(named).collect();
+    let find = |name: &String| all.iter().find(|signal| signal.name() == name);
+    let chosen: Vec<Option<&Signal>> = names.iter().map(find).collect();
     let mut recorded: Vec<Vec<f64>> = chosen.iter().map(|_| Vec::new()).collect();
     while run.step()?.is_none() {
         let time_s = run.time_s();
         for (values, signal) in recorded.iter_mut().zip(&chosen) {
-            values.extend(signal.map(|signal| signal.of(run.state(), time_s)));
+            values.extend(signal.map(|signal| signal.value(run.state(), time_s)));
         }
     }
     Ok(History {

@@ -1,4 +1,4 @@
-//! Rows of a study that is being run: added one by one, so that an interruption loses none.
+//! Rows of a running study, written one by one so that an interruption loses none.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -11,7 +11,8 @@ use super::study::{Shard, Study};
 use dashpot_files::FileError;
 use dashpot_files::output::cannot_write;
 
-/// The rows there are, and the file that new ones are added to: that of the rows with `.partial` behind its name.
+/// Rows computed so far, and the file to which new ones are added: the file of rows with `.partial` appended to its
+/// name.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -21,21 +22,21 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// The rows of the file at `path` and of an earlier run that was interrupted; none of them when it begins `anew`: the file there is
-    /// keeps its rows as `.old` then.
+    /// Opens the rows of the file at `path` and of an interrupted run. With `restart`, starts without rows and renames
+    /// an existing file to `.old`.
     ///
     /// # Errors
-    /// Files that cannot be read or written, or hold rows of another study or shard; another process that adds rows.
+    /// A file cannot be read or written or contains rows of another study or shard, or another process is adding rows.
     pub fn open(
         study: &Study,
         path: &Path,
         shard: Option<Shard>,
-        anew: bool,
+        restart: bool,
     ) -> Result<Self, RowsError> {
         let partial = with_ending(path, "partial");
         let mut file = locked(&partial)?;
         let mut known = Rows::new();
-        if anew {
+        if restart {
             file.set_len(0)
                 .map_err(|error| cannot_write(&partial, error))?;
             if path.exists() {
@@ -49,23 +50,23 @@ impl Journal {
             let mut bytes = Vec::new();
             file.read_to_end(&mut bytes)
                 .map_err(|error| FileError::read(&partial, error))?;
-            // What follows the last end of a line was being written when the process ended.
-            let whole = bytes.iter().rposition(|byte| *byte == b'\n');
-            bytes.truncate(whole.map_or(0, |last| last + 1));
+            // An incomplete last line was being written when the process ended.
+            let last_newline = bytes.iter().rposition(|byte| *byte == b'\n');
+            bytes.truncate(last_newline.map_or(0, |last| last + 1));
             if bytes.trim_ascii().is_empty() {
                 bytes.clear();
             }
             if !bytes.is_empty() {
                 let read = rows::parse(study, &partial, &bytes)?;
-                known.extend(rows::once(&partial, read)?);
+                known.extend(rows::index_by_case(&partial, read)?);
             }
             file.set_len(bytes.len() as u64)
                 .map_err(|error| cannot_write(&partial, error))?;
             rows::check_arithmetic(path, known.values(), Arithmetic::here())?;
-            let is_other = |case: &&u64| shard.is_some_and(|shard| !shard.has(**case));
-            if let (Some(case), Some(shard)) = (known.keys().find(is_other), shard) {
-                let Shard { number, of } = shard;
-                let reason = format!("case {case} is not of shard {number} of {of}");
+            let is_foreign = |case: &&u64| shard.is_some_and(|shard| !shard.contains(**case));
+            if let (Some(case), Some(shard)) = (known.keys().find(is_foreign), shard) {
+                let Shard { number, count } = shard;
+                let reason = format!("case {case} does not belong to shard {number} of {count}");
                 return Err(RowsError::Foreign(FileError::in_file(path, reason)));
             }
         }
@@ -82,7 +83,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// The rows there are.
+    /// Rows computed so far.
     pub fn rows(&self) -> &Rows {
         &self.rows
     }
@@ -98,13 +99,13 @@ impl Journal {
         Ok(())
     }
 
-    /// Writes all rows whole, in the order of the cases, and returns them.
+    /// Replaces the file of rows by all rows in the order of the cases, and returns them.
     ///
     /// # Errors
     /// The file cannot be written.
     pub fn finish(self, study: &Study) -> Result<Rows, FileError> {
         rows::write(study, &self.rows, &self.path)?;
-        // On the disk before the rows one by one go.
+        // The rows must be on the disk before the partial file is removed.
         File::open(&self.path)
             .and_then(|file| file.sync_all())
             .map_err(|error| cannot_write(&self.path, error))?;
@@ -112,11 +113,11 @@ impl Journal {
         Ok(self.rows)
     }
 
-    /// Takes the rows of cases in rising order away again.
+    /// Removes the rows of these cases, which must be in ascending order.
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn take_away(&mut self, study: &Study, cases: &[u64]) -> Result<(), FileError> {
+    pub fn remove(&mut self, study: &Study, cases: &[u64]) -> Result<(), FileError> {
         self.rows
             .retain(|case, _| cases.binary_search(case).is_err());
         self.file
@@ -137,7 +138,7 @@ impl Journal {
     }
 }
 
-/// The path with more behind its name.
+/// Appends an extension to a path.
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".");
@@ -145,7 +146,7 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// The file at `path`, which no other process adds to while this one has it open.
+/// Opens the file at `path` with a lock, so that no other process can add to it.
 fn locked(path: &Path) -> Result<File, FileError> {
     loop {
         let file = File::options()
@@ -163,14 +164,15 @@ fn locked(path: &Path) -> Result<File, FileError> {
             }
             Err(TryLockError::Error(error)) => return Err(cannot_write(path, error)),
         }
-        // A process that has just finished may have removed it between opening and locking, and another made one anew.
+        // Between opening and locking, a finishing process may have removed the file, and another may have created a
+        // new one.
         if is_at(&file, path) {
             return Ok(file);
         }
     }
 }
 
-/// Whether the file at `path` is this one.
+/// True if `file` is the file at `path`.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -180,7 +182,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Whether there is a file at `path`: an open one keeps its name.
+/// True if there is a file at `path`; on these systems an open file keeps its name.
 #[cfg(not(unix))]
 fn is_at(_: &File, path: &Path) -> bool {
     path.exists()
@@ -193,7 +195,7 @@ mod tests {
     use super::is_at;
 
     #[test]
-    fn a_file_that_was_removed_is_not_the_one_made_after_it() {
+    fn a_removed_file_differs_from_its_successor_at_the_same_path() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("rows.csv.partial");
         let first = File::create(&path).unwrap();

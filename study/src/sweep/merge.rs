@@ -1,49 +1,61 @@
-//! The rows of a study's shards together.
+//! Merges the rows of the shards of a study.
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
 
-use super::rows::{self, Rows, RowsError};
+use super::rows::{self, NumberedRow, Rows, RowsError};
 use super::study::Study;
 
-/// Why shards are not the whole study.
+/// Error from merging shards.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// A file cannot be read or is not of this study.
+    /// A file cannot be read or belongs to another study.
     #[error(transparent)]
     Rows(#[from] RowsError),
-    /// Cases are missing or there twice.
+    /// Cases are missing or occur more than once.
     #[error("{0}")]
     Gaps(Gaps),
 }
 
-/// Cases that are missing, and those that are there more than once.
+/// Missing and duplicate cases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gaps {
-    /// Cases of the study.
+    /// Number of cases in the study.
     pub cases: u64,
-    /// Numbers of missing ones.
+    /// Numbers of the missing cases.
     pub missing: Vec<u64>,
-    /// Numbers of those that there are more of, with their files.
-    pub double: Vec<(u64, Vec<PathBuf>)>,
+    /// Cases that occur more than once.
+    pub duplicates: Vec<Duplicate>,
 }
 
-/// The rows of all files, each case of the study once.
+/// Case that occurs more than once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Duplicate {
+    /// Number of the case.
+    pub case: u64,
+    /// File of each occurrence.
+    pub files: Vec<PathBuf>,
+}
+
+/// Reads the rows of all files, which together must contain each case of the study once.
 ///
 /// # Errors
-/// Rows that are not of the study; cases that are missing or double.
+/// Rows of another study, or missing or duplicate cases.
 pub fn merge(study: &Study, files: &[PathBuf]) -> Result<Rows, MergeError> {
     let mut rows = Rows::new();
-    let mut places: BTreeMap<u64, Vec<PathBuf>> = BTreeMap::new();
+    let mut files_of_case: BTreeMap<u64, Vec<PathBuf>> = BTreeMap::new();
     for file in files {
         let read = rows::read(study, file)?;
-        let expected = rows.values().next().or(read.first().map(|(_, row)| row));
+        let expected = rows.values().next().or(read.first().map(|read| &read.row));
         if let Some(expected) = expected.map(|row| row.arithmetic) {
-            rows::check_arithmetic(file, read.iter().map(|(_, row)| row), expected)?;
+            rows::check_arithmetic(file, read.iter().map(|read| &read.row), expected)?;
         }
-        for (_, row) in read {
-            places.entry(row.case).or_default().push(file.clone());
+        for NumberedRow { row, .. } in read {
+            files_of_case
+                .entry(row.case)
+                .or_default()
+                .push(file.clone());
             rows.insert(row.case, row);
         }
     }
@@ -51,14 +63,17 @@ pub fn merge(study: &Study, files: &[PathBuf]) -> Result<Rows, MergeError> {
         .part(None)
         .filter(|number| !rows.contains_key(number))
         .collect();
-    places.retain(|_, places| places.len() > 1);
-    if missing.is_empty() && places.is_empty() {
+    files_of_case.retain(|_, files| files.len() > 1);
+    if missing.is_empty() && files_of_case.is_empty() {
         return Ok(rows);
     }
+    let duplicates = files_of_case.into_iter();
     Err(MergeError::Gaps(Gaps {
         cases: study.cases(),
         missing,
-        double: places.into_iter().collect(),
+        duplicates: duplicates
+            .map(|(case, files)| Duplicate { case, files })
+            .collect(),
     }))
 }
 
@@ -67,7 +82,7 @@ impl fmt::Display for Gaps {
         let Self {
             cases,
             missing,
-            double,
+            duplicates,
         } = self;
         if !missing.is_empty() {
             let count = missing.len();
@@ -77,13 +92,13 @@ impl fmt::Display for Gaps {
                 Ranges(missing)
             )?;
         }
-        // Cases that the same files have are told together.
-        let mut of_files: BTreeMap<&[PathBuf], Vec<u64>> = BTreeMap::new();
-        for (case, files) in double {
-            of_files.entry(files).or_default().push(*case);
+        // Cases duplicated in the same files are reported together.
+        let mut cases_of_files: BTreeMap<&[PathBuf], Vec<u64>> = BTreeMap::new();
+        for Duplicate { case, files } in duplicates {
+            cases_of_files.entry(files).or_default().push(*case);
         }
-        for (number, (files, numbers)) in of_files.into_iter().enumerate() {
-            if number > 0 || !missing.is_empty() {
+        for (index, (files, numbers)) in cases_of_files.into_iter().enumerate() {
+            if index > 0 || !missing.is_empty() {
                 f.write_str("; ")?;
             }
             let files: Vec<String> = files
@@ -97,14 +112,14 @@ impl fmt::Display for Gaps {
     }
 }
 
-/// Numbers in rising order, those that follow one another as `first-last`.
+/// Numbers in ascending order; consecutive numbers are shown as `first-last`.
 struct Ranges<'a>(&'a [u64]);
 
 impl fmt::Display for Ranges<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let runs = self.0.chunk_by(|a, b| a + 1 == *b);
-        for (number, run) in runs.enumerate() {
-            if number > 0 {
+        for (index, run) in runs.enumerate() {
+            if index > 0 {
                 f.write_str(", ")?;
             }
             match run {

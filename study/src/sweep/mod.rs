@@ -1,4 +1,5 @@
-//! Studies: many cases of a vehicle on a track, one row of indices each, the same bits in any order and on any number of threads.
+//! Studies: sweeps of vehicle runs over many cases, one row of indices per case. The results are bit-identical for any
+//! order and number of threads.
 
 mod arithmetic;
 mod check;
@@ -17,11 +18,11 @@ mod study;
 mod summary;
 
 pub use arithmetic::Arithmetic;
-pub use check::{CheckError, check, chosen};
+pub use check::{CheckError, check, choose};
 pub use digest::digest_of_cells;
 pub use history::{History, record};
 pub use journal::Journal;
-pub use merge::{Gaps, MergeError, merge};
+pub use merge::{Duplicate, Gaps, MergeError, merge};
 pub use observation::Observation;
 pub use observed::{OBSERVED, Observed};
 pub use physics::physics;

@@ -1,14 +1,16 @@
-//! The behaviour of the model that this program computes rows with.
+//! Version of the model's behaviour, as a digest of its results.
 
 use super::arithmetic::Arithmetic;
 
-/// SHA-256, its first 16 digits, of the results of short runs with fused multiplication and without, on x86-64. A test
-/// recomputes and writes them (`tests/vehicle_validation/physics.rs`): a change of the model changes them, a change
-/// of words does not.
+/// First 16 digits of the SHA-256 of the results of short runs with fused multiply-add, on x86-64. A test recomputes
+/// and updates both digests (`tests/vehicle_validation/physics.rs`): a change of the model changes them, a change of
+/// wording does not.
 const FUSED: &str = "71834a405a4c2785";
+/// Digest of the same runs without fused multiply-add.
 const SEPARATE: &str = "a78fe964214d5a97";
 
-/// What tells rows of different physics apart: the digest of the model's behaviour with an arithmetic.
+/// Returns the digest of the model's behaviour with an arithmetic. It distinguishes rows computed by models of
+/// different behaviour.
 ///
 /// ```
 /// use dashpot_study::sweep::{Arithmetic, physics};

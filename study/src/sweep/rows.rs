@@ -1,4 +1,4 @@
-//! Files of rows: CSV with a header, read strictly, and written whole in the order of the cases.
+//! Files of rows: CSV with a header, read strictly and written completely in the order of the cases.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -11,43 +11,52 @@ use dashpot_files::FileError;
 use dashpot_files::input;
 use dashpot_files::output::{cannot_write_rows, write_whole};
 
-/// Why a file has no rows of a study.
+/// Error from a file of rows.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowsError {
-    /// It cannot be read or written.
+    /// The file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A line is no row: damaged, altered, or of a case that another line has too.
+    /// Invalid line: damaged, altered, or with a case that another line has too.
     #[error("{source}")]
     Damaged {
-        /// Line, from 1.
+        /// Line number, from 1.
         line: u64,
-        /// What is wrong with it.
+        /// Reason.
         source: FileError,
     },
-    /// Its rows are of another study, version, physics or arithmetic, or of an earlier `dashpot` with other columns.
+    /// The rows belong to another study, version, physics or arithmetic, or to an earlier release with other columns.
     #[error("{0}")]
     Foreign(FileError),
 }
 
-/// Rows by the numbers of their cases.
+/// Rows by case number.
 pub type Rows = BTreeMap<u64, Row>;
 
-/// The rows of a study in the file at `path`, each with its line.
+/// Row with its line in the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NumberedRow {
+    /// Line number, from 1.
+    pub line: u64,
+    /// Row on this line.
+    pub row: Row,
+}
+
+/// Reads the rows of a study from the file at `path`.
 ///
 /// # Errors
-/// A file that cannot be read; a header or a row that is not of this study, with line and column.
-pub fn read(study: &Study, path: &Path) -> Result<Vec<(u64, Row)>, RowsError> {
+/// The file cannot be read, or a header or row does not belong to this study, with line and column.
+pub fn read(study: &Study, path: &Path) -> Result<Vec<NumberedRow>, RowsError> {
     parse(study, &input::name(path), &input::read(path)?)
 }
 
-/// The rows in `bytes`, which are those of the file at `path`.
+/// Parses rows from `bytes`, the contents of the file at `path`.
 pub(super) fn parse(
     study: &Study,
     path: &Path,
     bytes: &[u8],
-) -> Result<Vec<(u64, Row)>, RowsError> {
+) -> Result<Vec<NumberedRow>, RowsError> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
@@ -58,7 +67,7 @@ pub(super) fn parse(
         let record = record.map_err(|error| {
             let line = error.position().map_or(0, csv::Position::line);
             let source = match error.kind() {
-                csv::ErrorKind::Utf8 { .. } => FileError::in_line(path, line, "no text in UTF-8"),
+                csv::ErrorKind::Utf8 { .. } => FileError::in_line(path, line, "not UTF-8 text"),
                 _ => FileError::in_file(path, error),
             };
             RowsError::Damaged { line, source }
@@ -67,7 +76,7 @@ pub(super) fn parse(
         if number == 0 {
             if !record.iter().eq(columns.iter()) {
                 let reason = format!(
-                    "not the columns of the study, which are {}",
+                    "the columns are not those of the study, which are {}",
                     columns.join(",")
                 );
                 return Err(RowsError::Foreign(FileError::in_line(path, line, reason)));
@@ -82,24 +91,27 @@ pub(super) fn parse(
                 false => RowsError::Damaged { line, source },
             }
         })?;
-        rows.push((line, row));
+        rows.push(NumberedRow { line, row });
     }
     if rows.is_empty() && bytes.is_empty() {
-        let reason = format!("empty, allowed: rows under {}", columns.join(","));
+        let reason = format!(
+            "empty; allowed: rows under the header {}",
+            columns.join(",")
+        );
         return Err(FileError::in_file(path, reason).into());
     }
     Ok(rows)
 }
 
-/// The rows of [`read`] by their cases.
+/// Reads the rows of a study by case number.
 ///
 /// # Errors
-/// As [`read`]; a case twice.
+/// See [`read`]; also if a case occurs twice.
 pub fn read_once(study: &Study, path: &Path) -> Result<Rows, RowsError> {
-    once(path, read(study, path)?)
+    index_by_case(path, read(study, path)?)
 }
 
-/// Refuses rows of a processor that computes otherwise.
+/// Rejects rows computed with another arithmetic.
 pub(super) fn check_arithmetic<'a>(
     path: &Path,
     rows: impl Iterator<Item = &'a Row>,
@@ -110,7 +122,8 @@ pub(super) fn check_arithmetic<'a>(
         Some(other) => {
             let (case, found) = (other.case, other.arithmetic);
             let reason = format!(
-                "case {case}: arithmetic {found}, allowed here: {expected}; rows of both kinds of processors do not mix"
+                "case {case}: arithmetic {found}, allowed here: {expected}; rows of both kinds of \
+                 processors cannot be mixed"
             );
             Err(RowsError::Foreign(FileError::in_file(path, reason)))
         }
@@ -118,12 +131,13 @@ pub(super) fn check_arithmetic<'a>(
     }
 }
 
-pub(super) fn once(path: &Path, read: Vec<(u64, Row)>) -> Result<Rows, RowsError> {
+/// Collects rows by case number and rejects duplicates.
+pub(super) fn index_by_case(path: &Path, read: Vec<NumberedRow>) -> Result<Rows, RowsError> {
     let mut rows = Rows::new();
-    for (line, row) in read {
+    for NumberedRow { line, row } in read {
         let case = row.case;
         if rows.insert(case, row).is_some() {
-            let reason = format!("case {case} a second time, allowed: once");
+            let reason = format!("case {case} occurs a second time; allowed: once");
             let source = FileError::in_line(path, line, reason);
             return Err(RowsError::Damaged { line, source });
         }
@@ -148,7 +162,7 @@ pub fn write(study: &Study, rows: &Rows, path: &Path) -> Result<(), FileError> {
     })
 }
 
-/// The cells of a row.
+/// Formats the cells of a row.
 pub(super) fn record(study: &Study, row: &Row) -> io::Result<Vec<String>> {
     let case = study.case(row.case);
     let case = case.ok_or_else(|| io::Error::other(format!("no case {}", row.case)))?;

@@ -1,4 +1,4 @@
-//! The cases of a study, run.
+//! Runs the cases of a study.
 
 use super::arithmetic::Arithmetic;
 use super::observation::Observation;
@@ -10,20 +10,20 @@ use dashpot_files::case::Case;
 use dashpot_files::study::{StudyFileError, Sweep};
 use dashpot_vehicle_run::{Ending, Indexer, ValidityWatch, VehicleRunError};
 
-/// Last time of a run in which a limit cycle's amplitude is taken, s.
+/// Length of the last part of a run, in which the amplitude of a limit cycle is measured, s.
 const LAST_S: f64 = 3.0;
 
-/// Ticks between two looks whether the run is still wanted.
-const TICKS_A_LOOK: u64 = 1024;
+/// Ticks between checks for cancellation.
+const TICKS_PER_CHECK: u64 = 1024;
 
-/// Runs a case to its end, or until it is unwanted; no observation of a run that does not come to its end.
+/// Runs a case to its end, or until `is_cancelled` returns true. Only a completed run has an observation.
 ///
 /// # Errors
-/// As [`Shared::run`].
+/// See [`Shared::run`].
 pub fn observe(
     case: &Case,
     shared: &Shared,
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(Ending, Option<Observation>), VehicleRunError> {
     let mut run = shared.run(case)?;
     let mut indexer = Indexer::new(case);
@@ -39,14 +39,14 @@ pub fn observe(
         watch.add(run.state());
         if run.state().ticks() > last {
             let lateral = run.state().coordinates()[bodies..].iter();
-            last_lateral_m = lateral.fold(last_lateral_m, |most, q| most.max(q[0].abs()));
+            last_lateral_m = lateral.fold(last_lateral_m, |max, q| max.max(q[0].abs()));
         }
-        if run.state().ticks() % TICKS_A_LOOK == 0 && is_unwanted() {
+        if run.state().ticks() % TICKS_PER_CHECK == 0 && is_cancelled() {
             break run.interrupted();
         }
     };
-    let whole = (ending == Ending::Completed).then(|| indexer.indices());
-    let observation = whole.flatten().map(|indices| Observation {
+    let indices = (ending == Ending::Completed).then(|| indexer.indices());
+    let observation = indices.flatten().map(|indices| Observation {
         indices,
         last_lateral_m,
         wheel_load_over_static: watch.greatest_load_ratio(),
@@ -55,26 +55,26 @@ pub fn observe(
     Ok((ending, observation))
 }
 
-/// Why a study does not go on.
+/// Error that stops a study.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// A case is refused.
+    /// Invalid case.
     #[error("{0}")]
     Case(Box<StudyFileError>),
     /// A case cannot be run.
     #[error("sweep {sweep}: {source}")]
     Run {
-        /// Its sweep.
+        /// Name of the sweep.
         sweep: String,
-        /// What is wrong with it.
+        /// Reason.
         source: Box<VehicleRunError>,
     },
     /// A figure cannot be drawn.
     #[error("figure of sweep {sweep}: {reason}")]
     Figure {
-        /// The sweep.
+        /// Name of the sweep.
         sweep: String,
-        /// What it lacks.
+        /// Reason.
         reason: String,
     },
 }
@@ -86,8 +86,8 @@ impl From<StudyFileError> for RunError {
 }
 
 impl RunError {
-    /// A case of `sweep` cannot be run.
-    pub fn of_sweep(sweep: &Sweep, source: VehicleRunError) -> Self {
+    /// Adds the sweep to the error of a run.
+    pub fn in_sweep(sweep: &Sweep, source: VehicleRunError) -> Self {
         Self::Run {
             sweep: sweep.name.clone(),
             source: Box::new(source),
@@ -95,75 +95,76 @@ impl RunError {
     }
 }
 
-/// Runs the cases of these numbers on so many threads, and gives each row as soon as there is one; those of an interruption are left out.
+/// Runs the cases with these numbers on a pool of `threads` threads, and passes each row to `on_row` as soon as it is
+/// complete. Cases interrupted by `is_cancelled` have no row.
 ///
-/// A row is that of its case alone, so neither threads nor order change it.
+/// A row depends on its case only, so neither the order nor the number of threads changes it.
 ///
 /// # Errors
-/// A case that is refused; what `take` returns. No other case is begun then.
+/// Invalid case, or an error returned by `on_row`. No further case is started then.
 pub fn run<E: From<RunError>>(
     study: &Study,
     numbers: &[u64],
     threads: usize,
-    is_unwanted: &(dyn Fn() -> bool + Sync),
-    take: impl FnMut(Row) -> Result<(), E>,
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    on_row: impl FnMut(Row) -> Result<(), E>,
 ) -> Result<(), E> {
     run_with(
         study,
         &Shared::default(),
         numbers,
         threads,
-        is_unwanted,
-        take,
+        is_cancelled,
+        on_row,
     )
 }
 
-/// As [`run`], with what other runs have made.
+/// Like [`run`], but reuses contacts and tracks from `shared`.
 ///
 /// # Errors
-/// As [`run`].
+/// See [`run`].
 pub fn run_with<E: From<RunError>>(
     study: &Study,
     shared: &Shared,
     numbers: &[u64],
     threads: usize,
-    is_unwanted: &(dyn Fn() -> bool + Sync),
-    mut take: impl FnMut(Row) -> Result<(), E>,
+    is_cancelled: &(dyn Fn() -> bool + Sync),
+    mut on_row: impl FnMut(Row) -> Result<(), E>,
 ) -> Result<(), E> {
     let work = |number: &u64, is_ended: &dyn Fn() -> bool| {
-        let is_unwanted = || is_ended() || is_unwanted();
-        if is_unwanted() {
+        let is_cancelled = || is_ended() || is_cancelled();
+        if is_cancelled() {
             return Ok(None);
         }
-        row(study, *number, shared, &is_unwanted)
+        row(study, *number, shared, &is_cancelled)
     };
     dashpot_workers::in_parallel(numbers, threads, work, |_, row| match row? {
-        Some(row) => take(row),
+        Some(row) => on_row(row),
         None => Ok(()),
     })
 }
 
-/// The row of a case; none of a number that no case has, or where it became unwanted.
+/// Runs a case and returns its row. Returns `None` if there is no case with this number, or if the run was cancelled.
 ///
 /// # Errors
-/// A case that is refused.
+/// Invalid case.
 pub fn row(
     study: &Study,
     number: u64,
     shared: &Shared,
-    is_unwanted: &dyn Fn() -> bool,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Option<Row>, RunError> {
-    let Some(of_study) = study.case(number) else {
+    let Some(study_case) = study.case(number) else {
         return Ok(None);
     };
-    let case = study.build(&of_study)?;
-    let (ending, observation) = observe(&case, shared, is_unwanted)
-        .map_err(|source| RunError::of_sweep(of_study.sweep, source))?;
+    let case = study.build(&study_case)?;
+    let (ending, observation) = observe(&case, shared, is_cancelled)
+        .map_err(|source| RunError::in_sweep(study_case.sweep, source))?;
     if matches!(ending, Ending::Interrupted { .. }) {
         return Ok(None);
     }
     let value = |index: &Observed| {
-        let value = (index.of)(observation.as_ref()?)?;
+        let value = (index.extract)(observation.as_ref()?)?;
         value.is_finite().then_some(value)
     };
     Ok(Some(Row {

@@ -1,4 +1,4 @@
-//! What the cases of a study share: contacts and tracks, each made once.
+//! Contacts and tracks shared by the cases of a study; each is built once.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -8,84 +8,98 @@ use dashpot_rail::track::Track;
 
 use dashpot_files::case::Case;
 use dashpot_files::track::TrackParameters;
-use dashpot_vehicle_run::contact::{self, ContactOf};
+use dashpot_vehicle_run::contact::{self, ContactSetup, TablesKey};
 use dashpot_vehicle_run::{Run, VehicleRunError};
 
-/// Tracks that are kept; half a megabyte a kilometre.
-const TRACKS: usize = 64;
+/// Maximum number of cached tracks; each takes half a megabyte per kilometre.
+const MAX_TRACKS: usize = 64;
 
-/// Contacts that are kept, and their tables, some 43 MB each.
-const CONTACTS: usize = 16;
-const TABLES: usize = 4;
+/// Maximum number of cached contacts.
+const MAX_CONTACTS: usize = 16;
+/// Maximum number of cached contact tables; each takes about 43 MB.
+const MAX_TABLES: usize = 4;
 
 type Contact = Arc<WheelsetContact<KalkerBook>>;
 
-/// Contacts and tracks of cases that have been run.
+/// Cache of the contacts and tracks of recent cases.
 #[derive(Default)]
 pub struct Shared {
-    tables: Kept<[f64; 2], Arc<Tables>>,
-    contacts: Kept<ContactOf, Contact>,
-    tracks: Kept<TrackParameters, Arc<Track>>,
+    tables: Cache<TablesKey, Arc<Tables>>,
+    contacts: Cache<ContactSetup, Contact>,
+    tracks: Cache<TrackParameters, Arc<Track>>,
 }
 
 impl Shared {
-    /// The vehicle of a case at its start.
+    /// Places the vehicle of a case at its start.
     ///
     /// # Errors
-    /// As [`Run::new`].
+    /// See [`Run::new`].
     pub fn run(&self, case: &Case) -> Result<Run, VehicleRunError> {
-        let of = ContactOf::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
-        let contact = self.contacts.get(CONTACTS, of, |of| {
+        let setup = ContactSetup::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
+        let contact = self.contacts.get(MAX_CONTACTS, setup, |setup| {
             let tables = self
                 .tables
-                .get(TABLES, of.geometry_key(), |_| of.tables())?;
-            contact::with(tables, of)
+                .get(MAX_TABLES, setup.tables_key(), |_| setup.tables())?;
+            contact::from_tables(tables, setup)
         })?;
-        let track = self.tracks.get(TRACKS, case.track.clone(), |track| {
+        let track = self.tracks.get(MAX_TRACKS, case.track.clone(), |track| {
             track.build().map(Arc::new)
         })?;
         Run::on(case, contact, track)
     }
 }
 
-/// What is made of keys, the last ones asked for.
-struct Kept<K, V>(Mutex<Vec<Entry<K, V>>>);
+/// Values built from keys; keeps the most recently used ones.
+struct Cache<K, V>(Mutex<Vec<Entry<K, V>>>);
 
-/// Made by whoever asks first, while others wait.
-type Entry<K, V> = (K, Arc<Mutex<Option<V>>>);
+/// Value of a key. The first thread that needs it builds it while others wait.
+struct Entry<K, V> {
+    key: K,
+    slot: Arc<Mutex<Option<V>>>,
+}
 
-impl<K, V> Default for Kept<K, V> {
+impl<K, V> Default for Cache<K, V> {
     fn default() -> Self {
         Self(Mutex::default())
     }
 }
 
-impl<K: PartialEq + Clone, V: Clone> Kept<K, V> {
-    fn get<E>(&self, most: usize, key: K, make: impl FnOnce(&K) -> Result<V, E>) -> Result<V, E> {
-        let place = {
-            let mut entries = held(&self.0);
-            let found = entries.iter().position(|(other, _)| *other == key);
+impl<K: PartialEq + Clone, V: Clone> Cache<K, V> {
+    /// Returns the value of `key`; builds it if necessary, and drops the least recently used of more than
+    /// `max_entries`.
+    fn get<E>(
+        &self,
+        max_entries: usize,
+        key: K,
+        build: impl FnOnce(&K) -> Result<V, E>,
+    ) -> Result<V, E> {
+        let slot = {
+            let mut entries = lock(&self.0);
+            let found = entries.iter().position(|entry| entry.key == key);
             let entry = match found {
                 Some(found) => entries.remove(found),
-                None => (key.clone(), Arc::default()),
+                None => Entry {
+                    key: key.clone(),
+                    slot: Arc::default(),
+                },
             };
-            if entries.len() >= most {
+            if entries.len() >= max_entries {
                 entries.remove(0);
             }
-            let place = entry.1.clone();
+            let slot = entry.slot.clone();
             entries.push(entry);
-            place
+            slot
         };
-        let mut made = held(&place);
-        if let Some(made) = &*made {
-            return Ok(made.clone());
+        let mut value = lock(&slot);
+        if let Some(value) = &*value {
+            return Ok(value.clone());
         }
-        let new = make(&key)?;
-        *made = Some(new.clone());
-        Ok(new)
+        let built = build(&key)?;
+        *value = Some(built.clone());
+        Ok(built)
     }
 }
 
-fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! The cases of a study, by their numbers.
+//! Numbered cases of a study.
 
 use super::digest::Digest;
 use super::observed::Observed;
@@ -7,52 +7,52 @@ use dashpot_files::did_you_mean;
 use dashpot_files::study::{StudyFileError, StudyParameters, Sweep, Value};
 use dashpot_vehicle_run::check_ride;
 
-/// Most cases of a study.
-const MOST_CASES: u64 = 10_000_000;
+/// Maximum number of cases in a study.
+const MAX_CASES: u64 = 10_000_000;
 
-/// A study whose every value has been checked, and its list of cases.
+/// Study with all values checked, and its list of cases.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// What its file gives.
+    /// Contents of the study file.
     pub parameters: StudyParameters,
-    /// The indices of a row.
+    /// Observed indices, in the order of a row.
     pub observed: Vec<Observed>,
-    /// Parameters that vary anywhere, in the order in which they are named.
+    /// Parameters that vary in any sweep, in the order of their first use.
     pub varied: Vec<String>,
-    /// Number of the first case of each sweep, and of all cases.
+    /// Number of the first case of each sweep, followed by the total number of cases.
     starts: Vec<u64>,
-    /// Of what the cases are: 16 hexadecimal digits.
+    /// Digest of the cases: 16 hexadecimal digits.
     digest: String,
 }
 
-/// A case of a study.
+/// Numbered case of a study.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StudyCase<'a> {
-    /// Its number, from 0.
+    /// Number of the case, from 0.
     pub number: u64,
-    /// Its sweep.
+    /// Sweep that contains the case.
     pub sweep: &'a Sweep,
-    /// Number of its values among the combinations of the sweep, from 0.
+    /// Number of the combination of values within the sweep, from 0.
     pub point: u64,
-    /// Seed of its irregularity; that of the track file where there is none.
+    /// Seed of the track irregularity; `None` for that of the track file.
     pub seed: Option<u64>,
 }
 
-/// One of `of` parts of the cases, which takes every `of`-th.
+/// One of `count` parts of a study; contains every `count`-th case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Its number, from 0.
+    /// Number of the shard, from 0.
     pub number: u64,
-    /// How many there are.
-    pub of: u64,
+    /// Number of shards.
+    pub count: u64,
 }
 
 impl Study {
-    /// Checks every value of every axis once, the other axes at their first.
+    /// Checks every value of each axis once, with the other axes at their first value.
     ///
     /// # Errors
-    /// An index that there is not, or that runs of a sweep are too short for; a value or case that is refused, with
-    /// file and line; too many cases.
+    /// Unknown index, runs too short for an observed index, invalid value or case (with file and line), or too many
+    /// cases.
     ///
     /// ```
     /// use dashpot_files::study::StudyParameters;
@@ -78,19 +78,19 @@ impl Study {
     /// # Ok::<(), dashpot_files::study::StudyFileError>(())
     /// ```
     pub fn new(parameters: StudyParameters) -> Result<Self, StudyFileError> {
-        let wrong = |line: u64, message: String| StudyFileError::Line {
+        let invalid = |line: u64, message: String| StudyFileError::Line {
             name: parameters.file.clone(),
             line,
             message,
         };
         let mut observed = Vec::new();
         for name in &parameters.observed {
-            let found = Observed::called(name);
+            let found = Observed::by_name(name);
             let known = super::OBSERVED.iter().map(|index| index.name);
             observed.push(*found.ok_or_else(|| {
                 let hint = did_you_mean(name, known.clone());
                 let known = known.clone().collect::<Vec<_>>().join(", ");
-                wrong(
+                invalid(
                     parameters.observed_line,
                     format!("observed `{name}`: no such index{hint}; allowed: {known}"),
                 )
@@ -105,12 +105,12 @@ impl Study {
                     varied.push(axis.parameter.clone());
                 }
             }
-            let of_ride = observed.iter().find(|index| index.is_of_ride());
-            check(&parameters, sweep, of_ride, &mut digest)?;
+            let ride_index = observed.iter().find(|index| index.is_ride_index());
+            check(&parameters, sweep, ride_index, &mut digest)?;
             let end = starts[starts.len() - 1].saturating_add(sweep.cases());
-            if end > MOST_CASES {
-                let message = format!("more than {MOST_CASES} cases up to sweep {}", sweep.name);
-                return Err(wrong(sweep.line, message));
+            if end > MAX_CASES {
+                let message = format!("more than {MAX_CASES} cases up to sweep {}", sweep.name);
+                return Err(invalid(sweep.line, message));
             }
             starts.push(end);
         }
@@ -124,25 +124,25 @@ impl Study {
         })
     }
 
-    /// How many cases there are.
+    /// Number of cases.
     pub fn cases(&self) -> u64 {
         self.starts[self.starts.len() - 1]
     }
 
-    /// Whether the files that the study names are as they were when it was read.
+    /// True if the files named by the study have not changed since it was loaded.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// See [`Self::new`].
     pub fn is_unchanged(&self) -> Result<bool, StudyFileError> {
         Ok(Self::new(self.parameters.clone())?.digest == self.digest)
     }
 
-    /// Of what the cases are; rows of studies with the same digest and version belong together.
+    /// Digest of the cases. Rows of studies with the same digest and version belong together.
     pub fn digest(&self) -> &str {
         &self.digest
     }
 
-    /// The case of a number; none beyond the last.
+    /// Returns the case with a number; `None` beyond the last case.
     pub fn case(&self, number: u64) -> Option<StudyCase<'_>> {
         if number >= self.cases() {
             return None;
@@ -159,33 +159,36 @@ impl Study {
         })
     }
 
-    /// Numbers of the cases of a sweep at a point, a case a seed.
+    /// Returns the numbers of the cases at a point of a sweep, one case per seed.
     pub fn numbers(&self, sweep: &Sweep, point: u64) -> std::ops::Range<u64> {
         let sweeps = &self.parameters.sweeps;
-        let at = sweeps.iter().position(|other| other.name == sweep.name);
+        let index = sweeps.iter().position(|other| other.name == sweep.name);
         let seeds = sweep.seeds.len().max(1) as u64;
-        let start = at.map_or(0, |at| self.starts[at]) + point * seeds;
+        let start = index.map_or(0, |index| self.starts[index]) + point * seeds;
         start..start + seeds
     }
 
-    /// Numbers of the cases of a shard; all where there is none.
+    /// Returns the numbers of the cases of a shard, or of all cases if `shard` is `None`.
     pub fn part(&self, shard: Option<Shard>) -> impl Iterator<Item = u64> + use<> {
-        let Shard { number, of } = shard.unwrap_or(Shard { number: 0, of: 1 });
-        (number..self.cases()).step_by(usize::try_from(of).unwrap_or(usize::MAX))
+        let Shard { number, count } = shard.unwrap_or(Shard {
+            number: 0,
+            count: 1,
+        });
+        (number..self.cases()).step_by(usize::try_from(count).unwrap_or(usize::MAX))
     }
 
-    /// The case of one of its cases.
+    /// Builds the vehicle case of a numbered case.
     ///
     /// # Errors
-    /// As [`Self::case_at`].
+    /// See [`Self::case_at`].
     pub fn build(&self, case: &StudyCase<'_>) -> Result<Case, StudyFileError> {
         self.case_at(case.sweep, &case.values(), case.seed)
     }
 
-    /// The case of a sweep with a value of each axis, and a seed.
+    /// Builds the vehicle case of a sweep with one value per axis and a seed.
     ///
     /// # Errors
-    /// A value or a case that is refused, with file and line.
+    /// Invalid value or case, with file and line.
     pub fn case_at(
         &self,
         sweep: &Sweep,
@@ -195,48 +198,49 @@ impl Study {
         let file = &self.parameters.file;
         let case = build(file, sweep, values)?;
         match seed {
-            Some(seed) => seeded(file, sweep, case, seed),
+            Some(seed) => with_seed(file, sweep, case, seed),
             None => Ok(case),
         }
     }
 }
 
 impl Shard {
-    /// Whether it has a case.
-    pub fn has(self, case: u64) -> bool {
-        case % self.of == self.number
+    /// True if the shard contains the case with this number.
+    pub fn contains(self, case: u64) -> bool {
+        case % self.count == self.number
     }
 }
 
 impl StudyCase<'_> {
-    /// The value of each axis of its sweep.
+    /// Returns the value of each axis of its sweep.
     pub fn values(&self) -> Vec<&Value> {
         self.sweep.values(self.point)
     }
 }
 
-/// The case with another seed.
-fn seeded(file: &str, sweep: &Sweep, case: Case, seed: u64) -> Result<Case, StudyFileError> {
+/// Replaces the seed of the track irregularity.
+fn with_seed(file: &str, sweep: &Sweep, case: Case, seed: u64) -> Result<Case, StudyFileError> {
     match case.track.with_seed(seed) {
         Some(track) => Ok(Case { track, ..case }),
         None => Err(StudyFileError::Line {
             name: file.to_owned(),
             line: sweep.line,
             message: format!(
-                "sweep {}: seeds, but the track {} has no irregularity of a spectrum",
+                "sweep {}: seeds are given, but track {} has no irregularity generated from a spectrum",
                 sweep.name, case.track.name
             ),
         }),
     }
 }
 
+/// Builds the case of a sweep with one value per axis.
 fn build(file: &str, sweep: &Sweep, values: &[&Value]) -> Result<Case, StudyFileError> {
-    let at = || {
-        let named = sweep.axes.iter().zip(values);
-        let named = named.map(|(axis, value)| format!("{} {value}", axis.parameter));
-        match named.collect::<Vec<_>>().join(", ") {
-            none if none.is_empty() => none,
-            some => format!(" at {some}"),
+    let location = || {
+        let pairs = sweep.axes.iter().zip(values);
+        let pairs = pairs.map(|(axis, value)| format!("{} {value}", axis.parameter));
+        match pairs.collect::<Vec<_>>().join(", ") {
+            text if text.is_empty() => text,
+            text => format!(" at {text}"),
         }
     };
     let options = sweep
@@ -252,16 +256,16 @@ fn build(file: &str, sweep: &Sweep, values: &[&Value]) -> Result<Case, StudyFile
             name: file.to_owned(),
             line: sweep.line,
             sweep: sweep.name.clone(),
-            at: at(),
+            at: location(),
             source: Box::new(source),
         })
 }
 
-/// Builds the cases that together have every value, and adds them to the digest.
+/// Builds cases that together contain every value of a sweep, and adds them to the digest.
 fn check(
     study: &StudyParameters,
     sweep: &Sweep,
-    of_ride: Option<&Observed>,
+    ride_index: Option<&Observed>,
     digest: &mut Digest,
 ) -> Result<(), StudyFileError> {
     digest.add(&sweep.name);
@@ -270,16 +274,16 @@ fn check(
     let mut add = |values: &[&Value]| -> Result<(), StudyFileError> {
         let case = build(&study.file, sweep, values)?;
         let case = match sweep.seeds.first() {
-            Some(seed) => seeded(&study.file, sweep, case, *seed)?,
+            Some(seed) => with_seed(&study.file, sweep, case, *seed)?,
             None => case,
         };
-        if let (Some(index), Err(reason)) = (of_ride, check_ride(&case)) {
+        if let (Some(index), Err(reason)) = (ride_index, check_ride(&case)) {
             return Err(StudyFileError::Line {
                 name: study.file.clone(),
                 line: sweep.line,
                 message: format!(
-                    "sweep {}: observed `{}`: {reason}; allowed: a longer duration_s, or this index left out of \
-                     `observed`",
+                    "sweep {}: observed `{}`: {reason}; allowed: a longer duration_s, or `observed` without this \
+                     index",
                     sweep.name, index.name
                 ),
             });
@@ -288,10 +292,10 @@ fn check(
         Ok(())
     };
     add(&first)?;
-    for (number, axis) in sweep.axes.iter().enumerate() {
+    for (index, axis) in sweep.axes.iter().enumerate() {
         for value in &axis.values[1..] {
             let mut values = first.clone();
-            values[number] = value;
+            values[index] = value;
             add(&values)?;
         }
     }

@@ -1,20 +1,21 @@
-//! Means over seeds, and how sure they are.
+//! Means over seeds, with confidence intervals.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// A mean and half of its confidence interval of 95 %.
+/// Mean with its 95 % confidence interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
     /// Mean.
     pub mean: f64,
-    /// Half of the interval that has the true mean in 95 of 100 studies; none of a single value.
+    /// Half width of the 95 % confidence interval; `None` for a single value.
     pub confidence: Option<f64>,
-    /// Values.
+    /// Number of values.
     pub count: usize,
 }
 
 impl Estimate {
-    /// Of the relative changes, in percent, from each value to that of the same seed; pairs of which one is missing are left out.
+    /// Estimates the mean relative change in percent from each value to that of the same seed. Pairs with a missing
+    /// value are skipped.
     ///
     /// ```
     /// use dashpot_study::sweep::Estimate;
@@ -28,7 +29,8 @@ impl Estimate {
         Self::of(&changes)
     }
 
-    /// Of independent values: `mean +- t s / sqrt(n)` with Student's `t` of `n - 1` degrees of freedom; none of no values.
+    /// Estimates the mean of independent values: `mean +- t s / sqrt(n)` with the sample standard deviation `s` and
+    /// Student's `t` for `n - 1` degrees of freedom. Returns `None` without values.
     ///
     /// ```
     /// use dashpot_study::sweep::Estimate;

@@ -1,4 +1,4 @@
-//! How far two runs of a case are apart.
+//! Deviations between two runs of a case.
 
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
@@ -9,8 +9,7 @@ use dashpot_vehicle_run::VehicleTick;
 use dashpot_vehicle_run::signals::{SIDES, load_n};
 use dashpot_vehicle_run::{Indexer, Indices, Sample};
 
-/// Greatest deviations of a step of 1 ms: acceleration of bodies over its root mean square, m of a wheelset to the side, N of a wheel's
-/// load, and of an index over itself.
+/// Maximum deviations allowed for a step of 1 ms; see the fields of [`Deviations`].
 pub const BOUNDS: Deviations<f64> = Deviations {
     acceleration: 0.01,
     lateral_m: 5e-6,
@@ -18,36 +17,44 @@ pub const BOUNDS: Deviations<f64> = Deviations {
     index: 0.005,
 };
 
-/// The worst deviations of a run from another.
+/// Largest deviations of one run from another, one field per quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Deviations<T> {
-    /// Root mean square of the difference of a body's acceleration over that of the acceleration about its mean (NRMSE).
+    /// Root mean square error of a body's acceleration, divided by the standard deviation of the acceleration (NRMSE).
     pub acceleration: T,
-    /// Root mean square of the difference of a wheelset's lateral displacement, m.
+    /// Root mean square error of a wheelset's lateral displacement, m.
     pub lateral_m: T,
-    /// Root mean square of the difference of a wheel's load, N.
+    /// Root mean square error of a wheel load, N.
     pub load_n: T,
-    /// Difference of an index over the index.
+    /// Relative error of an index.
     pub index: T,
 }
 
-/// A deviation and what has it.
+/// Largest deviation and the quantity that has it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Worst {
-    /// The number.
+    /// Deviation.
     pub deviation: f64,
-    /// What has it.
-    pub of: String,
+    /// Body, wheelset, wheel or index with this deviation.
+    #[serde(rename = "of")]
+    pub quantity: String,
 }
 
-/// What is compared of a run, tick by tick of the coarser one.
+/// Value of an index with its description.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NamedIndex {
+    pub value: f64,
+    pub name: String,
+}
+
+/// Compared signals of a run, at the ticks of the coarser run.
 pub struct Trace {
     pub(super) names: Vec<String>,
     pub(super) wheelsets: usize,
     pub(super) times_s: Vec<f64>,
-    /// Of each body that is no wheelset, lateral and vertical.
-    pub(super) accelerations: Vec<[Vec<f64>; 2]>,
-    /// Of each body, in the same ticks.
+    /// Lateral and vertical acceleration of each body other than wheelsets, m/s^2.
+    pub(super) accelerations: Vec<Accelerations>,
+    /// Track acceleration under each body, tick by tick.
     pub(super) track_accelerations: Vec<Vec<[f64; 5]>>,
     pub(super) lateral: Vec<Vec<f64>>,
     pub(super) loads: Vec<[Vec<f64>; 2]>,
@@ -55,9 +62,16 @@ pub struct Trace {
     pub(super) inner_step_s: f64,
 }
 
+/// Accelerations of a body, tick by tick, m/s^2.
+#[derive(Clone, Default)]
+pub(super) struct Accelerations {
+    lateral: Vec<f64>,
+    vertical: Vec<f64>,
+}
+
 impl Trace {
-    /// Of a run that has not begun.
-    pub(super) fn of(run: &Run, case: &Case) -> Self {
+    /// Starts the trace of a run that has not been stepped yet.
+    pub(super) fn for_run(run: &Run, case: &Case) -> Self {
         Self {
             inner_step_s: run.vehicle().inner_step_s(),
             ..Self::new(case)
@@ -83,7 +97,7 @@ impl Trace {
             names: names.cloned().collect(),
             wheelsets: wheelsets.len(),
             times_s: Vec::new(),
-            accelerations: vec![Default::default(); bodies.len()],
+            accelerations: vec![Accelerations::default(); bodies.len()],
             track_accelerations: Vec::new(),
             lateral: vec![Vec::new(); wheelsets.len()],
             loads: vec![Default::default(); wheelsets.len()],
@@ -100,9 +114,8 @@ impl Trace {
         let bodies = self.accelerations.len();
         for (body, series) in self.accelerations.iter_mut().enumerate() {
             let acceleration = (sample.acceleration)(body);
-            for (series, value) in series.iter_mut().zip(acceleration) {
-                series.push(value);
-            }
+            series.lateral.push(acceleration[0]);
+            series.vertical.push(acceleration[1]);
         }
         for (series, coordinates) in self.lateral.iter_mut().zip(&coordinates[bodies..]) {
             series.push(coordinates[0]);
@@ -115,12 +128,12 @@ impl Trace {
         self.indexer.add_sample(sample);
     }
 
-    /// Length of the steps inside a tick, s.
+    /// Length of the integration steps within a tick, s.
     pub fn inner_step_s(&self) -> f64 {
         self.inner_step_s
     }
 
-    /// The worst deviations of this run from `reference`, over as long as both last.
+    /// Computes the largest deviations of this run from `reference`, over the duration of the shorter run.
     pub fn deviations(&self, reference: &Self) -> Deviations<Worst> {
         let mut found = Deviations {
             acceleration: Vec::new(),
@@ -134,14 +147,14 @@ impl Trace {
             .zip(&reference.accelerations)
             .enumerate()
         {
-            for (direction, (series, expected)) in ["lateral", "vertical"]
-                .iter()
-                .zip(series.iter().zip(expected))
-            {
-                let deviation = about_mean(series, expected);
-                found
-                    .acceleration
-                    .push((deviation, format!("{}, {direction}", self.names[body])));
+            for (direction, series, expected) in [
+                ("lateral", &series.lateral, &expected.lateral),
+                ("vertical", &series.vertical, &expected.vertical),
+            ] {
+                found.acceleration.push(Worst {
+                    deviation: normalized_error(series, expected),
+                    quantity: format!("{}, {direction}", self.names[body]),
+                });
             }
         }
         let names = &self.names[self.names.len() - self.wheelsets..];
@@ -149,25 +162,30 @@ impl Trace {
             .iter()
             .zip(self.lateral.iter().zip(&reference.lateral))
         {
-            found
-                .lateral_m
-                .push((difference(series, expected), name.clone()));
+            found.lateral_m.push(Worst {
+                deviation: rms_error(series, expected),
+                quantity: name.clone(),
+            });
         }
         for (name, (series, expected)) in names.iter().zip(self.loads.iter().zip(&reference.loads))
         {
             for (side, (series, expected)) in SIDES.iter().zip(series.iter().zip(expected)) {
-                found
-                    .load_n
-                    .push((difference(series, expected), format!("{name}, {side}")));
+                found.load_n.push(Worst {
+                    deviation: rms_error(series, expected),
+                    quantity: format!("{name}, {side}"),
+                });
             }
         }
         if let (Some(indices), Some(expected)) =
             (self.indexer.indices(), reference.indexer.indices())
         {
-            let pairs = told(&indices).into_iter().zip(told(&expected));
-            for ((number, of), (expected, _)) in pairs {
-                found.index.push(((number / expected - 1.0).abs(), of));
-            }
+            let pairs = compared_indices(&indices)
+                .into_iter()
+                .zip(compared_indices(&expected));
+            found.index.extend(pairs.map(|(index, expected)| Worst {
+                deviation: (index.value / expected.value - 1.0).abs(),
+                quantity: index.name,
+            }));
         }
         Deviations {
             acceleration: worst(found.acceleration),
@@ -179,7 +197,7 @@ impl Trace {
 }
 
 impl Deviations<Worst> {
-    /// Whether every deviation is within [`BOUNDS`].
+    /// True if every deviation is within [`BOUNDS`].
     pub fn is_within_bounds(&self) -> bool {
         self.acceleration.deviation <= BOUNDS.acceleration
             && self.lateral_m.deviation <= BOUNDS.lateral_m
@@ -188,76 +206,78 @@ impl Deviations<Worst> {
     }
 }
 
-fn worst(all: Vec<(f64, String)>) -> Worst {
-    let worst = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-    let (deviation, of) = worst.unwrap_or((f64::NAN, "nothing".into()));
-    Worst { deviation, of }
+fn worst(all: Vec<Worst>) -> Worst {
+    all.into_iter()
+        .max_by(|a, b| a.deviation.total_cmp(&b.deviation))
+        .unwrap_or(Worst {
+            deviation: f64::NAN,
+            quantity: "nothing".into(),
+        })
 }
 
-fn difference(series: &[f64], expected: &[f64]) -> f64 {
+fn rms_error(series: &[f64], expected: &[f64]) -> f64 {
     let ticks = series.len().min(expected.len());
     root_mean_square(errors(&series[..ticks], &expected[..ticks]))
 }
 
-fn about_mean(series: &[f64], expected: &[f64]) -> f64 {
+fn normalized_error(series: &[f64], expected: &[f64]) -> f64 {
     let mean = expected.iter().sum::<f64>() / expected.len().max(1) as f64;
-    difference(series, expected) / root_mean_square(expected.iter().map(|value| value - mean))
+    rms_error(series, expected) / root_mean_square(expected.iter().map(|value| value - mean))
 }
 
-/// The indices that are compared: those of the car body's and bogies' ride, and of the forces of wheels that are not nearly zero.
-fn told(indices: &Indices) -> Vec<(f64, String)> {
-    let mut told = Vec::new();
+/// Returns the compared indices: accelerations and ride of the bodies, forces of the wheelsets, and `Y/Q` of the wheels
+/// as root mean square. Indices that can be almost zero are left out, because their relative error is meaningless.
+fn compared_indices(indices: &Indices) -> Vec<NamedIndex> {
+    let mut compared = Vec::new();
+    let mut add = |value: f64, name: String| compared.push(NamedIndex { value, name });
     for body in &indices.bodies {
         let name = &body.body;
-        told.push((body.lateral_rms_m_per_s2, format!("{name}, lateral rms")));
-        told.push((body.vertical_rms_m_per_s2, format!("{name}, vertical rms")));
+        add(body.lateral_rms_m_per_s2, format!("{name}, lateral rms"));
+        add(body.vertical_rms_m_per_s2, format!("{name}, vertical rms"));
     }
     for ride in &indices.ride {
         let point = &ride.point;
-        let both = [
-            ("lateral", ride.sperling_lateral),
-            ("vertical", ride.sperling_vertical),
-        ];
-        told.extend(
-            both.into_iter()
-                .filter_map(|(direction, index)| Some((index?, format!("{point}, W {direction}")))),
-        );
-        told.extend(
-            ride.mean_comfort
-                .map(|index| (index, format!("{point}, N_MV"))),
-        );
+        if let Some(index) = ride.sperling_lateral {
+            add(index, format!("{point}, W lateral"));
+        }
+        if let Some(index) = ride.sperling_vertical {
+            add(index, format!("{point}, W vertical"));
+        }
+        if let Some(index) = ride.mean_comfort {
+            add(index, format!("{point}, N_MV"));
+        }
     }
     for wheelset in &indices.wheelsets {
         let name = &wheelset.wheelset;
-        told.push((
+        add(
             wheelset.lateral_force_rms_n,
             format!("{name}, lateral force rms"),
-        ));
-        told.push((
+        );
+        add(
             wheelset.lateral_force_greatest_n,
             format!("{name}, greatest lateral force"),
-        ));
-        told.push((wheelset.wear_number_n, format!("{name}, wear number")));
-        told.push((
+        );
+        add(wheelset.wear_number_n, format!("{name}, wear number"));
+        add(
             wheelset.wear_number_rms_n,
             format!("{name}, wear number rms"),
-        ));
+        );
         for wheel in &wheelset.wheels {
-            told.push((
+            add(
                 wheel.derailment_rms,
                 format!("{name}, {}, Y/Q rms", wheel.side),
-            ));
+            );
         }
     }
-    told
+    compared
 }
 
-/// The indices of a run that are compared, and what each is.
-pub(super) fn indices(trace: &Trace) -> Vec<(f64, String)> {
+/// Returns the compared indices of a run, in a fixed order.
+pub(super) fn indices(trace: &Trace) -> Vec<NamedIndex> {
     trace
         .indexer
         .indices()
         .as_ref()
-        .map(told)
+        .map(compared_indices)
         .unwrap_or_default()
 }

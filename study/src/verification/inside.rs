@@ -1,4 +1,4 @@
-//! What it changes that dampers stand outside: the run beside the same one with all of its dampers inside.
+//! Effect of dampers outside: comparison of a run with the same run with all dampers inside.
 
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
@@ -7,11 +7,11 @@ use super::deviations::{Deviations, Trace, Worst};
 use dashpot_files::case::Case;
 use dashpot_vehicle_run::{Run, VehicleRunError, VehicleTick};
 
-/// Ticks that are compared at most: some 200 bytes each are kept of both runs.
-const MOST_TICKS: u64 = 600_000;
+/// Maximum number of compared ticks; each takes about 200 bytes per run.
+const MAX_TICKS: u64 = 600_000;
 
-/// Keeps of a run what is compared.
-pub struct Beside {
+/// Records a run with dampers outside, for comparison with the run with all dampers inside.
+pub struct InsideComparison {
     start: Run,
     dampers: Vec<usize>,
     ticks: u64,
@@ -19,54 +19,55 @@ pub struct Beside {
     outside_n: Vec<Vec<f64>>,
 }
 
-/// Differences of a run from the same one with all dampers inside.
+/// Differences between a run and the same run with all dampers inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
-    /// Time that they are of, s.
+    /// Compared duration, s.
     pub duration_s: f64,
-    /// Dampers outside.
+    /// Differences of each damper outside.
     pub dampers: Vec<DamperEffect>,
-    /// Of the vehicle.
+    /// Largest deviations of the vehicle.
     pub deviations: Deviations<Worst>,
 }
 
-/// Difference of a damper's force outside from that inside.
+/// Difference between the force of a damper outside and inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DamperEffect {
-    /// Name.
+    /// Name of the damper.
     pub damper: String,
-    /// Root mean square of the force inside, N.
+    /// Root mean square of the force with the damper inside, N.
     pub force_rms_n: f64,
-    /// Root mean square of the difference, N.
+    /// Root mean square of the difference of both forces, N.
     pub difference_rms_n: f64,
 }
 
-/// Forces of a damper in both runs, tick by tick, N.
+/// Forces of a damper in both runs, tick by tick.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forces {
-    /// Name.
+    /// Name of the damper.
     pub damper: String,
-    /// With the damper outside.
+    /// Force with the damper outside, N.
     pub outside_n: Vec<f64>,
-    /// With it inside.
+    /// Force with the damper inside, N.
     pub inside_n: Vec<f64>,
 }
 
-impl Beside {
-    /// Of a run that has not begun, its dampers still inside, and the numbers of those that will be outside.
+impl InsideComparison {
+    /// Starts with a run that has not been stepped yet and whose dampers are still inside; `dampers` are the indices of
+    /// those that will be outside.
     pub fn new(run: &Run, case: &Case, dampers: Vec<usize>) -> Self {
         Self {
             start: run.clone(),
             outside_n: vec![Vec::new(); dampers.len()],
             dampers,
             ticks: 0,
-            trace: Trace::of(run, case),
+            trace: Trace::for_run(run, case),
         }
     }
 
     /// Adds a tick.
     pub fn add(&mut self, tick: &impl VehicleTick) {
-        if self.ticks >= MOST_TICKS {
+        if self.ticks >= MAX_TICKS {
             return;
         }
         self.ticks += 1;
@@ -76,10 +77,11 @@ impl Beside {
         }
     }
 
-    /// Runs the same case with all dampers inside, as far as both go; nothing of a run without a tick.
+    /// Runs the same case with all dampers inside and compares both over the shorter duration. Returns `None` if no
+    /// tick was added.
     ///
     /// # Errors
-    /// As [`Run::step`].
+    /// See [`Run::step`].
     pub fn compare(self, case: &Case) -> Result<Option<(Effect, Vec<Forces>)>, VehicleRunError> {
         if self.ticks == 0 {
             return Ok(None);

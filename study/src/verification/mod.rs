@@ -1,4 +1,4 @@
-//! The step of a vehicle against the reference solution.
+//! Checks of a vehicle run against the reference solution.
 
 pub mod deviations;
 mod error;
@@ -6,7 +6,7 @@ mod inside;
 pub mod seeds;
 
 pub use error::VerificationError;
-pub use inside::{Beside, DamperEffect, Effect, Forces};
+pub use inside::{DamperEffect, Effect, Forces, InsideComparison};
 
 use dashpot_reference::vehicle::VehicleReference;
 
@@ -16,20 +16,20 @@ use dashpot_vehicle_run::Sample;
 use dashpot_vehicle_run::{Ending, Run};
 use dashpot_vehicle_run::{VehicleRunError, contact};
 
-/// Relative tolerance of the reference.
+/// Relative tolerance of the reference solution.
 pub const TOLERANCE: f64 = 1e-8;
 
-/// The run in ticks of the case over `every`, told at the ticks of the case.
+/// Runs the case with its step size divided by `every`, and records the ticks of the case.
 ///
 /// # Errors
-/// As [`Run::new`].
+/// See [`Run::new`].
 pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleRunError> {
     let finer = Case {
         step_s: case.step_s / every as f64,
         ..case.clone()
     };
     let mut run = Run::new(&finer)?;
-    let mut trace = Trace::of(&run, case);
+    let mut trace = Trace::for_run(&run, case);
     let bodies = trace.accelerations.len();
     loop {
         if let Some(ending) = run.step()? {
@@ -38,38 +38,37 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleRunErr
         if run.state().ticks() % every == 0 {
             let state = run.state();
             trace.times_s.push(run.time_s());
-            let of_track = (0..bodies).map(|body| state.track_acceleration(body));
-            trace.track_accelerations.push(of_track.collect());
+            let track = (0..bodies).map(|body| state.track_acceleration(body));
+            trace.track_accelerations.push(track.collect());
             trace.add_state(state);
         }
     }
 }
 
-/// The run by the reference at the ticks of `like`, to a relative tolerance.
+/// Solves the case with the reference at the ticks of `stepped`, to a relative tolerance.
 ///
 /// # Errors
-/// As [`Run::new`]; a tolerance that cannot be reached.
-pub fn reference(case: &Case, like: &Trace, tolerance: f64) -> Result<Trace, VerificationError> {
+/// See [`Run::new`]; also if the tolerance cannot be reached.
+pub fn reference(case: &Case, stepped: &Trace, tolerance: f64) -> Result<Trace, VerificationError> {
     let contact = contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
-    let track = case.track.build().map_err(VehicleRunError::from)?;
+    let built_track = case.track.build().map_err(VehicleRunError::from)?;
     let mut solver = VehicleReference::new(
         &case.vehicle,
         &contact,
-        &track,
+        &built_track,
         case.speed_m_per_s,
         case.start_m,
     )?;
-    let samples = solver.run(&like.times_s, tolerance)?;
+    let samples = solver.run(&stepped.times_s, tolerance)?;
     let mut trace = Trace::new(case);
-    trace.times_s.clone_from(&like.times_s);
-    for (sample, of_track) in samples.iter().zip(&like.track_accelerations) {
-        // An accelerometer does not feel the weight, and feels the curve.
-        let acceleration = |body: usize| {
-            std::array::from_fn(|i| sample.accelerations[body][i] - of_track[body][i])
-        };
+    trace.times_s.clone_from(&stepped.times_s);
+    for (sample, track) in samples.iter().zip(&stepped.track_accelerations) {
+        // An accelerometer does not measure gravity, but it measures the acceleration of the curve.
+        let acceleration =
+            |body: usize| std::array::from_fn(|i| sample.accelerations[body][i] - track[body][i]);
         let tick = Sample {
             acceleration,
-            unbalanced_m_per_s2: -of_track[0][0],
+            unbalanced_m_per_s2: -track[0][0],
             contacts: &sample.contacts,
             damper_forces_n: &sample.damper_forces_n,
         };

@@ -1,49 +1,71 @@
-//! A chaotic case against the reference: by the means of its indices over seeds of the irregularity.
+//! Check of a chaotic case against the reference: mean indices over seeds of the track irregularity are compared.
 
 use serde::Serialize;
 
 use super::VerificationError;
-use super::deviations::indices;
+use super::deviations::{NamedIndex, indices};
 use crate::verification::{reference, stepped};
 use dashpot_files::case::Case;
 use dashpot_vehicle_run::Ending;
 
-/// Seeds.
+/// Number of seeds.
 pub const SEEDS: u64 = 8;
 
-/// Relative tolerance of the reference: far below what seeds differ by.
+/// Relative tolerance of the reference; its error is far below the differences between seeds.
 const TOLERANCE: f64 = 1e-6;
 
-/// Standard errors by which means may differ: of some hundred indices none is beyond four by chance in one of a hundred cases.
+/// Maximum difference of two means in standard errors. With about a hundred indices, chance exceeds four in about one
+/// of a hundred cases.
 pub const STANDARD_ERRORS: f64 = 4.0;
 
-/// Means of the indices over seeds, by the step and by the reference.
+/// Largest difference of mean indices over seeds between the step and the reference.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OverSeeds {
-    /// Seeds.
+    /// Number of seeds.
     pub seeds: u64,
-    /// Greatest difference of two means over its standard error.
+    /// Largest difference of two means, in standard errors.
     pub greatest: f64,
-    /// The index that has it.
-    pub of: String,
-    /// Its means by the step and by the reference.
-    pub means: [f64; 2],
+    /// Index with this difference.
+    #[serde(rename = "of")]
+    pub index: String,
+    /// Means of this index over the seeds.
+    pub means: Means,
+}
+
+/// Means of an index over seeds; serialized as a list of both.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(into = "[f64; 2]")]
+pub struct Means {
+    /// Mean with the step.
+    pub step: f64,
+    /// Mean with the reference.
+    pub reference: f64,
+}
+
+impl From<Means> for [f64; 2] {
+    fn from(means: Means) -> Self {
+        [means.step, means.reference]
+    }
 }
 
 impl OverSeeds {
-    /// Whether no mean differs by more than [`STANDARD_ERRORS`].
+    /// True if no mean differs by more than [`STANDARD_ERRORS`].
     pub fn agrees(&self) -> bool {
         self.greatest <= STANDARD_ERRORS
     }
 }
 
-/// Indices by the step and by the reference.
-type Pair = [Vec<(f64, String)>; 2];
+/// Indices of one seed.
+struct Pair {
+    step: Vec<NamedIndex>,
+    reference: Vec<NamedIndex>,
+}
 
-/// Runs a case with seeds 1 to [`SEEDS`] of its irregularity, on all cores; none when it has no seed or a run does not come to its end.
+/// Runs a case with seeds 1 to [`SEEDS`] of its irregularity, on all cores. Returns `None` if the irregularity has no
+/// seed or a run does not complete.
 ///
 /// # Errors
-/// As [`reference()`].
+/// See [`reference()`].
 pub fn over_seeds(case: &Case) -> Result<Option<OverSeeds>, VerificationError> {
     let seeds: Vec<u64> = (1..=SEEDS).collect();
     let pairs = dashpot_workers::map(&seeds, |seed| pair(case, *seed))?;
@@ -66,30 +88,39 @@ fn pair(case: &Case, seed: u64) -> Result<Option<Pair>, VerificationError> {
         return Ok(None);
     }
     let solution = reference(&case, &trace, TOLERANCE)?;
-    Ok(Some([indices(&trace), indices(&solution)]))
+    Ok(Some(Pair {
+        step: indices(&trace),
+        reference: indices(&solution),
+    }))
 }
 
-/// The index whose means differ most for their spread.
+/// Returns the index whose means differ most, in standard errors.
 fn compare(pairs: &[Pair]) -> Option<OverSeeds> {
     let count = pairs.len() as f64;
-    let first = &pairs.first()?[0];
-    let of_index = |number: usize| {
-        let series = |side: usize| pairs.iter().map(move |pair| pair[side][number].0);
-        let means = [0, 1].map(|side| series(side).sum::<f64>() / count);
-        let variance = |side: usize| {
-            let square = |value: f64| (value - means[side]).powi(2);
-            series(side).map(square).sum::<f64>() / (count - 1.0)
+    let first = &pairs.first()?.step;
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
+    let variance = |values: &[f64], mean: f64| {
+        let squares = values.iter().map(|value| (value - mean).powi(2));
+        squares.sum::<f64>() / (count - 1.0)
+    };
+    let difference = |index: usize| {
+        let step: Vec<f64> = pairs.iter().map(|pair| pair.step[index].value).collect();
+        let reference = pairs.iter().map(|pair| pair.reference[index].value);
+        let reference: Vec<f64> = reference.collect();
+        let means = Means {
+            step: mean(&step),
+            reference: mean(&reference),
         };
-        let error = ((variance(0) + variance(1)) / count).sqrt();
+        let variances = variance(&step, means.step) + variance(&reference, means.reference);
         OverSeeds {
             seeds: pairs.len() as u64,
-            greatest: (means[0] - means[1]).abs() / error,
-            of: first[number].1.clone(),
+            greatest: (means.step - means.reference).abs() / (variances / count).sqrt(),
+            index: first[index].name.clone(),
             means,
         }
     };
     (0..first.len())
-        .map(of_index)
+        .map(difference)
         .max_by(|a, b| a.greatest.total_cmp(&b.greatest))
 }
 
@@ -98,14 +129,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn means_are_compared_by_their_spread() {
-        let pair = |a: f64, b: f64| -> Pair {
-            [a, b].map(|value| vec![(value, "index".to_owned()), (2.0, "other".to_owned())])
+    fn means_are_compared_in_standard_errors() {
+        let named = |value: f64, name: &str| NamedIndex {
+            value,
+            name: name.to_owned(),
         };
-        // Means 2 and 3, variances 1 and 1 of three: sqrt(2/3).
+        let indices = |value: f64| vec![named(value, "index"), named(2.0, "other")];
+        let pair = |step: f64, reference: f64| Pair {
+            step: indices(step),
+            reference: indices(reference),
+        };
+        // Means 2 and 3 with variance 1 each over three seeds: the standard error is sqrt(2/3).
         let found = compare(&[pair(1.0, 2.0), pair(2.0, 3.0), pair(3.0, 4.0)]);
         let found = found.unwrap();
-        assert_eq!((found.means, found.of.as_str()), ([2.0, 3.0], "index"));
+        let means = <[f64; 2]>::from(found.means);
+        assert_eq!((means, found.index.as_str()), ([2.0, 3.0], "index"));
         assert!((found.greatest - 1.5_f64.sqrt()).abs() < 1e-12);
         assert!(found.agrees());
     }

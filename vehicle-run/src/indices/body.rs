@@ -1,72 +1,74 @@
-//! Accelerations of bodies, and what the cant leaves of the centripetal one.
+//! Accelerations of bodies, and the unbalanced lateral acceleration of the track.
 
 use serde::Serialize;
 
-use super::sums::Spread;
+use super::sums::Statistics;
 
-/// Accelerations of a body at its centre of gravity, across the track, as an accelerometer has them: in a curve with what the cant leaves.
+/// Accelerations of a body at its centre of gravity, across the track, as measured by an accelerometer: in a curve they
+/// include the unbalanced acceleration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BodyIndices {
-    /// Name.
+    /// Name of the body.
     pub body: String,
     /// Root mean square of the lateral acceleration, m/s^2.
     pub lateral_rms_m_per_s2: f64,
-    /// Greatest magnitude of the lateral acceleration, m/s^2.
+    /// Maximum magnitude of the lateral acceleration, m/s^2.
     pub lateral_greatest_m_per_s2: f64,
     /// Root mean square of the vertical acceleration, m/s^2.
     pub vertical_rms_m_per_s2: f64,
-    /// Greatest magnitude of the vertical acceleration, m/s^2.
+    /// Maximum magnitude of the vertical acceleration, m/s^2.
     pub vertical_greatest_m_per_s2: f64,
 }
 
-/// Unbalanced lateral acceleration of the track's layout under the first body, which is that of the car: `V^2 k cos p - g sin p` with the
-/// curvature `k` and the cant angle `p`, whatever the vehicle does.
+/// Unbalanced lateral acceleration of the track layout under the first body, the car body: `V^2 k cos p - g sin p` with
+/// the speed `V`, the curvature `k` and the cant angle `p`. It does not depend on the vehicle's motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct UnbalancedIndices {
     /// Root mean square, m/s^2.
     pub rms_m_per_s2: f64,
-    /// Greatest magnitude, m/s^2.
+    /// Maximum magnitude, m/s^2.
     pub greatest_m_per_s2: f64,
 }
 
-/// Sums of a body.
+/// Accumulated accelerations of a body.
 #[derive(Debug, Clone)]
 pub(super) struct BodySums {
     name: String,
-    across: [Spread; 2],
+    lateral: Statistics,
+    vertical: Statistics,
 }
 
 impl BodySums {
     pub fn new(name: &str) -> Self {
         Self {
             name: name.to_owned(),
-            across: [Spread::default(); 2],
+            lateral: Statistics::default(),
+            vertical: Statistics::default(),
         }
     }
 
-    /// Adds an acceleration in the order of the coordinates.
+    /// Adds accelerations in the order of the coordinates: lateral, vertical, roll, pitch, yaw.
     pub fn add(&mut self, acceleration: [f64; 5]) {
-        for (spread, value) in self.across.iter_mut().zip(acceleration) {
-            spread.add(value);
-        }
+        self.lateral.add(acceleration[0]);
+        self.vertical.add(acceleration[1]);
     }
 
     pub fn indices(&self) -> BodyIndices {
-        let [lateral, vertical] = &self.across;
+        let (lateral, vertical) = (&self.lateral, &self.vertical);
         BodyIndices {
             body: self.name.clone(),
             lateral_rms_m_per_s2: lateral.rms(),
-            lateral_greatest_m_per_s2: lateral.greatest(),
+            lateral_greatest_m_per_s2: lateral.max_magnitude(),
             vertical_rms_m_per_s2: vertical.rms(),
-            vertical_greatest_m_per_s2: vertical.greatest(),
+            vertical_greatest_m_per_s2: vertical.max_magnitude(),
         }
     }
 }
 
-/// Those of the sums of the track's acceleration.
-pub(super) fn unbalanced(sums: &Spread) -> UnbalancedIndices {
+/// Returns the indices of the track's unbalanced acceleration.
+pub(super) fn unbalanced(sums: &Statistics) -> UnbalancedIndices {
     UnbalancedIndices {
         rms_m_per_s2: sums.rms(),
-        greatest_m_per_s2: sums.greatest(),
+        greatest_m_per_s2: sums.max_magnitude(),
     }
 }

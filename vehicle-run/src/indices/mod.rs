@@ -1,4 +1,4 @@
-//! Indices of a run: what is told of it in a few numbers, one kind a file.
+//! Indices of a run: accelerations, ride, safety against derailment, wear, damper forces.
 
 mod body;
 mod nadal;
@@ -13,9 +13,9 @@ use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::Standstill;
 pub use nadal::Nadal;
 use ride::Ride;
-pub use ride::{NoRide, RideIndices, check_ride};
+pub use ride::{RideError, RideIndices, check_ride};
 use serde::Serialize;
-use sums::Spread;
+use sums::Statistics;
 pub use wheel::WheelIndices;
 pub use wheelset::WheelsetIndices;
 use wheelset::WheelsetSums;
@@ -29,25 +29,25 @@ pub const WINDOW_M: f64 = 2.0;
 /// Indices of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Indices {
-    /// Time that they are of, s.
+    /// Duration covered by the indices, s.
     pub duration_s: f64,
-    /// Bodies.
+    /// Accelerations of each body.
     pub bodies: Vec<BodyIndices>,
-    /// What the cant leaves of the centripetal acceleration.
+    /// Unbalanced lateral acceleration of the track.
     pub unbalanced: UnbalancedIndices,
-    /// Ride at points of the vehicle.
+    /// Ride at each measurement point.
     pub ride: Vec<RideIndices>,
-    /// Distance over which forces of wheels and wheelsets are averaged, m.
+    /// Distance over which wheel and wheelset forces are averaged, m.
     pub window_m: f64,
-    /// Limit of `Y/Q`.
+    /// Nadal's limit of `Y/Q`.
     pub nadal: Nadal,
-    /// Wheelsets.
+    /// Forces of each wheelset.
     pub wheelsets: Vec<WheelsetIndices>,
-    /// Greatest magnitude of each damper's force, N.
+    /// Maximum magnitude of each damper's force, N.
     pub greatest_damper_forces_n: Vec<f64>,
 }
 
-/// Sums up indices tick by tick.
+/// Accumulates the indices of a run tick by tick.
 #[derive(Debug, Clone)]
 pub struct Indexer {
     ticks: u64,
@@ -55,28 +55,30 @@ pub struct Indexer {
     tick_m: f64,
     nadal: Nadal,
     bodies: Vec<BodySums>,
-    unbalanced: Spread,
-    /// None at a step that there is no index of ride for.
+    unbalanced: Statistics,
+    /// `None` if the ride indices are not defined for this step size.
     ride: Option<Ride>,
     wheelsets: Vec<WheelsetSums>,
     dampers: Vec<f64>,
 }
 
-/// What indices are of in a tick.
+/// Values of one tick from which indices are computed.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<'a, A: Fn(usize) -> [f64; 5]> {
-    /// Acceleration of each body, in the order of its coordinates, as [`VehicleTick::acceleration`] has it, m/s^2 and rad/s^2.
+    /// Returns the accelerations of a body, in the order of its coordinates, m/s^2 and rad/s^2; see
+    /// [`VehicleTick::acceleration`].
     pub acceleration: A,
-    /// Unbalanced lateral acceleration of the track under the first body, m/s^2: as [`VehicleTick::unbalanced_m_per_s2`] has it.
+    /// Unbalanced lateral acceleration of the track under the first body, m/s^2; see
+    /// [`VehicleTick::unbalanced_m_per_s2`].
     pub unbalanced_m_per_s2: f64,
-    /// Forces on wheelsets.
+    /// Contact forces of each wheelset.
     pub contacts: &'a [WheelsetForces],
-    /// Forces of dampers, N.
+    /// Force of each damper, N.
     pub damper_forces_n: &'a [f64],
 }
 
 impl Indexer {
-    /// Of the vehicle of a case.
+    /// Starts the indices of a case.
     pub fn new(case: &Case) -> Self {
         let Case {
             vehicle,
@@ -87,11 +89,11 @@ impl Indexer {
         let tick_m = speed_m_per_s * step_s;
         let window = ((WINDOW_M / tick_m).round() as usize).max(1);
         let nadal = Nadal::new(case.friction);
-        // A vehicle that runs stands; of one that does not nothing is compared with the load at standstill.
+        // Every vehicle that can run has an equilibrium at standstill; without one, loads are not compared with it.
         let standstill = Standstill::new(vehicle).ok();
-        let load_n = |number: usize| {
+        let axle_load_n = |index: usize| {
             let standstill = standstill.as_ref()?;
-            standstill.axle_loads_n().get(number).copied()
+            standstill.axle_loads_n().get(index).copied()
         };
         let wheelsets = vehicle.wheelsets.iter().enumerate();
         let bodies = vehicle.bodies.iter();
@@ -101,18 +103,18 @@ impl Indexer {
             tick_m,
             nadal,
             bodies: bodies.map(|body| BodySums::new(&body.name)).collect(),
-            unbalanced: Spread::default(),
+            unbalanced: Statistics::default(),
             ride: Ride::new(vehicle, *step_s).ok(),
             wheelsets: wheelsets
-                .map(|(number, wheelset)| {
-                    WheelsetSums::new(&wheelset.name, load_n(number), window, nadal.limit)
+                .map(|(index, wheelset)| {
+                    WheelsetSums::new(&wheelset.name, axle_load_n(index), window, nadal.limit)
                 })
                 .collect(),
             dampers: vec![0.0; vehicle.dampers().count()],
         }
     }
 
-    /// Adds the vehicle after a tick.
+    /// Adds a tick of the vehicle.
     pub fn add(&mut self, state: &impl VehicleTick) {
         self.add_sample(&Sample {
             acceleration: |body| state.acceleration(body),
@@ -122,15 +124,15 @@ impl Indexer {
         });
     }
 
-    /// Adds a tick of any vehicle like that of the case.
+    /// Adds a tick given by its values; bodies, wheelsets and dampers are those of the case.
     pub fn add_sample<A: Fn(usize) -> [f64; 5]>(&mut self, sample: &Sample<A>) {
         self.ticks += 1;
         let speed_m_per_s = self.tick_m / self.step_s;
         if let Some(ride) = &mut self.ride {
             ride.add(&sample.acceleration);
         }
-        for (number, body) in self.bodies.iter_mut().enumerate() {
-            body.add((sample.acceleration)(number));
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            body.add((sample.acceleration)(index));
         }
         self.unbalanced.add(sample.unbalanced_m_per_s2);
         for (wheelset, contact) in self.wheelsets.iter_mut().zip(sample.contacts) {
@@ -141,7 +143,7 @@ impl Indexer {
         }
     }
 
-    /// What has been summed up; none of no tick.
+    /// Returns the indices of all ticks so far; `None` before the first tick.
     pub fn indices(&self) -> Option<Indices> {
         if self.ticks == 0 {
             return None;

@@ -1,4 +1,4 @@
-//! Nadal's limit of a case.
+//! Nadal's limit for a case.
 
 use std::sync::OnceLock;
 
@@ -6,19 +6,19 @@ use dashpot_rail::contact::{Installation, Pair, PairError};
 use dashpot_rail::indices::nadal_limit;
 use serde::Serialize;
 
-/// Nadal's limit of `Y/Q` and what it is of.
+/// Nadal's limit of `Y/Q`, with the values from which it is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Nadal {
-    /// Flange angle of the wheels' profile, rad.
+    /// Flange angle of the wheel profile, rad.
     pub flange_angle_rad: f64,
-    /// Friction of wheel and rail.
+    /// Friction coefficient of wheel and rail.
     pub friction: f64,
     /// The limit, dimensionless.
     pub limit: f64,
 }
 
 impl Nadal {
-    /// Of the profile that all vehicles have, S1002, and a friction.
+    /// Computes the limit for the wheel profile of all vehicles, S1002, and a friction coefficient.
     pub(super) fn new(friction: f64) -> Self {
         let flange_angle_rad = flange_angle_rad();
         Self {
@@ -29,13 +29,14 @@ impl Nadal {
     }
 }
 
-/// Does not depend on the wheels' radius; found once, as a pair takes longer than a second of a run.
+/// Flange angle of the S1002 profile, rad. It does not depend on the wheel radius. It is computed once, because
+/// building the profile pair takes longer than simulating one second.
 fn flange_angle_rad() -> f64 {
     static ANGLE: OnceLock<Result<f64, PairError>> = OnceLock::new();
     let angle = ANGLE.get_or_init(|| {
         let pair = Pair::standard(Installation::default())?;
         Ok(pair.flange_angle_rad())
     });
-    // The standard profiles make a pair.
+    // The standard profiles always form a pair.
     *angle.as_ref().unwrap_or(&f64::NAN)
 }

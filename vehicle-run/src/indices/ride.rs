@@ -1,4 +1,4 @@
-//! Ride: Sperling's index and mean comfort at points of a vehicle.
+//! Ride indices at points of a vehicle: Sperling's index and mean comfort.
 
 use dashpot_rail::indices::{
     COMFORT_BAND_HZ, RideDirection, SPERLING_BAND_HZ, SpectrumError, Sperling, Weighting,
@@ -10,70 +10,69 @@ use serde::Serialize;
 use crate::Accelerometer;
 use dashpot_files::case::Case;
 
-/// Length of the windows, s: Sperling's index depends on it, mean comfort is defined by it.
+/// Length of a window, s. Sperling's index depends on it; the definition of mean comfort requires it.
 pub const WINDOW_S: f64 = 5.0;
 
-/// Why a run of a case has no index of ride.
+/// Reason why a run has no ride indices.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum NoRide {
-    /// It ends before the first window is full.
-    #[error(
-        "the run takes {duration_s} s, and an index of ride needs a whole window of {WINDOW_S} s"
-    )]
+pub enum RideError {
+    /// The run is shorter than one window.
+    #[error("the run takes {duration_s} s, but a ride index needs a whole window of {WINDOW_S} s")]
     Short {
         /// Duration of the run, s.
         duration_s: f64,
     },
-    /// The indices are not defined for its step.
-    #[error("an index of ride at a step of {} us: {source}", 1e6 * step_s)]
+    /// The ride indices are not defined for this step size.
+    #[error("ride index at a step of {} us: {source}", 1e6 * step_s)]
     Step {
-        /// Step of the run, s.
+        /// Step size of the run, s.
         step_s: f64,
-        /// Why.
+        /// Reason.
         source: SpectrumError,
     },
 }
 
-/// Whether a run of `case` that comes to its end has indices of ride.
+/// Checks that a completed run of `case` has ride indices.
 ///
 /// # Errors
-/// Why it has none.
-pub fn check_ride(case: &Case) -> Result<(), NoRide> {
+/// The run is too short, or its step size is not supported.
+pub fn check_ride(case: &Case) -> Result<(), RideError> {
     let Case {
         step_s, duration_s, ..
     } = *case;
-    let sperling =
-        Sperling::new(1.0 / step_s, WINDOW_S).map_err(|source| NoRide::Step { step_s, source })?;
+    let sperling = Sperling::new(1.0 / step_s, WINDOW_S)
+        .map_err(|source| RideError::Step { step_s, source })?;
     if (duration_s / step_s).round() < sperling.samples() as f64 {
-        return Err(NoRide::Short { duration_s });
+        return Err(RideError::Short { duration_s });
     }
     Ok(())
 }
 
-/// Ride at a point.
+/// Ride indices at a point.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RideIndices {
-    /// The point.
+    /// Name of the point.
     pub point: String,
-    /// Its place: x forward from the middle of the vehicle, y right, height above the rails' top, m.
+    /// Coordinates, m: x forward from the middle of the vehicle, y to the right, height above the top of the rails.
     pub at_m: [f64; 3],
-    /// Length of the windows, s.
+    /// Length of a window, s.
     pub window_s: f64,
-    /// Windows that the indices are of.
+    /// Number of windows.
     pub windows: u64,
-    /// Band of Sperling's index, Hz.
+    /// Frequency band of Sperling's index, Hz.
     pub sperling_band_hz: [f64; 2],
-    /// Sperling's index to the side, mean of the windows; none of a run shorter than one.
+    /// Lateral Sperling index, mean of the windows; `None` if the run is shorter than one window.
     pub sperling_lateral: Option<f64>,
-    /// Sperling's index up and down.
+    /// Vertical Sperling index, mean of the windows; `None` if the run is shorter than one window.
     pub sperling_vertical: Option<f64>,
-    /// Corners of the band that mean comfort is limited to, Hz.
+    /// Corner frequencies of the band of mean comfort, Hz.
     pub comfort_band_hz: [f64; 2],
-    /// Mean comfort of EN 12299 from the 95th percentiles of the windows, dimensionless; along the track nothing accelerates.
+    /// Mean comfort `N_MV` of EN 12299 from the 95th percentiles of the windows, dimensionless. The longitudinal
+    /// acceleration is zero.
     pub mean_comfort: Option<f64>,
 }
 
-/// Sums up the ride at every point of a vehicle.
+/// Accumulates the ride indices at every point of a vehicle.
 #[derive(Debug, Clone)]
 pub(super) struct Ride {
     sperling: Sperling,
@@ -83,22 +82,22 @@ pub(super) struct Ride {
 #[derive(Debug, Clone)]
 struct Point {
     accelerometer: Accelerometer,
-    /// Lateral and vertical.
-    across: [Direction; 2],
+    lateral: Direction,
+    vertical: Direction,
     windows: u64,
 }
 
 #[derive(Debug, Clone)]
 struct Direction {
     direction: RideDirection,
-    /// The window that is being filled, m/s^2.
+    /// Accelerations of the current window, m/s^2.
     window: Vec<f64>,
-    /// Sum of Sperling's indices of the windows.
+    /// Sum of the Sperling indices of all complete windows.
     sperling: f64,
     filter: WeightingFilter,
-    /// Sum of squares of the weighted accelerations of the window.
+    /// Sum of the squared weighted accelerations of the current window.
     square: f64,
-    /// Weighted root mean squares of the windows, m/s^2.
+    /// Weighted root mean square of each complete window, m/s^2.
     weighted: Vec<f64>,
 }
 
@@ -134,10 +133,10 @@ impl Direction {
 }
 
 impl Ride {
-    /// At the points of a vehicle.
+    /// Starts the ride indices at the points of a vehicle.
     ///
     /// # Errors
-    /// A step that the indices are not defined for.
+    /// The indices are not defined for this step size.
     pub fn new(vehicle: &VehicleParameters, step_s: f64) -> Result<Self, SpectrumError> {
         let rate_hz = 1.0 / step_s;
         let sperling = Sperling::new(rate_hz, WINDOW_S)?;
@@ -145,10 +144,8 @@ impl Ride {
         let point = |accelerometer| {
             Ok(Point {
                 accelerometer,
-                across: [
-                    Direction::new(RideDirection::Lateral, samples, rate_hz)?,
-                    Direction::new(RideDirection::Vertical, samples, rate_hz)?,
-                ],
+                lateral: Direction::new(RideDirection::Lateral, samples, rate_hz)?,
+                vertical: Direction::new(RideDirection::Vertical, samples, rate_hz)?,
                 windows: 0,
             })
         };
@@ -159,30 +156,28 @@ impl Ride {
         })
     }
 
-    /// Adds the accelerations of the bodies, in the order of their coordinates.
-    pub fn add(&mut self, of_body: impl Fn(usize) -> [f64; 5]) {
+    /// Adds a tick. `body_acceleration` returns the accelerations of a body, in the order of its coordinates.
+    pub fn add(&mut self, body_acceleration: impl Fn(usize) -> [f64; 5]) {
         for point in &mut self.points {
-            let acceleration = point.accelerometer.acceleration(&of_body);
-            for (direction, value) in point.across.iter_mut().zip(acceleration) {
-                direction.add(value);
-            }
-            if point.across[0].window.len() < self.sperling.samples() {
+            let [lateral, vertical] = point.accelerometer.acceleration(&body_acceleration);
+            point.lateral.add(lateral);
+            point.vertical.add(vertical);
+            if point.lateral.window.len() < self.sperling.samples() {
                 continue;
             }
-            for direction in &mut point.across {
-                direction.end_window(&mut self.sperling);
-            }
+            point.lateral.end_window(&mut self.sperling);
+            point.vertical.end_window(&mut self.sperling);
             point.windows += 1;
         }
     }
 
     pub fn indices(&self) -> Vec<RideIndices> {
-        let of_point = |point: &Point| {
-            let is_any = point.windows > 0;
-            let [lateral, vertical] = &point.across;
-            let mean = |sum: f64| is_any.then(|| sum / point.windows as f64);
-            let along = [];
-            let comfort = [&along[..], &lateral.weighted, &vertical.weighted];
+        let point_indices = |point: &Point| {
+            let has_windows = point.windows > 0;
+            let (lateral, vertical) = (&point.lateral, &point.vertical);
+            let mean = |sum: f64| has_windows.then(|| sum / point.windows as f64);
+            let longitudinal = [];
+            let comfort = [&longitudinal[..], &lateral.weighted, &vertical.weighted];
             RideIndices {
                 point: point.accelerometer.name().to_owned(),
                 at_m: point.accelerometer.at_m(),
@@ -192,9 +187,9 @@ impl Ride {
                 sperling_lateral: mean(lateral.sperling),
                 sperling_vertical: mean(vertical.sperling),
                 comfort_band_hz: COMFORT_BAND_HZ,
-                mean_comfort: is_any.then(|| mean_comfort_of_windows(comfort)),
+                mean_comfort: has_windows.then(|| mean_comfort_of_windows(comfort)),
             }
         };
-        self.points.iter().map(of_point).collect()
+        self.points.iter().map(point_indices).collect()
     }
 }

@@ -1,39 +1,46 @@
-//! Sums of a signal that indices are of.
+//! Running statistics of a signal.
 
-/// Sum, squares and greatest magnitude.
+/// Running mean, root mean square and maximum magnitude.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Spread {
+pub(super) struct Statistics {
     ticks: f64,
     sum: f64,
     square: f64,
-    greatest: f64,
+    max_magnitude: f64,
 }
 
-/// Squares, and least and greatest mean over a window of ticks.
+/// Running statistics, with the range of the mean over a moving window of ticks.
 #[derive(Debug, Clone)]
 pub(super) struct Windowed {
-    spread: Spread,
+    statistics: Statistics,
     ring: Vec<f64>,
-    /// Sum of the ring.
+    /// Sum of the values in the ring.
     sum: f64,
     next: usize,
     is_full: bool,
-    means: [f64; 2],
+    means: Range,
 }
 
-/// The longest time without a break that something is so.
+/// Smallest and largest value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Range {
+    pub min: f64,
+    pub max: f64,
+}
+
+/// Longest run of consecutive ticks for which a condition holds.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Longest {
-    now: u64,
+    current: u64,
     longest: u64,
 }
 
-impl Spread {
+impl Statistics {
     pub fn add(&mut self, value: f64) {
         self.ticks += 1.0;
         self.sum += value;
         self.square += value * value;
-        self.greatest = self.greatest.max(value.abs());
+        self.max_magnitude = self.max_magnitude.max(value.abs());
     }
 
     pub fn mean(&self) -> f64 {
@@ -45,27 +52,30 @@ impl Spread {
         (self.square / self.ticks).sqrt()
     }
 
-    /// Greatest magnitude.
-    pub fn greatest(&self) -> f64 {
-        self.greatest
+    /// Maximum magnitude.
+    pub fn max_magnitude(&self) -> f64 {
+        self.max_magnitude
     }
 }
 
 impl Windowed {
-    /// Of windows of so many ticks.
+    /// Starts with a moving window of `ticks` ticks, at least 1.
     pub fn new(ticks: usize) -> Self {
         Self {
-            spread: Spread::default(),
+            statistics: Statistics::default(),
             ring: vec![0.0; ticks.max(1)],
             sum: 0.0,
             next: 0,
             is_full: false,
-            means: [f64::INFINITY, f64::NEG_INFINITY],
+            means: Range {
+                min: f64::INFINITY,
+                max: f64::NEG_INFINITY,
+            },
         }
     }
 
     pub fn add(&mut self, value: f64) {
-        self.spread.add(value);
+        self.statistics.add(value);
         self.sum += value - self.ring[self.next];
         self.ring[self.next] = value;
         self.next += 1;
@@ -75,33 +85,34 @@ impl Windowed {
         }
         if self.is_full {
             let mean = self.sum / self.ring.len() as f64;
-            let [least, greatest] = self.means;
-            self.means = [least.min(mean), greatest.max(mean)];
+            self.means.min = self.means.min.min(mean);
+            self.means.max = self.means.max.max(mean);
         }
     }
 
-    /// What does not count windows.
-    pub fn spread(&self) -> &Spread {
-        &self.spread
+    /// Statistics of the values themselves.
+    pub fn statistics(&self) -> &Statistics {
+        &self.statistics
     }
 
-    /// Least and greatest mean; none where there was no whole window.
-    pub fn means(&self) -> Option<[f64; 2]> {
+    /// Range of the means over a window; `None` before the first whole window.
+    pub fn means(&self) -> Option<Range> {
         self.is_full.then_some(self.means)
     }
 
-    /// Greatest magnitude of the mean; of what there was where that is shorter than a window.
-    pub fn greatest_mean(&self) -> f64 {
-        let magnitude = |[least, greatest]: [f64; 2]| greatest.max(-least);
-        let of_all = || (self.sum / self.next.max(1) as f64).abs();
-        self.means().map_or_else(of_all, magnitude)
+    /// Maximum magnitude of the mean over a window, or the magnitude of the mean of all values before the first whole
+    /// window.
+    pub fn max_mean_magnitude(&self) -> f64 {
+        let magnitude = |means: Range| means.max.max(-means.min);
+        let overall = || (self.sum / self.next.max(1) as f64).abs();
+        self.means().map_or_else(overall, magnitude)
     }
 }
 
 impl Longest {
-    pub fn add(&mut self, is_so: bool) {
-        self.now = if is_so { self.now + 1 } else { 0 };
-        self.longest = self.longest.max(self.now);
+    pub fn add(&mut self, holds: bool) {
+        self.current = if holds { self.current + 1 } else { 0 };
+        self.longest = self.longest.max(self.current);
     }
 
     pub fn ticks(&self) -> u64 {
@@ -113,36 +124,44 @@ impl Longest {
 mod tests {
     use super::*;
 
-    /// Over `0, 1, ... 99` windows of 10 have means from 4.5 to 94.5.
+    fn range(min: f64, max: f64) -> Option<Range> {
+        Some(Range { min, max })
+    }
+
+    /// For the ramp `0, 1, ... 99`, windows of 10 ticks have means from 4.5 to 94.5.
     #[test]
-    fn windows_of_a_ramp_have_the_mean_of_their_middle() {
+    fn window_means_of_a_ramp_are_the_values_at_the_window_centres() {
         let mut ramp = Windowed::new(10);
         for tick in 0..100 {
             assert_eq!(ramp.means().is_some(), tick >= 10);
             ramp.add(f64::from(tick));
         }
-        assert_eq!(ramp.means(), Some([4.5, 94.5]));
-        assert_eq!((ramp.spread().mean(), ramp.greatest_mean()), (49.5, 94.5));
-        assert_eq!(ramp.spread().greatest(), 99.0);
+        assert_eq!(ramp.means(), range(4.5, 94.5));
+        assert_eq!(
+            (ramp.statistics().mean(), ramp.max_mean_magnitude()),
+            (49.5, 94.5)
+        );
+        assert_eq!(ramp.statistics().max_magnitude(), 99.0);
     }
 
-    /// A step of 3 ticks within a window of 4 has three quarters of its height, and negative ones count by their magnitude.
+    /// A pulse of 3 ticks in a window of 4 ticks gives three quarters of its height; negative pulses count by
+    /// magnitude.
     #[test]
-    fn a_step_counts_by_its_share_of_the_window() {
-        let mut step = Windowed::new(4);
+    fn window_mean_of_a_short_pulse_is_its_share_of_the_window() {
+        let mut pulse = Windowed::new(4);
         for tick in 0..20 {
-            step.add(if (8..11).contains(&tick) { -8.0 } else { 0.0 });
+            pulse.add(if (8..11).contains(&tick) { -8.0 } else { 0.0 });
         }
-        assert_eq!(step.means(), Some([-6.0, 0.0]));
-        assert_eq!(step.greatest_mean(), 6.0);
-        assert!((step.spread().rms() - (3.0 * 64.0 / 20.0_f64).sqrt()).abs() < 1e-12);
+        assert_eq!(pulse.means(), range(-6.0, 0.0));
+        assert_eq!(pulse.max_mean_magnitude(), 6.0);
+        assert!((pulse.statistics().rms() - (3.0 * 64.0 / 20.0_f64).sqrt()).abs() < 1e-12);
     }
 
     #[test]
-    fn the_longest_stretch_counts() {
+    fn longest_counts_the_longest_run_of_consecutive_ticks() {
         let mut longest = Longest::default();
-        for is_so in [true, true, false, true, true, true, false, true] {
-            longest.add(is_so);
+        for holds in [true, true, false, true, true, true, false, true] {
+            longest.add(holds);
         }
         assert_eq!(longest.ticks(), 3);
     }

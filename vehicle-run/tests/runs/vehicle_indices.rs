@@ -1,4 +1,4 @@
-//! Indices of signals whose indices are known in closed form, and of a run in a curve.
+//! Indices of signals with a closed-form solution, and of a run in a curve.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -10,7 +10,7 @@ use dashpot_vehicle_run::{Indexer, Indices, Run, Sample};
 use tempfile::tempdir;
 
 const STEP_S: f64 = 1e-3;
-/// 2 m are 100 ticks.
+/// At this speed, 2 m are 100 ticks.
 const SPEED_M_PER_S: f64 = 20.0;
 
 /// The coach on ideal track at 20 m/s.
@@ -20,16 +20,16 @@ fn coach() -> Case {
         .unwrap()
 }
 
-/// What a tick of a test has, the same on every wheelset.
+/// Values of one tick, the same for every wheelset.
 #[derive(Clone, Copy, Default)]
 struct Tick {
-    /// Of the first body, in the order of its coordinates.
+    /// Acceleration of the first body, in the order of its coordinates.
     acceleration: [f64; 5],
     unbalanced: f64,
-    /// Loads and lateral forces towards the middle of the left and the right wheel, N.
+    /// Loads and lateral forces (positive towards the middle of the track) of the left and right wheel, N.
     loads_n: [f64; 2],
     lateral_n: [f64; 2],
-    /// Creep forces times creepages, N.
+    /// Sum of creep forces times creepages, N.
     wear_n: f64,
 }
 
@@ -42,7 +42,7 @@ fn indices(case: &Case, ticks: impl Iterator<Item = Tick>) -> Indices {
             let outward = if side == 0 { 1.0 } else { -1.0 };
             wheel.force_n = [0.0, outward * tick.lateral_n[side], -tick.loads_n[side]];
             forces.force_n[1] += wheel.force_n[1];
-            // Half of the wear in each wheel.
+            // Each wheel contributes half of the wear number.
             wheel.patches[1].load_n = 1.0;
             wheel.patches[1].dissipation_w = 0.5 * tick.wear_n * SPEED_M_PER_S;
         }
@@ -71,13 +71,13 @@ fn is_near(found: f64, expected: f64, part: f64) {
 }
 
 #[test]
-fn unloading_is_from_the_load_at_standstill() {
+fn unloading_is_relative_to_the_load_at_standstill() {
     let case = coach();
-    // 44.5 t on four equal axles.
+    // 44.5 t on four equally loaded axles.
     let bodies = case.vehicle.bodies.iter().map(|body| body.mass_kg);
     let wheelsets = case.vehicle.wheelsets.iter().map(|axle| axle.mass_kg);
     let static_n = bodies.chain(wheelsets).sum::<f64>() * 9.81 / 8.0;
-    // The right wheel falls on a ramp to a quarter of its load in 1 s, then lifts for 25 ticks of 2000.
+    // The right wheel unloads linearly to a quarter of its load in 1 s, and later lifts for 25 of 2000 ticks.
     let load = |tick: usize| match tick {
         0..1000 => static_n * (1.0 - 0.75 * tick as f64 / 1000.0),
         1500..1525 => 0.0,
@@ -98,7 +98,8 @@ fn unloading_is_from_the_load_at_standstill() {
         assert_eq!(left.lifted_share, 0.0);
         assert_eq!(right.unloading_greatest, Some(1.0));
         assert_eq!(right.lifted_share, 25.0 / 2000.0);
-        // The last 2 m of the ramp are lower than those with a quarter of them lifted: their middle is at 0.9495 s.
+        // The mean over the last 2 m of the ramp, centred at 0.9495 s, is lower than that of 2 m with the wheel lifted
+        // for a quarter of them.
         is_near(
             right.unloading_of_mean_greatest.unwrap(),
             0.75 * 0.9495,
@@ -108,12 +109,13 @@ fn unloading_is_from_the_load_at_standstill() {
 }
 
 #[test]
-fn forces_are_held_against_nadal_and_prudhomme() {
+fn forces_are_compared_with_nadal_and_prudhomme() {
     let mut case = coach();
     case.friction = 0.36;
     let nadal = nadal_limit(70_f64.to_radians(), 0.36);
     let load_n = 50e3;
-    // A step of 0.5 m of the window of 2 m, half as high again as Nadal's limit, on a quarter of it; the other wheel's force is outward.
+    // For a quarter of the window of 2 m, `Y/Q` is one and a half times Nadal's limit; the other wheel's force points
+    // outward.
     let step = |tick: usize| {
         if (1000..1025).contains(&tick) {
             1.5
@@ -137,13 +139,13 @@ fn forces_are_held_against_nadal_and_prudhomme() {
     is_near(left.derailment_greatest, mean * nadal, 1e-9);
     is_near(left.derailment_over_nadal, mean, 2e-3);
     is_near(left.longest_over_nadal_m, 0.5, 1e-9);
-    // Its magnitude is told, but it does not climb.
+    // The magnitude counts, but the wheel does not climb.
     is_near(right.derailment_greatest, 0.5, 1e-9);
     assert_eq!(
         (right.derailment_over_nadal, right.longest_over_nadal_m),
         (0.0, 0.0)
     );
-    // Both push to the right.
+    // Both wheels push to the right.
     let lateral_n = load_n * (mean * nadal + 0.5);
     is_near(wheelset.lateral_force_greatest_n, lateral_n, 1e-9);
     let static_n: f64 = wheelset
@@ -160,7 +162,7 @@ fn forces_are_held_against_nadal_and_prudhomme() {
     );
 }
 
-/// A mean with a sine on it: mean, root mean square and greatest value in closed form.
+/// A sine with an offset: mean, root mean square and maximum in closed form.
 #[test]
 fn wear_numbers_and_unbalanced_acceleration_have_mean_rms_and_greatest() {
     let ticks = (0..4000).map(|tick| {
@@ -194,9 +196,9 @@ fn wear_numbers_and_unbalanced_acceleration_have_mean_rms_and_greatest() {
     );
 }
 
-/// A sine of one line: `N_MV` is six times its weighted root mean square, Sperling's index that of the whole signal.
+/// A single sine: `N_MV` is six times its weighted root mean square, and Sperling's index is that of the whole signal.
 #[test]
-fn ride_is_told_at_the_points_of_the_vehicle_file() {
+fn ride_is_computed_at_the_points_of_the_vehicle_file() {
     let folder = tempdir().unwrap();
     let file = folder.path().join("coach.toml");
     let points = "\n[[ride_point]]\nname = \"seat\"\nbody = \"BODY\"\nat_m = [4.0, 0.5, HEIGHT]\n";
@@ -211,7 +213,7 @@ fn ride_is_told_at_the_points_of_the_vehicle_file() {
     let case = CaseOptions::new(file.to_str().unwrap(), "ideal", 72.0)
         .case()
         .unwrap();
-    // Roll of 2 rad/s^2 at 2 Hz: 0.5 m/s^2 to the side above the centre of gravity, 1 m/s^2 down on its right.
+    // Roll of 2 rad/s^2 at 2 Hz: laterally 0.5 m/s^2 above the centre of gravity, 1 m/s^2 down to its right.
     let roll = |tick: usize| 2.0 * (2.0 * PI * 2.0 * tick as f64 * STEP_S).sin();
     let ticks = || {
         (0..12_000).map(|tick| Tick {
@@ -234,23 +236,23 @@ fn ride_is_told_at_the_points_of_the_vehicle_file() {
         let expected = sperling(&signal, 1000.0, 5.0, direction).unwrap();
         is_near(found.unwrap(), expected, 1e-9);
     }
-    // Published gains at 2 Hz.
+    // Published filter gains at 2 Hz.
     let expected = 6.0 * f64::hypot(0.5 * 0.89024, 1.0 * 0.43668) / 2_f64.sqrt();
     is_near(seat.mean_comfort.unwrap(), expected, 5e-3);
-    // Where the file gives none: the middle and over the bogies, at the height of the centre of gravity.
+    // Without ride points in the file: the middle and above the bogies, at the height of the centre of gravity.
     let found = indices(&plain, ticks());
     assert_eq!(found.ride.len(), plain.vehicle.bodies.len());
     assert!(found.ride.iter().all(|ride| ride.at_m[2] == body.height_m));
     assert_eq!(found.ride[0].mean_comfort, Some(0.0));
 }
 
-/// R 300 m at 70 km/h with 0.12 m of cant over 1.5 m, on ideal track: in the circle `V^2 k cos p - g sin p`, and the loads carry weight and
-/// centripetal force.
+/// Curve of 300 m radius at 70 km/h with 0.12 m of cant over 1.5 m, on ideal track: the unbalanced acceleration is `V^2
+/// k cos p - g sin p`, and the wheel loads carry weight and centripetal force.
 #[test]
-fn a_curve_leaves_what_the_cant_does_not_balance() {
+fn a_curve_has_the_acceleration_that_cant_does_not_balance() {
     let folder = tempdir().unwrap();
-    let track = "name = \"curve\"\n[[part]]\nkind = \"straight\"\nlength_m = 20\n[[part]]\nkind = \"transition\"\nlength_m = 50\n\
-                 [[part]]\nkind = \"circular\"\nlength_m = 400\nradius_m = 300\ncant_m = 0.12\n";
+    let track = "name = \"curve\"\n[[part]]\nkind = \"straight\"\nlength_m = 20\n[[part]]\n\
+                 kind = \"transition\"\nlength_m = 50\n[[part]]\nkind = \"circular\"\nlength_m = 400\nradius_m = 300\ncant_m = 0.12\n";
     let file = folder.path().join("curve.toml");
     fs::write(&file, track).unwrap();
     let mut options = CaseOptions::new("locomotive", file.to_str().unwrap(), 70.0);
@@ -261,7 +263,7 @@ fn a_curve_leaves_what_the_cant_does_not_balance() {
     let mut indexer = Indexer::new(&case);
     let mut loads_n = 0.0;
     while run.step().unwrap().is_none() {
-        // From the time on when the last axle is in the circle and the body has swayed.
+        // From then on, the last axle is in the circular part and the body has settled.
         if run.time_s() > 8.0 {
             indexer.add(run.state());
             let contacts = run.state().contacts().iter();
@@ -276,7 +278,7 @@ fn a_curve_leaves_what_the_cant_does_not_balance() {
     is_near(expected, 0.4714, 1e-3);
     is_near(found.unbalanced.rms_m_per_s2, expected, 1e-9);
     is_near(found.unbalanced.greatest_m_per_s2, expected, 1e-9);
-    // The body has it as an accelerometer tells, but for its swaying.
+    // An accelerometer on the body measures it, apart from remaining motion.
     is_near(found.bodies[0].lateral_rms_m_per_s2, expected, 0.02);
     let ticks = (found.duration_s / STEP_S).round();
     let mass_kg = 123_960.0;
@@ -293,7 +295,7 @@ fn a_curve_leaves_what_the_cant_does_not_balance() {
         })
         .sum();
     is_near(static_n, mass_kg * 9.81, 1e-9);
-    // The outer wheel of the leading axle has most to bear; it does not climb.
+    // The outer wheel of the leading axle has the largest load; it does not climb.
     let outer = &found.wheelsets[0].wheels[0];
     assert!((0.3..0.6).contains(&outer.derailment_over_nadal));
     assert_eq!((outer.longest_over_nadal_m, outer.lifted_share), (0.0, 0.0));

@@ -78,7 +78,7 @@ pub fn run(arguments: &ContactArguments) -> Outcome<()> {
         .with_gauge_depth_m(arguments.gauge_depth_m)
         .with_inclination(arguments.inclination);
     let pair = Pair::new(wheel, &rail, installation)?;
-    let geometry = WheelsetGeometry::of(&pair).map_err(|error| Failure::new(error.to_string()))?;
+    let geometry = WheelsetGeometry::new(&pair).map_err(|error| Failure::new(error.to_string()))?;
     let plots = if arguments.no_plots {
         Vec::new()
     } else {

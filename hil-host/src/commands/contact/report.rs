@@ -82,7 +82,7 @@ pub(super) fn report(
             .step_by(40)
             .map(Shift::from)
             .collect(),
-        force_jump: ForceJump::of(pair),
+        force_jump: ForceJump::find(pair),
         plots,
     }
 }

@@ -123,7 +123,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
     let shard = match (arguments.shard, arguments.shards) {
-        (Some(number), Some(of)) if number < of => Some(Shard { number, of }),
+        (Some(number), Some(of)) if number < of => Some(Shard { number, count: of }),
         (Some(number), Some(of)) => {
             return Err(Failure::wrong_use(format!(
                 "--shard {number}: allowed with --shards {of}: 0 to {}",
@@ -143,7 +143,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let folder = arguments.study.folder(arguments.output.as_ref());
     create_folder(&folder)?;
     let name = match shard {
-        Some(Shard { number, of }) => format!("rows-{number}-of-{of}.csv"),
+        Some(Shard { number, count: of }) => format!("rows-{number}-of-{of}.csv"),
         None => "rows.csv".into(),
     };
     let path = folder.join(name);
@@ -166,7 +166,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let took = started.elapsed();
     // Rows from before and after a change of the files could not be distinguished.
     if !study.is_unchanged().unwrap_or(false) {
-        journal.take_away(&study, &missing)?;
+        journal.remove(&study, &missing)?;
         return Err(Failure::new(format!(
             "{}: a file of the study was changed during the run; the rows of this run are discarded",
             study.parameters.file

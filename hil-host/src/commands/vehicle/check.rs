@@ -160,7 +160,7 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             factor * worst.deviation,
             factor * bound,
             factor * half.deviation,
-            worst.of
+            worst.quantity
         )?;
     }
     writeln!(out, "* with steps of half the length inside the ticks")?;
@@ -177,12 +177,12 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         )?;
     }
     if let Some(found) = &report.over_seeds {
-        let [by_step, by_reference] = found.means;
+        let (by_step, by_reference) = (found.means.step, found.means.reference);
         writeln!(
             out,
             "over {} seeds of the irregularity, the means of all indices differ by at most {:.1} standard errors \
              (allowed {STANDARD_ERRORS}): {}, {by_step:.4} with the step and {by_reference:.4} with the reference",
-            found.seeds, found.greatest, found.of
+            found.seeds, found.greatest, found.index
         )?;
     }
     Ok(())

@@ -31,7 +31,7 @@ use dashpot_realtime::pacing::{Pacer, PacingReport};
 use dashpot_recording::columns;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
-    Ending, Indexer, NoRide, Run, TickRecord, ValidityWatch, check_ride, signals,
+    Ending, Indexer, RideError, Run, TickRecord, ValidityWatch, check_ride, signals,
 };
 
 /// Simulate a vehicle on a track: time histories, indices and a page.
@@ -176,8 +176,8 @@ fn note_missing_ride(case: &Case) {
         return;
     };
     let remedy = match reason {
-        NoRide::Short { .. } => "use --duration-s for a longer run",
-        NoRide::Step { .. } => "use --step-us for another step",
+        RideError::Short { .. } => "use --duration-s for a longer run",
+        RideError::Step { .. } => "use --step-us for another step",
     };
     let note = format!(
         "note: {reason}; the report will have no Sperling's index and no mean comfort; {remedy}\n"
@@ -239,7 +239,7 @@ fn follow(
                     ticks += 1;
                     let time_s = super::nearest_nanosecond(record.time_s);
                     row.clear();
-                    row.extend(all.iter().map(|signal| signal.of(record, time_s)));
+                    row.extend(all.iter().map(|signal| signal.value(record, time_s)));
                     written = rows.serialize(&row);
                     history.add(&row);
                     indexer.add(record);

@@ -1,6 +1,6 @@
-//! `dashpot link` against a target on the desk that steps by itself.
+//! `dashpot link` against a simulated target that runs its own ticks.
 
-// Each test binary uses a part of these.
+// Each test binary uses only some of these functions.
 #![allow(dead_code)]
 
 use std::process::Command;
@@ -14,15 +14,15 @@ use tempfile::TempDir;
 use crate::common::{command, error_of, json_of, text_of};
 use crate::pil_common::{desk, serve_tcp};
 
-/// Free-running ticks before each request; every action is a hello and its own.
+/// Number of free-running ticks before each request; every action sends a hello and its own request.
 pub const TICKS: u32 = 20;
 
-/// A desk whose time passes with requests: when it runs free, [`TICKS`] before each.
+/// Simulated target whose time advances with requests: when it runs free, by [`TICKS`] before each.
 struct Ticking(Desk<3>);
 
 impl Link for Ticking {
     fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
-        // A frame ends with a zero.
+        // A zero byte ends a frame.
         for _ in bytes.iter().filter(|byte| **byte == 0) {
             for _ in 0..TICKS {
                 self.0.device().tick(1);
@@ -36,7 +36,7 @@ impl Link for Ticking {
     }
 }
 
-/// A target of three dampers behind a TCP port, and a folder for files.
+/// Target with three dampers behind a TCP port, and a folder for files.
 pub struct Rig {
     address: String,
     pub folder: TempDir,
@@ -50,31 +50,31 @@ impl Rig {
         }
     }
 
-    /// `dashpot link` with an action, not yet started.
+    /// `dashpot link` with an action, not started yet.
     pub fn command(&self, action: &[&str]) -> Command {
         let link = format!("tcp:{}", self.address);
-        // On a busy machine an answer may take long; it always comes.
+        // On a busy machine an answer may be slow, but it always arrives.
         let line = ["link", "--link", &link, "--timeout-ms", "60000"];
         command(&[&line[..], action].concat(), self.folder.path())
     }
 
-    /// What an action wrote and how it ended.
+    /// Output and exit status of an action.
     pub fn output(&self, action: &[&str]) -> Assert {
         self.command(action).assert()
     }
 
-    /// Text of an action that is done.
+    /// Text printed by an action that succeeds.
     pub fn text(&self, action: &[&str]) -> String {
         text_of(&self.output(action).success())
     }
 
-    /// JSON of an action that is done.
+    /// JSON printed by an action that succeeds.
     pub fn json(&self, action: &[&str]) -> Value {
         let arguments = [action, &["--format", "json"]].concat();
         json_of(&self.output(&arguments).success())
     }
 
-    /// Error of an action that ends with `code`, which wrote nothing else.
+    /// Error of an action that exits with `code` and writes nothing else.
     pub fn error(&self, action: &[&str], code: i32) -> String {
         error_of(&self.output(action).code(code).stdout(""))
     }

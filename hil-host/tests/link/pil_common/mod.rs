@@ -1,6 +1,6 @@
-//! A target on the desk, and the motion that drives it.
+//! Simulated target, and the motion that drives it.
 
-// Each test binary uses a part of these.
+// Each test binary uses only some of these functions.
 #![allow(dead_code)]
 
 use std::collections::VecDeque;
@@ -14,7 +14,7 @@ use dashpot_files::damper;
 use dashpot_host_link::{Desk, Link, LinkError, RetryLimits, SessionError};
 use dashpot_testbench::excitation::Excitation;
 
-/// The desk's waits are not real; a line's end with an answer, which always comes.
+/// The simulated target does not wait in real time; a line ends with an answer, which always arrives.
 pub const RETRY_LIMITS: RetryLimits = RetryLimits {
     timeout: Duration::from_secs(300),
     tries: 30,
@@ -25,7 +25,7 @@ pub fn built(name: &str) -> Damper<f32> {
     parameters.build(1e-3).unwrap()
 }
 
-/// A bank of three other dampers than those that are driven.
+/// Bank of three dampers other than the driven ones.
 pub fn desk() -> Desk<3> {
     Desk::new([
         built("reduced-vertical"),
@@ -35,7 +35,7 @@ pub fn desk() -> Desk<3> {
     .unwrap()
 }
 
-/// The first `ticks` displacements of the made ride (m).
+/// The first `ticks` displacements of the synthetic ride (m).
 pub fn ride(ticks: usize) -> Vec<f32> {
     let ride = Excitation::Ride.displacements_m(1e-3);
     ride.into_iter().take(ticks).map(|x| x as f32).collect()
@@ -46,7 +46,7 @@ pub fn motion(ticks: usize) -> impl FnMut() -> Result<Option<f32>, SessionError>
     move || Ok(ride.next())
 }
 
-/// A desk whose answers go through `change`.
+/// Simulated target whose answers pass through `change`.
 pub struct Altered<F> {
     desk: Desk<3>,
     change: F,
@@ -92,7 +92,7 @@ impl<F: FnMut(Header, Response<'_>, &mut ResponseFrame) -> bool> Link for Altere
     }
 }
 
-/// Serves a target over a line until the host leaves.
+/// Serves a target over a line until the host disconnects.
 pub fn serve(
     mut line: impl Read + Write + Send + 'static,
     target: impl FnOnce() -> Box<dyn Link> + Send + 'static,
@@ -116,7 +116,7 @@ fn answer(line: &mut (impl Read + Write), target: &mut dyn Link) {
     }
 }
 
-/// Serves a target to all who connect, one after the other; HOST:PORT.
+/// Serves a target to one client after another; returns HOST:PORT.
 pub fn serve_tcp(target: impl FnOnce() -> Box<dyn Link> + Send + 'static) -> String {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
     let address = listener.local_addr().unwrap();

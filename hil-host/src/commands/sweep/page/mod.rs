@@ -53,7 +53,7 @@ pub(super) fn check(study: &Study) -> Outcome<()> {
                     continue;
                 }
             };
-            study.has_signals(sweep, &names, &shared)?;
+            study.check_signals(sweep, &names, &shared)?;
         }
     }
     Ok(())
@@ -221,5 +221,5 @@ fn cases(study: &Study) -> Markup {
 
 /// Converts an error of a figure's case to an error that names the sweep.
 fn failed(sweep: &Sweep) -> impl Fn(dashpot_vehicle_run::VehicleRunError) -> RunError + '_ {
-    |error| RunError::of_sweep(sweep, error)
+    |error| RunError::in_sweep(sweep, error)
 }

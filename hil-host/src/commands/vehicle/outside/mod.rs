@@ -14,8 +14,8 @@ use crate::commands::recording::ForceHistoryArguments;
 use crate::commands::vehicle::drive::Exchange;
 use dashpot_files::case::Case;
 use dashpot_recording::ForceHistory;
-use dashpot_study::verification::{Beside, Effect, Forces};
-use dashpot_vehicle_run::{Ending, Run, VehicleRunError, number_outside};
+use dashpot_study::verification::{Effect, Forces, InsideComparison};
+use dashpot_vehicle_run::{Ending, Run, VehicleRunError, outside_index};
 
 /// External dampers and the options of their links.
 #[derive(Debug, Clone, clap::Args)]
@@ -42,7 +42,7 @@ pub(super) struct Outside {
     dampers: Vec<usize>,
     lines: Lines,
     /// Comparison with internal dampers; `None` if no damper is behind a link.
-    beside: Option<Beside>,
+    beside: Option<InsideComparison>,
 }
 
 /// Sources of the forces of the external dampers, tick by tick.
@@ -102,7 +102,7 @@ impl OutsideArguments {
         let mut dampers = Vec::new();
         for choice in &self.choices {
             let name = &choice.damper;
-            let damper = number_outside(case, name, &dampers).map_err(|error| {
+            let damper = outside_index(case, name, &dampers).map_err(|error| {
                 Failure::wrong_use(format!("--outside \"{name}={}\": {error}", choice.name))
             })?;
             dampers.push(damper);
@@ -136,7 +136,7 @@ impl OutsideArguments {
             outside.lines.lines.push(line);
         }
         if !behind.is_empty() {
-            outside.beside = Some(Beside::new(run, case, behind.clone()));
+            outside.beside = Some(InsideComparison::new(run, case, behind.clone()));
         }
         for damper in behind {
             // No force until the first response.
@@ -173,7 +173,7 @@ impl Exchange for Lines {
 
 impl Outside {
     /// Returns the force sources used within the ticks and the recorder for the comparison after the run.
-    pub(super) fn parts(&mut self) -> (&mut Lines, &mut Option<Beside>) {
+    pub(super) fn parts(&mut self) -> (&mut Lines, &mut Option<InsideComparison>) {
         (&mut self.lines, &mut self.beside)
     }
 

@@ -161,22 +161,22 @@ fn of_effect(effect: &Effect) -> Vec<(String, String)> {
         (
             "  acceleration",
             format!("{:.3} % NRMSE", 1e2 * worst.acceleration.deviation),
-            &worst.acceleration.of,
+            &worst.acceleration.quantity,
         ),
         (
             "  wheelset lateral",
             format!("{:.3} um rms", 1e6 * worst.lateral_m.deviation),
-            &worst.lateral_m.of,
+            &worst.lateral_m.quantity,
         ),
         (
             "  wheel load",
             format!("{:.4} kN rms", 1e-3 * worst.load_n.deviation),
-            &worst.load_n.of,
+            &worst.load_n.quantity,
         ),
         (
             "  index",
             format!("{:.3} %", 1e2 * worst.index.deviation),
-            &worst.index.of,
+            &worst.index.quantity,
         ),
     ] {
         lines.push((what.into(), format!("{number}: {of}")));
