@@ -53,6 +53,9 @@ pub(super) fn remedy(error: &LinkError) -> &'static str {
         LinkError::Silent { .. } => {
             "; allowed: a longer first wait by --timeout-ms, more tries by --tries"
         }
+        LinkError::Emulator(EmulatorError::NotInstalled) => {
+            "; on Debian and Ubuntu: apt-get install qemu-system-arm"
+        }
         _ => "",
     }
 }
@@ -312,11 +315,10 @@ impl From<LinkError> for Failure {
         match error {
             LinkError::CannotReset => Self::new(format!("{error}; `--link qemu` can")),
             LinkError::ResetFaults => Self::wrong_use(format!("{error}; `--link qemu` can")),
-            LinkError::Emulator(EmulatorError::NoImage(_)) => {
-                Self::new(format!("{error}, or name one with --link qemu:IMAGE"))
-            }
-            LinkError::Silent { .. } => Self::new(format!("{error}{}", remedy(&error))),
-            other => Self::new(other.to_string()),
+            LinkError::Emulator(EmulatorError::NoImage(_)) => Self::new(format!(
+                "{error}; build it with `cargo xtask firmware`, or name one with --link qemu:IMAGE"
+            )),
+            _ => Self::new(format!("{error}{}", remedy(&error))),
         }
     }
 }
@@ -325,7 +327,7 @@ impl From<SessionError> for Failure {
     fn from(error: SessionError) -> Self {
         match error {
             SessionError::Link(error) => error.into(),
-            SessionError::Dampers { .. } => Self::wrong_use(format!("--damper: {error}")),
+            SessionError::DamperCount { .. } => Self::wrong_use(format!("--damper: {error}")),
             SessionError::After { ref source, .. } => {
                 Self::new(format!("{error}{}", remedy(source)))
             }

@@ -71,7 +71,7 @@ fn a_session_number_that_is_open_is_passed_over() {
     assert!(matches!(lost, Err(LinkError::SessionLost)));
     let reported = LinkError::SessionLost.to_string();
     assert!(
-        reported.contains("another program said hello"),
+        reported.contains("another program opened a session"),
         "{reported}"
     );
     first.hello().unwrap();

@@ -159,10 +159,14 @@ fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
 /// What a target is refused for, in the words of `--outside`.
 fn refused(name: &str, error: &SessionError) -> Failure {
     match error {
-        SessionError::Places { .. } => Failure::wrong_use(format!("--outside {name}: {error}")),
-        SessionError::Link(LinkError::Emulator(EmulatorError::NoImage(_))) => Failure::new(
-            format!("--outside {name}: {error}, or name one with qemu:IMAGE"),
-        ),
+        SessionError::TooManyDampers { .. } => {
+            Failure::wrong_use(format!("--outside {name}: {error}"))
+        }
+        SessionError::Link(LinkError::Emulator(EmulatorError::NoImage(_))) => {
+            Failure::new(format!(
+                "--outside {name}: {error}; build it with `cargo xtask firmware`, or name one with qemu:IMAGE"
+            ))
+        }
         _ => Failure::new(format!("--outside {name}: {}", in_words(error))),
     }
 }
