@@ -45,7 +45,10 @@ fn intervals_over_five_medians_are_gaps() {
     assert_eq!(found.count, 2);
     assert_eq!(found.median_interval_s, Some(0.01));
     let longest = found.longest.unwrap();
-    assert_eq!((longest.duration_s, longest.location), (0.2, RowLocation::Line(25)));
+    assert_eq!(
+        (longest.duration_s, longest.location),
+        (0.2, RowLocation::Line(25))
+    );
     assert!((longest.start_s - 0.3).abs() < 1e-12);
 }
 
