@@ -14,16 +14,16 @@ use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_recording::Recording;
 use dashpot_recording::tick_grid::{Tick, TickGrid};
-use dashpot_recording::writer::{Column, Format, RowWriter};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_testbench::replay::replay;
 
 const ROWS: u32 = 100_000;
 const STEP_S: f64 = 1e-3;
 
-const FORMS: [(&str, Format); 3] = [
-    ("CSV", Format::Text),
-    ("MDF4", Format::Mdf4),
-    ("Parquet", Format::Parquet),
+const FORMS: [(&str, FileFormat); 3] = [
+    ("CSV", FileFormat::Text),
+    ("MDF4", FileFormat::Mdf4),
+    ("Parquet", FileFormat::Parquet),
 ];
 
 const TIME: Column = Column::new("time_s", "s");
@@ -37,7 +37,7 @@ fn row(number: u32) -> [f64; 2] {
     [time_s, (x * 1e8).round() / 1e8]
 }
 
-fn recording(folder: &Path, form: Format) -> PathBuf {
+fn recording(folder: &Path, form: FileFormat) -> PathBuf {
     let path = folder.join("recording");
     let mut file = std::fs::File::create(&path).expect("a temporary file");
     let mut rows =
@@ -57,7 +57,7 @@ fn open(path: &Path) -> TickGrid {
 fn of(
     group: &mut BenchmarkGroup<'_, WallTime>,
     damper: &Damper<f32>,
-    (name, form): (&str, Format),
+    (name, form): (&str, FileFormat),
 ) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = recording(folder.path(), form);

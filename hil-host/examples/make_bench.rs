@@ -10,7 +10,7 @@ use std::path::Path;
 use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_files::output::write_whole;
-use dashpot_recording::writer::{Column, Format, RowWriter};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_testbench::excitation::Excitation;
 use dashpot_testbench::health::Noise;
 use dashpot_testbench::verification::reference_forces;
@@ -91,7 +91,7 @@ fn recorded(start_s: f64, x: &[f64], changes: &[&str], seed: u64) -> Result<Rows
 
 fn write(path: &Path, rows: &Rows) -> Result<(), Box<dyn Error>> {
     write_whole::<_, FileError>(path, |file| {
-        let mut written = RowWriter::new(path, file, Format::Mdf4, &COLUMNS)?;
+        let mut written = RowWriter::new(path, file, FileFormat::Mdf4, &COLUMNS)?;
         for row in rows {
             written.row(row, row)?;
         }

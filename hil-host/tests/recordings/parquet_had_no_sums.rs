@@ -6,7 +6,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use dashpot_recording::columns;
-use dashpot_recording::writer::{Column, Format, RowWriter};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_recording::{Channels, MeasuredSample, Measurement};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
@@ -29,7 +29,7 @@ fn read(bytes: &[u8]) -> Result<Vec<MeasuredSample>, String> {
 fn own(folder: &Path, rows: usize) -> Vec<u8> {
     let path = folder.join("own.parquet");
     let mut file = File::create(&path).unwrap();
-    let mut written = RowWriter::new(&path, &mut file, Format::Parquet, &COLUMNS).unwrap();
+    let mut written = RowWriter::new(&path, &mut file, FileFormat::Parquet, &COLUMNS).unwrap();
     for row in 0..rows {
         let time_s = row as f64 / 1e3;
         let values = [time_s, 1e-2 * (8.8 * time_s).sin(), 8e3 * time_s.cos()];

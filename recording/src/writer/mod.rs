@@ -32,7 +32,7 @@ impl Column {
 
 /// Output file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum FileFormat {
     /// CSV.
     Text,
     /// Apache Parquet.
@@ -55,7 +55,7 @@ pub enum RowWriter<'a> {
     Mdf4(Box<mdf::Rows<'a>>),
 }
 
-impl Format {
+impl FileFormat {
     /// Returns the format for the extension of `path`: `.parquet`, `.mf4`, otherwise CSV. Standard output is CSV.
     ///
     /// # Errors
@@ -93,17 +93,17 @@ impl<'a> RowWriter<'a> {
     pub fn new(
         path: &'a Path,
         file: &'a mut dyn Write,
-        format: Format,
+        format: FileFormat,
         columns: &[Column],
     ) -> Result<Self, FileError> {
         match format {
             #[cfg(feature = "parquet")]
-            Format::Parquet => Ok(Self::Parquet(Box::new(parquet::Rows::new(
+            FileFormat::Parquet => Ok(Self::Parquet(Box::new(parquet::Rows::new(
                 path, file, columns,
             )?))),
             #[cfg(feature = "mdf")]
-            Format::Mdf4 => Ok(Self::Mdf4(Box::new(mdf::Rows::new(path, file, columns)?))),
-            Format::Text => {
+            FileFormat::Mdf4 => Ok(Self::Mdf4(Box::new(mdf::Rows::new(path, file, columns)?))),
+            FileFormat::Text => {
                 let mut rows = csv::Writer::from_writer(file);
                 rows.write_record(columns.iter().map(|column| column.name))
                     .map_err(|error| cannot_write_rows(path, error))?;

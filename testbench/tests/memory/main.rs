@@ -10,7 +10,7 @@ use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_recording::Recording;
 use dashpot_recording::tick_grid::TickGrid;
-use dashpot_recording::writer::{Column, Format, RowWriter};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_testbench::replay::replay;
 
 const STEP_S: f64 = 1e-3;
@@ -62,7 +62,7 @@ fn most_of(run: impl FnOnce()) -> usize {
     MOST.load(Ordering::Relaxed) - before
 }
 
-fn recording(folder: &Path, form: Format, rows: usize) -> PathBuf {
+fn recording(folder: &Path, form: FileFormat, rows: usize) -> PathBuf {
     let path = folder.join("recording");
     let mut file = std::fs::File::create(&path).unwrap();
     let mut written = RowWriter::new(&path, &mut file, form, &COLUMNS[..2]).unwrap();
@@ -76,7 +76,7 @@ fn recording(folder: &Path, form: Format, rows: usize) -> PathBuf {
 }
 
 /// As the command does, all but the file that is written.
-fn replayed(path: &Path, form: Format, rows: usize) {
+fn replayed(path: &Path, form: FileFormat, rows: usize) {
     let damper: Damper<f32> = damper::load("in-service", &[])
         .unwrap()
         .build(STEP_S)
@@ -97,9 +97,9 @@ fn replayed(path: &Path, form: Format, rows: usize) {
 #[test]
 fn a_replay_takes_as_much_memory_for_a_long_recording_as_for_a_short_one() {
     for (form, most) in [
-        (Format::Text, MIB),
-        (Format::Parquet, 8 * MIB),
-        (Format::Mdf4, 16 * MIB),
+        (FileFormat::Text, MIB),
+        (FileFormat::Parquet, 8 * MIB),
+        (FileFormat::Mdf4, 16 * MIB),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let [few, many] = [FEW, MANY].map(|rows| {

@@ -23,7 +23,7 @@ use dashpot_files::input;
 use dashpot_files::output::{self, cannot_write, write_whole, write_whole_if};
 use dashpot_realtime::pacing::Pacer;
 use dashpot_recording::tick_grid::TickGrid;
-use dashpot_recording::writer::{Column, Format, RowWriter};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_recording::{Gaps, Recording};
 use dashpot_testbench::replay::{Summary, replay};
 use health::{HealthArguments, HealthReport};
@@ -188,7 +188,7 @@ fn write<T: Real + Serialize>(
         Recording::open_with(&arguments.input, &arguments.recording.channels())?,
         step_s,
     )?;
-    let form = Format::from_path(&arguments.output).map_err(Failure::wrong_use)?;
+    let form = FileFormat::from_path(&arguments.output).map_err(Failure::wrong_use)?;
     let summary = write_whole::<_, Failure>(&arguments.output, |file| {
         let mut rows = RowWriter::new(&arguments.output, file, form, &COLUMNS)?;
         let mut number = 0_u32;
