@@ -15,21 +15,21 @@ use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_recording::Recording;
 use dashpot_recording::tick_grid::{Tick, TickGrid};
-use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_testbench::replay::replay;
 
 const ROWS: u32 = 100_000;
 const STEP_S: f64 = 1e-3;
 
-const FORMS: [(&str, Form); 3] = [
-    ("CSV", Form::Text),
-    ("MDF4", Form::Mdf4),
-    ("Parquet", Form::Parquet),
+const FORMS: [(&str, FileFormat); 3] = [
+    ("CSV", FileFormat::Text),
+    ("MDF4", FileFormat::Mdf4),
+    ("Parquet", FileFormat::Parquet),
 ];
 
-const TIME: ColumnName = ("time_s", "s");
-const DISPLACEMENT: ColumnName = ("displacement_m", "m");
-const FORCE: ColumnName = ("force_n", "N");
+const TIME: Column = Column::new("time_s", "s");
+const DISPLACEMENT: Column = Column::new("displacement_m", "m");
+const FORCE: Column = Column::new("force_n", "N");
 
 /// Time (s) and displacement (m) of a row, with the digits of a logger.
 fn row(number: u32) -> [f64; 2] {
@@ -38,11 +38,11 @@ fn row(number: u32) -> [f64; 2] {
     [time_s, (x * 1e8).round() / 1e8]
 }
 
-fn recording(folder: &Path, form: Form) -> PathBuf {
+fn recording(folder: &Path, form: FileFormat) -> PathBuf {
     let path = folder.join("recording");
     let mut file = std::fs::File::create(&path).expect("a temporary file");
     let mut rows =
-        Written::new(&path, &mut file, form, &[TIME, DISPLACEMENT]).expect("a temporary file");
+        RowWriter::new(&path, &mut file, form, &[TIME, DISPLACEMENT]).expect("a temporary file");
     for values in (0..ROWS).map(row) {
         rows.row(&values, values).expect("a temporary file");
     }
@@ -55,7 +55,11 @@ fn open(path: &Path) -> TickGrid {
     TickGrid::new(recording, STEP_S).expect("a row")
 }
 
-fn of(group: &mut BenchmarkGroup<'_, WallTime>, damper: &Damper<f32>, (name, form): (&str, Form)) {
+fn of(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    damper: &Damper<f32>,
+    (name, form): (&str, FileFormat),
+) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = recording(folder.path(), form);
     group.bench_function(format!("{name}: read"), |bencher| {
@@ -79,7 +83,7 @@ fn of(group: &mut BenchmarkGroup<'_, WallTime>, damper: &Damper<f32>, (name, for
         bencher.iter(|| {
             let mut sink = io::sink();
             let columns = [TIME, DISPLACEMENT, FORCE];
-            let mut rows = Written::new(&path, &mut sink, form, &columns).expect("no file");
+            let mut rows = RowWriter::new(&path, &mut sink, form, &columns).expect("no file");
             let summary = replay(damper, &mut open(&path), None, |tick: Tick, force, _| {
                 let values = [tick.time_s, tick.displacement_m, f64::from(force)];
                 rows.row(&values, (tick.time_s, tick.displacement_m, force))

@@ -10,7 +10,7 @@ use std::path::Path;
 use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_files::output::write_whole;
-use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_testbench::excitation::Excitation;
 use dashpot_testbench::health::Noise;
 use dashpot_testbench::verification::reference_forces;
@@ -43,7 +43,11 @@ const INTERVAL_S: f64 = 2e-3;
 /// Noise of both signals, relative to their rms.
 const NOISE: f64 = 0.01;
 
-const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
+const COLUMNS: [Column; 3] = [
+    Column::new("time_s", "s"),
+    Column::new("displacement_m", "m"),
+    Column::new("force_n", "N"),
+];
 
 /// Time (s), displacement (m) and force (N).
 type Rows = Vec<[f64; 3]>;
@@ -87,7 +91,7 @@ fn recorded(start_s: f64, x: &[f64], changes: &[&str], seed: u64) -> Result<Rows
 
 fn write(path: &Path, rows: &Rows) -> Result<(), Box<dyn Error>> {
     write_whole::<_, FileError>(path, |file| {
-        let mut written = Written::new(path, file, Form::Mdf4, &COLUMNS)?;
+        let mut written = RowWriter::new(path, file, FileFormat::Mdf4, &COLUMNS)?;
         for row in rows {
             written.row(row, row)?;
         }

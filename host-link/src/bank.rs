@@ -1,4 +1,4 @@
-//! A bank whose forces are needed as they come, such as those of dampers outside a simulated vehicle.
+//! A bank of dampers that returns its forces at each tick, for example to a simulated vehicle.
 
 use dashpot_core::Damper;
 
@@ -6,7 +6,7 @@ use super::host_replica::HostReplica;
 use super::report::Measured;
 use super::{Link, Pace, Report, Session, SessionError};
 
-/// The dampers of a target, a tick at a time; the host's own beside them, so that a target that was reset goes on where it was.
+/// Dampers of a target, stepped tick by tick. The host steps a replica, so that a target can continue after a reset.
 pub struct Bank<L> {
     session: Session<L>,
     host: HostReplica,
@@ -17,22 +17,23 @@ pub struct Bank<L> {
 }
 
 impl<L: Link> Bank<L> {
-    /// Gives the first places of the target `dampers` at rest at displacement zero. The places left over have the first damper and stay
-    /// at rest.
+    /// Loads `dampers` into the first slots of the target, at rest at displacement zero. The remaining slots get the
+    /// first damper and stay at rest.
     ///
     /// # Errors
-    /// No damper or more than places, dampers built for another step than the target's, or a target that is lost.
+    /// There is no damper, there are more dampers than slots, a damper is built for another step than that of the
+    /// target, or the target is lost.
     pub fn start(mut session: Session<L>, dampers: &[Damper<f32>]) -> Result<Self, SessionError> {
-        let places = session.target().dampers;
+        let slots = session.target().dampers;
         let count = dampers.len();
-        let (Some(first), true) = (dampers.first(), count <= places) else {
-            return Err(SessionError::Places {
+        let (Some(first), true) = (dampers.first(), count <= slots) else {
+            return Err(SessionError::TooManyDampers {
                 dampers: count,
-                places,
+                slots,
             });
         };
         let mut all = dampers.to_vec();
-        all.resize(places, *first);
+        all.resize(slots, *first);
         let host = HostReplica::at_rest(&all, session.target(), 0.0)?;
         let mut measured = Measured::default();
         session.recover(&host, &mut measured)?;
@@ -42,15 +43,16 @@ impl<L: Link> Bank<L> {
             host,
             pace: Pace::default(),
             measured,
-            displacements_m: vec![0.0; places],
-            forces_n: vec![0.0; places],
+            displacements_m: vec![0.0; slots],
+            forces_n: vec![0.0; slots],
         })
     }
 
-    /// One tick of the target: `displacements_m` of its first places (m) to their forces (N).
+    /// Steps the target by one tick: sends the displacements (m) of its first slots and returns the forces (N) of all
+    /// slots.
     ///
     /// # Errors
-    /// A target that is lost and does not come back, or a force that is not finite.
+    /// The target is lost and does not recover, or a force is not finite.
     pub fn step(&mut self, displacements_m: &[f32]) -> Result<&[f32], SessionError> {
         for (slot, displacement_m) in self.displacements_m.iter_mut().zip(displacements_m) {
             *slot = *displacement_m;
@@ -63,8 +65,8 @@ impl<L: Link> Bank<L> {
             &mut self.measured,
             &mut |record| {
                 forces_n.copy_from_slice(record.target_forces_n);
-                let wrong = forces_n.iter().find(|force_n| !force_n.is_finite());
-                wrong.map_or(Ok(()), |force_n| {
+                let invalid = forces_n.iter().find(|force_n| !force_n.is_finite());
+                invalid.map_or(Ok(()), |force_n| {
                     Err(SessionError::Force {
                         tick: record.tick,
                         force_n: *force_n,
@@ -75,10 +77,10 @@ impl<L: Link> Bank<L> {
         Ok(&self.forces_n)
     }
 
-    /// What was found, the states of both sides compared.
+    /// Compares the states of target and host, and returns the report.
     ///
     /// # Errors
-    /// A target that is lost and does not come back.
+    /// The target is lost and does not recover.
     pub fn finish(mut self) -> Result<Report, SessionError> {
         self.session.report(&self.host, self.measured, &self.pace)
     }

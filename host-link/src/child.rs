@@ -1,19 +1,18 @@
-//! Child processes, which end with this one: when their owner drops them, and when the command is
-//! interrupted.
+//! Child processes. They end when their owner drops them or when the program is interrupted.
 
 use std::io::{self, Read};
 use std::process::{Child, Command, ExitStatus};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The running children. A thread that starts or drops one holds the lock while it does, so that an
-/// interruption finds each of them either in the list or ended.
+/// Running children. A thread holds the lock while it starts or drops a child, so that an interruption finds each child
+/// either in the list or ended.
 static CHILDREN: Mutex<Vec<Arc<Mutex<Child>>>> = Mutex::new(Vec::new());
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A child process, ended when dropped.
+/// A child process that is ended when dropped.
 #[derive(Debug)]
 pub(crate) struct ChildProcess(Arc<Mutex<Child>>);
 
@@ -26,16 +25,16 @@ impl ChildProcess {
         Ok(Self(child))
     }
 
-    /// How it ended, if it has.
+    /// Returns the exit status if the process has ended.
     pub(crate) fn ended(&self) -> Option<ExitStatus> {
         lock(&self.0).try_wait().ok().flatten()
     }
 
-    /// The first `most` bytes of what one that ended wrote to a piped standard error.
-    pub(crate) fn errors(&self, most: u64) -> String {
+    /// Returns up to `max_bytes` bytes from the piped standard error of a process that has ended.
+    pub(crate) fn errors(&self, max_bytes: u64) -> String {
         let mut text = String::new();
         if let Some(errors) = lock(&self.0).stderr.as_mut() {
-            let _ = errors.take(most).read_to_string(&mut text);
+            let _ = errors.take(max_bytes).read_to_string(&mut text);
         }
         text
     }
@@ -49,14 +48,14 @@ impl Drop for ChildProcess {
     }
 }
 
-/// One that has ended already is left as it is.
+/// Ends a child unless it has already ended.
 fn end(child: &Mutex<Child>) {
     let mut child = lock(child);
     let _ = child.kill();
     let _ = child.wait();
 }
 
-/// Ends all children; no child can be started while the returned guard lives.
+/// Ends all children. No child can be started while the returned guard exists.
 #[cfg(unix)]
 pub fn end_all() -> impl Drop {
     let children = lock(&CHILDREN);

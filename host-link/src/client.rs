@@ -1,4 +1,4 @@
-//! The host's end of the link: one request at a time, repeated until it is answered.
+//! Host end of the link: sends one request at a time and repeats it until it is answered.
 
 use std::time::Duration;
 
@@ -11,33 +11,33 @@ use serde::Serialize;
 
 use super::{Link, LinkError, RetryLimits};
 
-/// Session numbers to try: the first may be the open one, by chance or after an earlier run.
-const MOST_SESSIONS: u32 = 10;
+/// Maximum number of session numbers to try: the first may equal that of the open session.
+const MAX_SESSIONS: u32 = 10;
 
-/// Largest factor by which a wait grows. With eight tries a silent target is given up after 47 times the first wait.
+/// Maximum factor by which a wait grows. With eight tries, the client gives up after 47 times the first wait.
 const MAX_BACK_OFF: u32 = 8;
 
-/// No wait grows beyond this: eight times the first wait for the longest frame.
+/// Maximum length of a grown wait: eight times the first wait for the longest frame.
 const MAX_GROWN_WAIT: Duration = Duration::from_secs(12);
 
-/// Faults of the link that the host noticed; every one of them was survived.
+/// Link faults that the host detected and recovered from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct LinkFaults {
-    /// Tries without an answer in time.
+    /// Tries that were not answered in time.
     pub timeouts: u64,
     /// Requests sent again under the same sequence number.
     pub repeated_requests: u64,
-    /// Requests that the target received broken.
+    /// Requests that reached the target corrupted.
     pub corrupt_requests: u64,
-    /// Answers received broken.
+    /// Answers that reached the host corrupted.
     pub corrupt_answers: u64,
     /// Answers to earlier requests.
     pub stale_answers: u64,
-    /// Sessions that the target no longer knew, as after a reset.
+    /// Sessions that the target no longer knew, for example after a reset.
     pub lost_sessions: u64,
 }
 
-/// Asks a target over a link.
+/// Sends requests to a target over a link.
 pub struct Client<L> {
     link: L,
     retry_limits: RetryLimits,
@@ -46,25 +46,25 @@ pub struct Client<L> {
     reader: FrameReader<RESPONSE_BYTES>,
     received: Vec<u8>,
     answer: Vec<u8>,
-    /// Factor of the waits, 1 to [`MAX_BACK_OFF`].
+    /// Factor for the waits, 1 to [`MAX_BACK_OFF`].
     back_off: u32,
-    /// Repeats of earlier requests whose answers are still under way.
+    /// Repeats of earlier requests whose answers are still on the way.
     late_repeats: u32,
 }
 
-/// What a wait brought.
-enum Waited {
-    /// The answer.
+/// Result of waiting for an answer.
+enum WaitResult {
+    /// The answer arrived.
     Answered,
-    /// The target received the request broken.
-    Broken,
-    /// Nothing.
+    /// The target received a corrupted request.
+    Corrupted,
+    /// No answer arrived in time.
     TimedOut,
 }
 
 impl<L: Link> Client<L> {
-    /// A client whose first session is the one after `session`; a number drawn for each run keeps it apart
-    /// from the last run's.
+    /// Creates a client whose first session number is `session` plus one. A random number avoids confusion with the
+    /// previous run.
     pub fn new(link: L, retry_limits: RetryLimits, session: u16) -> Self {
         Self {
             link,
@@ -82,12 +82,12 @@ impl<L: Link> Client<L> {
         }
     }
 
-    /// Faults noticed so far.
+    /// Faults detected so far.
     pub fn faults(&self) -> LinkFaults {
         self.faults
     }
 
-    /// The link.
+    /// Returns the link.
     pub fn link(&mut self) -> &mut L {
         &mut self.link
     }
@@ -95,14 +95,15 @@ impl<L: Link> Client<L> {
     /// Opens a new session.
     ///
     /// # Errors
-    /// No answer, a target of another protocol, or one whose dampers are not this host's in single precision.
+    /// The target does not answer, uses another protocol, or its dampers differ from those of this host in single
+    /// precision.
     pub fn hello(&mut self) -> Result<Welcome<'_>, LinkError> {
         let hello = Request::Hello { protocol: PROTOCOL };
         let mut tries = 1;
         loop {
             self.header.session = self.header.session.wrapping_add(1);
             match self.exchange(&hello) {
-                Err(LinkError::SessionLost) if tries < MOST_SESSIONS => tries += 1,
+                Err(LinkError::SessionLost) if tries < MAX_SESSIONS => tries += 1,
                 done => break done?,
             }
         }
@@ -118,16 +119,16 @@ impl<L: Link> Client<L> {
         Ok(welcome)
     }
 
-    /// Asks until there is an answer. The target carries the request out once, however often it is sent.
+    /// Sends a request until it is answered. The target executes it once, even if it is sent repeatedly.
     ///
     /// # Errors
-    /// No answer, or a refusal.
+    /// The target does not answer or refuses the request.
     pub fn request(&mut self, request: &Request<'_>) -> Result<Response<'_>, LinkError> {
         self.exchange(request)?;
         self.response()
     }
 
-    /// Asks until the answer is there and no refusal.
+    /// Sends a request until it is answered; a refusal is an error.
     fn exchange(&mut self, request: &Request<'_>) -> Result<(), LinkError> {
         self.header.sequence = self.header.sequence.wrapping_add(1);
         let frame = request_frame(self.header, request);
@@ -137,20 +138,20 @@ impl<L: Link> Client<L> {
         }
         let wait = self.retry_limits.for_frame(frame.len());
         let start = self.link.now();
-        let mut broken = 0;
-        for again in 0..self.retry_limits.tries.max(1) {
-            self.faults.repeated_requests += u64::from(again > 0);
+        let mut corrupted = 0;
+        for repeat in 0..self.retry_limits.tries.max(1) {
+            self.faults.repeated_requests += u64::from(repeat > 0);
             let sent = self.link.now();
             self.link.send(frame)?;
             let grown = wait.saturating_mul(self.back_off).min(MAX_GROWN_WAIT);
             match self.wait(grown.max(wait))? {
-                Waited::Answered => {
-                    // Which of several tries was answered is unknown, and so is the time it took.
-                    if again == 0 {
+                WaitResult::Answered => {
+                    // After a repeat it is unknown which try was answered, and so how long the answer took.
+                    if repeat == 0 {
                         let took = self.link.now().saturating_duration_since(sent);
-                        self.calm_down(took, wait);
+                        self.shorten_wait(took, wait);
                     }
-                    self.late_repeats = again - broken;
+                    self.late_repeats = repeat - corrupted;
                     return match self.response()? {
                         Response::Refused(Refusal::NoSession | Refusal::OutOfOrder(_)) => {
                             self.faults.lost_sessions += 1;
@@ -160,32 +161,32 @@ impl<L: Link> Client<L> {
                         _ => Ok(()),
                     };
                 }
-                Waited::Broken => broken += 1,
-                Waited::TimedOut => self.back_off = (2 * self.back_off).min(MAX_BACK_OFF),
+                WaitResult::Corrupted => corrupted += 1,
+                WaitResult::TimedOut => self.back_off = (2 * self.back_off).min(MAX_BACK_OFF),
             }
         }
-        self.late_repeats = self.retry_limits.tries.max(1) - broken;
+        self.late_repeats = self.retry_limits.tries.max(1) - corrupted;
         Err(LinkError::Silent {
             limits: self.retry_limits,
             waited: self.link.now().saturating_duration_since(start),
         })
     }
 
-    /// Shortens the waits to twice what the last answer took, at most by half.
-    fn calm_down(&mut self, took: Duration, wait: Duration) {
+    /// Shortens the waits to twice the time of the last answer, but at most by half.
+    fn shorten_wait(&mut self, took: Duration, wait: Duration) {
         let needed = (1..MAX_BACK_OFF).find(|factor| wait.saturating_mul(*factor) >= 2 * took);
         let needed = needed.unwrap_or(MAX_BACK_OFF);
         self.back_off = needed.max(self.back_off / 2).max(1);
     }
 
-    /// The last answer.
+    /// Parses the last answer.
     fn response(&self) -> Result<Response<'_>, LinkError> {
         let answer = parse(&self.answer).ok_or(LinkError::Unreadable)?;
         Ok(answer.1)
     }
 
-    /// Waits up to `time` for the answer to the last request.
-    fn wait(&mut self, time: Duration) -> Result<Waited, LinkError> {
+    /// Waits for the answer to the last request, up to `time`.
+    fn wait(&mut self, time: Duration) -> Result<WaitResult, LinkError> {
         let deadline = self.link.now() + time;
         loop {
             let received = std::mem::take(&mut self.received);
@@ -201,19 +202,19 @@ impl<L: Link> Client<L> {
                 let (header, response) = parse(message).ok_or(LinkError::Unreadable)?;
                 if response == Response::Refused(Refusal::Corrupt) {
                     self.faults.corrupt_requests += 1;
-                    // Answers come in the order of the requests: this one may be to a repeat of an earlier one, part
-                    // of which the target dropped while it was busy.
+                    // Answers arrive in the order of the requests. This one may answer a repeat of an earlier request,
+                    // part of which the busy target dropped.
                     if self.late_repeats > 0 {
                         self.late_repeats -= 1;
                         continue;
                     }
                     self.received = received[index + 1..].to_vec();
-                    return Ok(Waited::Broken);
+                    return Ok(WaitResult::Corrupted);
                 }
                 if header == self.header {
                     self.answer = message.to_vec();
                     self.received = received[index + 1..].to_vec();
-                    return Ok(Waited::Answered);
+                    return Ok(WaitResult::Answered);
                 }
                 self.late_repeats = self.late_repeats.saturating_sub(1);
                 self.faults.stale_answers += 1;
@@ -223,7 +224,7 @@ impl<L: Link> Client<L> {
             let count = self.link.receive(&mut buffer, left)?;
             if count == 0 {
                 self.faults.timeouts += 1;
-                return Ok(Waited::TimedOut);
+                return Ok(WaitResult::TimedOut);
             }
             self.received.extend_from_slice(&buffer[..count]);
         }

@@ -1,4 +1,4 @@
-//! The firmware's device without a processor: the same code, on the desk.
+//! A simulated target: the device code of the firmware, running in this process.
 
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -8,8 +8,8 @@ use dashpot_core::link::{Clock, Device, StepSizeError};
 
 use super::{Link, LinkError};
 
-/// A device of `N` dampers in this process. It answers at once or, to a broken line, not at all: no wait is
-/// real.
+/// A device with `N` dampers in this process. It answers at once or, after a corrupted frame, not at all, so the host
+/// never waits.
 #[derive(Debug)]
 pub struct Desk<const N: usize> {
     bank: [Damper<f32>; N],
@@ -18,10 +18,10 @@ pub struct Desk<const N: usize> {
 }
 
 impl<const N: usize> Desk<N> {
-    /// A device with these dampers after power on.
+    /// Creates a device with these dampers after power-on.
     ///
     /// # Errors
-    /// The dampers are not all built for one step.
+    /// The dampers are not all built for the same step.
     pub fn new(bank: [Damper<f32>; N]) -> Result<Self, StepSizeError> {
         Ok(Self {
             device: power_on(&bank)?,
@@ -30,7 +30,7 @@ impl<const N: usize> Desk<N> {
         })
     }
 
-    /// The device.
+    /// Returns the device.
     pub fn device(&mut self) -> &mut Device<N, N> {
         &mut self.device
     }
@@ -66,7 +66,7 @@ impl<const N: usize> Link for Desk<N> {
     }
 
     fn reset_target(&mut self) -> Result<(), LinkError> {
-        // The bank was started before.
+        // This cannot fail, because the same bank was started before.
         self.device = power_on(&self.bank)?;
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Why the emulator does not run.
+//! Errors from the emulator.
 
 use std::io;
 use std::path::PathBuf;
@@ -6,43 +6,43 @@ use std::process::ExitStatus;
 
 use dashpot_files::FileError;
 
-/// Program of the emulator.
+/// Program name of the emulator.
 pub(super) const EMULATOR: &str = "qemu-system-arm";
 
-/// Why the emulator did not start, or no longer runs.
+/// Errors from the emulator.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EmulatorError {
-    /// There is no image.
-    #[error("{}: no firmware image there; build it with `cargo xtask firmware`", .0.display())]
+    /// The image file does not exist.
+    #[error("{}: no firmware image there", .0.display())]
     NoImage(PathBuf),
-    /// The file cannot be read or is no image.
+    /// The file cannot be read or is not an image.
     #[error(transparent)]
     Image(#[from] FileError),
     /// The emulator is not installed.
-    #[error("{EMULATOR} is not installed; on Debian and Ubuntu: apt-get install qemu-system-arm")]
+    #[error("{EMULATOR} is not installed")]
     NotInstalled,
-    /// The system does not start it.
+    /// The system cannot start the emulator.
     #[error("cannot start {EMULATOR}: {0}")]
     Start(#[source] io::Error),
-    /// No port for its serial line.
+    /// No local port is available for the serial line.
     #[error("cannot open a local port: {0}")]
     Port(#[source] io::Error),
-    /// Its serial line cannot be taken.
+    /// The serial line cannot be opened.
     #[error("{EMULATOR}: {0}")]
     SerialLine(#[source] io::Error),
-    /// It ended.
+    /// The emulator ended.
     #[error("{EMULATOR} ended: {status}{message}")]
     Ended {
-        /// How.
+        /// Exit status.
         status: ExitStatus,
-        /// What it wrote to standard error; may be empty.
+        /// Output on standard error; may be empty.
         message: String,
     },
-    /// It did not open its serial line in time.
+    /// The emulator did not open its serial line in time.
     #[error("{EMULATOR} did not open its serial line within {seconds} s")]
     TimedOut {
-        /// The time it had (s).
+        /// Time limit (s).
         seconds: u64,
     },
 }

@@ -1,4 +1,4 @@
-//! Faults on a link, made on purpose: a wrapper around any other.
+//! Fault injection: a wrapper around any link.
 
 use std::collections::VecDeque;
 use std::str::FromStr;
@@ -8,18 +8,18 @@ use fastrand::Rng;
 
 use super::{FaultCounts, Link, LinkError};
 
-/// Probability of each fault per frame (1), both ways.
+/// Probability of each fault per frame (1), in both directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaultRates {
     /// The frame is lost.
     pub drop: f64,
-    /// One bit of the frame is wrong.
+    /// One bit of the frame is flipped.
     pub corrupt: f64,
-    /// The frame arrives only after its receiver stopped waiting.
+    /// The frame arrives after its receiver has stopped waiting.
     pub delay: f64,
     /// The frame arrives twice.
     pub duplicate: f64,
-    /// The frame arrives after the one sent after it.
+    /// The frame arrives after the next frame.
     pub reorder: f64,
     /// The target is reset before the frame reaches it.
     pub reset: f64,
@@ -30,7 +30,7 @@ const KINDS: &str = "drop, corrupt, delay, duplicate, reorder, reset";
 impl FromStr for FaultRates {
     type Err = String;
 
-    /// `drop=0.01,reset=0.001`: kinds and probabilities per frame.
+    /// Parses kinds and probabilities per frame such as `drop=0.01,reset=0.001`.
     fn from_str(text: &str) -> Result<Self, String> {
         let mut rates = Self::default();
         for part in text.split(',') {
@@ -44,7 +44,7 @@ impl FromStr for FaultRates {
                 "duplicate" => &mut rates.duplicate,
                 "reorder" => &mut rates.reorder,
                 "reset" => &mut rates.reset,
-                _ => return Err(format!("`{kind}` is no fault; allowed: {KINDS}")),
+                _ => return Err(format!("`{kind}` is not a fault; allowed: {KINDS}")),
             };
             *slot = match rate.parse() {
                 Ok(rate) if (0.0..=0.5).contains(&rate) => rate,
@@ -59,25 +59,25 @@ impl FromStr for FaultRates {
     }
 }
 
-/// A link that makes faults, the same ones for the same seed and the same frames.
+/// A link with injected faults, which are the same for the same seed and the same frames.
 pub struct FaultyLink<L> {
     link: L,
     rates: FaultRates,
     random: Rng,
     counts: FaultCounts,
-    to_target: Way,
-    to_host: Way,
-    /// From the target, its frame not yet ended.
+    to_target: Direction,
+    to_host: Direction,
+    /// Received bytes of an incomplete frame.
     partial: Vec<u8>,
     ready: VecDeque<u8>,
 }
 
-/// One way of the link.
+/// Frames held back in one direction of the link.
 #[derive(Default)]
-struct Way {
-    /// Before the next frame.
+struct Direction {
+    /// Frames to deliver before the next frame.
     late: Vec<Vec<u8>>,
-    /// After the next frame.
+    /// Frames to deliver after the next frame.
     after_next: Vec<Vec<u8>>,
 }
 
@@ -85,7 +85,7 @@ impl<L: Link> FaultyLink<L> {
     /// Wraps `link`.
     ///
     /// # Errors
-    /// `rates` has resets, and the link cannot reset its target.
+    /// `rates` contains resets, but the link cannot reset its target.
     pub fn new(link: L, rates: FaultRates, seed: u64) -> Result<Self, LinkError> {
         if rates.reset > 0.0 && !link.can_reset() {
             return Err(LinkError::ResetFaults);
@@ -95,27 +95,27 @@ impl<L: Link> FaultyLink<L> {
             rates,
             random: Rng::with_seed(seed),
             counts: FaultCounts::default(),
-            to_target: Way::default(),
-            to_host: Way::default(),
+            to_target: Direction::default(),
+            to_host: Direction::default(),
             partial: Vec::new(),
             ready: VecDeque::new(),
         })
     }
 
-    /// The link inside.
+    /// Returns the wrapped link.
     pub fn inner(&mut self) -> &mut L {
         &mut self.link
     }
 
-    /// What arrives when `frame` is sent.
+    /// Returns the frames that arrive when `frame` is sent.
     fn pass(&mut self, frame: Vec<u8>, towards_target: bool) -> Vec<Vec<u8>> {
-        let way = if towards_target {
+        let direction = if towards_target {
             &mut self.to_target
         } else {
             &mut self.to_host
         };
-        let mut arriving = std::mem::take(&mut way.late);
-        let after = std::mem::take(&mut way.after_next);
+        let mut arriving = std::mem::take(&mut direction.late);
+        let after = std::mem::take(&mut direction.after_next);
         let rates = &self.rates;
         let kinds = [
             rates.drop,
@@ -141,7 +141,7 @@ impl<L: Link> FaultyLink<L> {
             }
             Some(2) => {
                 counts.delayed += 1;
-                way.late.push(frame);
+                direction.late.push(frame);
             }
             Some(3) => {
                 counts.duplicated += 1;
@@ -150,7 +150,7 @@ impl<L: Link> FaultyLink<L> {
             }
             Some(4) => {
                 counts.reordered += 1;
-                way.after_next.push(frame);
+                direction.after_next.push(frame);
             }
             _ => arriving.push(frame),
         }
@@ -158,7 +158,7 @@ impl<L: Link> FaultyLink<L> {
         arriving
     }
 
-    fn hand_over(&mut self, buffer: &mut [u8]) -> usize {
+    fn read_ready(&mut self, buffer: &mut [u8]) -> usize {
         let count = buffer.len().min(self.ready.len());
         for (slot, byte) in buffer.iter_mut().zip(self.ready.drain(..count)) {
             *slot = byte;
@@ -168,7 +168,7 @@ impl<L: Link> FaultyLink<L> {
 }
 
 impl<L: Link> Link for FaultyLink<L> {
-    /// Takes `bytes` as one frame.
+    /// Sends `bytes` as one frame.
     fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         if bytes.is_empty() {
             return Ok(());
@@ -203,7 +203,7 @@ impl<L: Link> Link for FaultyLink<L> {
                 return Ok(0);
             }
         }
-        Ok(self.hand_over(buffer))
+        Ok(self.read_ready(buffer))
     }
 
     fn now(&self) -> Instant {
@@ -223,7 +223,7 @@ impl<L: Link> Link for FaultyLink<L> {
         self.link.instructions_per_s()
     }
 
-    fn faults_made(&self) -> FaultCounts {
+    fn injected_faults(&self) -> FaultCounts {
         self.counts
     }
 }

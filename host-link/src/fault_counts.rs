@@ -1,19 +1,19 @@
-//! Counts of faults injected into a link.
+//! Counts of injected faults.
 
 use serde::Serialize;
 
-/// Faults made so far.
+/// Numbers of faults injected so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct FaultCounts {
-    /// Frames lost.
+    /// Lost frames.
     pub dropped: u64,
-    /// Frames with a wrong bit.
+    /// Frames with a flipped bit.
     pub corrupted: u64,
-    /// Frames late.
+    /// Late frames.
     pub delayed: u64,
-    /// Frames twice.
+    /// Frames delivered twice.
     pub duplicated: u64,
-    /// Frames after the one sent after them.
+    /// Frames delivered after the next frame.
     pub reordered: u64,
     /// Resets of the target.
     pub resets: u64,

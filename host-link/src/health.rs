@@ -1,57 +1,69 @@
-//! Health of the real damper that a place of a target stands for.
+//! Health of the real damper that is assigned to a slot of the target.
 
 use dashpot_core::health::{HealthModel, HealthReading};
 use dashpot_core::link::{MAX_MEASURED, Request, Response};
 
 use super::{Client, Link, LinkError};
 
+/// Displacement and force measured on a real damper at one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HealthSample {
+    /// Relative displacement of the seats (m), positive in extension.
+    pub displacement_m: f32,
+    /// Force (N), positive if it resists extension.
+    pub force_n: f32,
+}
+
 impl<L: Link> Client<L> {
-    /// Begins an estimate in a place with a model.
+    /// Loads a model into a slot and starts its estimate.
     ///
     /// # Errors
-    /// No answer, or a refusal: a place that is not there or not watched, a model for another step.
-    pub fn load_health(&mut self, place: u8, model: &HealthModel) -> Result<(), LinkError> {
+    /// The target does not answer, or refuses: the slot does not exist or is not monitored, or the model is for another
+    /// step.
+    pub fn load_health(&mut self, slot: u8, model: &HealthModel) -> Result<(), LinkError> {
         let request = Request::LoadHealth {
-            damper: place,
+            damper: slot,
             image: &model.to_image(),
         };
-        self.done(&request)
+        self.expect_done(&request)
     }
 
-    /// Gives the estimate of a place samples of displacement (m) and force (N), one a step.
+    /// Sends measured samples, one per step, to the estimate of a slot.
     ///
     /// # Errors
-    /// No answer, or a refusal, as of a place without a model; samples before that were taken.
-    pub fn measure(&mut self, place: u8, samples: &[(f32, f32)]) -> Result<(), LinkError> {
+    /// The target does not answer, or refuses, for example because the slot has no model. Earlier samples have been
+    /// used.
+    pub fn measure(&mut self, slot: u8, samples: &[HealthSample]) -> Result<(), LinkError> {
         for samples in samples.chunks(MAX_MEASURED) {
-            let pairs = samples.iter();
-            let numbers = pairs.flat_map(|(displacement_m, force_n)| [displacement_m, force_n]);
-            let bytes: Vec<u8> = numbers.flat_map(|number| number.to_le_bytes()).collect();
-            self.done(&Request::Measure {
-                damper: place,
+            let numbers = samples
+                .iter()
+                .flat_map(|sample| [sample.displacement_m, sample.force_n]);
+            let bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).collect();
+            self.expect_done(&Request::Measure {
+                damper: slot,
                 samples: &bytes,
             })?;
         }
         Ok(())
     }
 
-    /// The estimate of a place.
+    /// Returns the estimate of a slot.
     ///
     /// # Errors
-    /// No answer, or a refusal, as of a place without a model.
-    pub fn health(&mut self, place: u8) -> Result<HealthReading, LinkError> {
-        self.reading(&Request::Health { damper: place })
+    /// The target does not answer, or refuses, for example because the slot has no model.
+    pub fn health(&mut self, slot: u8) -> Result<HealthReading, LinkError> {
+        self.reading(&Request::Health { damper: slot })
     }
 
-    /// Clears the status bits of a place's estimate; what it told before.
+    /// Clears the status bits of the estimate of a slot and returns the previous reading.
     ///
     /// # Errors
     /// As [`Client::health`].
-    pub fn clear_health(&mut self, place: u8) -> Result<HealthReading, LinkError> {
-        self.reading(&Request::ClearHealth { damper: place })
+    pub fn clear_health(&mut self, slot: u8) -> Result<HealthReading, LinkError> {
+        self.reading(&Request::ClearHealth { damper: slot })
     }
 
-    fn done(&mut self, request: &Request<'_>) -> Result<(), LinkError> {
+    fn expect_done(&mut self, request: &Request<'_>) -> Result<(), LinkError> {
         match self.request(request)? {
             Response::Done => Ok(()),
             _ => Err(LinkError::Unreadable),

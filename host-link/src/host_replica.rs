@@ -1,4 +1,4 @@
-//! The target's dampers on the host.
+//! Replica of the dampers of a target on the host.
 
 use dashpot_core::link::Forces;
 use dashpot_core::{Damper, DamperState};
@@ -6,9 +6,9 @@ use dashpot_core::{Damper, DamperState};
 use super::SessionError;
 use super::report::{Measured, Mismatch, Target};
 
-/// The same dampers on the host, at the last tick that both sides confirmed.
+/// Replica of the dampers of a target, at the last tick that both sides confirmed.
 pub(super) struct HostReplica {
-    /// One for each place.
+    /// One damper per slot.
     pub(super) dampers: Vec<Damper<f32>>,
     pub(super) tick: u32,
     states: Vec<DamperState<f32>>,
@@ -16,22 +16,22 @@ pub(super) struct HostReplica {
 }
 
 impl HostReplica {
-    /// At rest at `start_m` (m), `dampers` being one for all places of `target` or one for each.
+    /// Creates a replica at rest at `start_m` (m), from one damper for all slots of `target` or one per slot.
     ///
     /// # Errors
-    /// Another number of dampers, or one built for another step than the target's.
+    /// The number of dampers does not fit, or a damper is built for another step than that of the target.
     pub(super) fn at_rest(
         dampers: &[Damper<f32>],
         target: &Target,
         start_m: f32,
     ) -> Result<Self, SessionError> {
-        let places = target.dampers;
+        let slots = target.dampers;
         let dampers = match dampers {
-            [one] => vec![*one; places],
-            each if each.len() == places => each.to_vec(),
+            [one] => vec![*one; slots],
+            each if each.len() == slots => each.to_vec(),
             other => {
                 let dampers = other.len();
-                return Err(SessionError::Dampers { dampers, places });
+                return Err(SessionError::DamperCount { dampers, slots });
             }
         };
         if let Some(other) = dampers.iter().find(|d| d.step_s() != target.step_s) {
@@ -43,12 +43,12 @@ impl HostReplica {
         Ok(Self {
             tick: 0,
             states: dampers.iter().map(|d| d.at_rest(start_m)).collect(),
-            forces_n: vec![0.0; places],
+            forces_n: vec![0.0; slots],
             dampers,
         })
     }
 
-    /// The states as bytes.
+    /// Returns the states as bytes.
     pub(super) fn saved(&self) -> Vec<u8> {
         self.states.iter().flat_map(|s| s.to_bytes()).collect()
     }
@@ -58,7 +58,7 @@ impl HostReplica {
         &self.forces_n
     }
 
-    /// The tick of `forces` on this side, compared with them.
+    /// Steps the replica to the tick of `forces` and compares both sides.
     pub(super) fn step(
         &mut self,
         displacements_m: &[f32],
@@ -66,15 +66,15 @@ impl HostReplica {
         measured: &mut Measured,
     ) {
         self.tick = forces.tick;
-        for (place, state) in self.states.iter_mut().enumerate() {
-            let host_force_n = self.dampers[place].step(state, displacements_m[place]);
+        for (slot, state) in self.states.iter_mut().enumerate() {
+            let host_force_n = self.dampers[slot].step(state, displacements_m[slot]);
             let host_status = state.status().bits();
-            let (target_force_n, target_status) = (forces.forces_n[place], forces.status[place]);
-            self.forces_n[place] = host_force_n;
+            let (target_force_n, target_status) = (forces.forces_n[slot], forces.status[slot]);
+            self.forces_n[slot] = host_force_n;
             if host_force_n.to_bits() != target_force_n.to_bits() || host_status != target_status {
                 measured.mismatch(Mismatch {
                     tick: self.tick,
-                    damper: place,
+                    damper: slot,
                     target_force_n,
                     host_force_n,
                     target_status,

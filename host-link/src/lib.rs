@@ -33,6 +33,7 @@ pub use desk::Desk;
 pub use emulator_error::EmulatorError;
 pub use fault::{FaultRates, FaultyLink};
 pub use fault_counts::FaultCounts;
+pub use health::HealthSample;
 pub use link::Link;
 pub use link_choice::LinkChoice;
 pub use link_error::LinkError;

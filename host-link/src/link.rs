@@ -1,24 +1,24 @@
-//! A line of bytes to a target.
+//! Byte links to a target.
 
 use std::time::{Duration, Instant};
 
 use super::{FaultCounts, LinkError};
 
-/// A line of bytes to a target and back.
+/// A byte link to a target and back.
 pub trait Link {
     /// Sends bytes.
     ///
     /// # Errors
-    /// The line is broken.
+    /// The link is broken.
     fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError>;
 
-    /// Waits up to `timeout` for bytes; how many came, 0 when none did.
+    /// Waits up to `timeout` for bytes and returns their number; 0 if none arrived.
     ///
     /// # Errors
-    /// The line is broken.
+    /// The link is broken.
     fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError>;
 
-    /// The time that waits are measured in; a simulated line has a clock of its own.
+    /// Current time for measuring waits. A simulated link may have its own clock.
     fn now(&self) -> Instant {
         Instant::now()
     }
@@ -26,23 +26,23 @@ pub trait Link {
     /// Resets the target as a power cycle would.
     ///
     /// # Errors
-    /// This line cannot, unless it says otherwise.
+    /// The link cannot reset its target, which is the default.
     fn reset_target(&mut self) -> Result<(), LinkError> {
         Err(LinkError::CannotReset)
     }
 
-    /// Whether [`Link::reset_target`] can.
+    /// True if [`Link::reset_target`] is supported.
     fn can_reset(&self) -> bool {
         false
     }
 
-    /// Instructions of the target in a second of its clock, where they are counted exactly.
+    /// Instructions per second of the clock of the target, if the link counts them exactly.
     fn instructions_per_s(&self) -> Option<f64> {
         None
     }
 
-    /// Faults made on purpose so far.
-    fn faults_made(&self) -> FaultCounts {
+    /// Faults injected so far.
+    fn injected_faults(&self) -> FaultCounts {
         FaultCounts::default()
     }
 }
@@ -66,7 +66,7 @@ impl<L: Link + ?Sized> Link for Box<L> {
     fn instructions_per_s(&self) -> Option<f64> {
         (**self).instructions_per_s()
     }
-    fn faults_made(&self) -> FaultCounts {
-        (**self).faults_made()
+    fn injected_faults(&self) -> FaultCounts {
+        (**self).injected_faults()
     }
 }

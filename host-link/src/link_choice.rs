@@ -1,18 +1,18 @@
-//! Links by name.
+//! Links chosen by name.
 
 use std::path::PathBuf;
 use std::str::FromStr;
 
 use super::{DEFAULT_IMAGE, Link, LinkError, Qemu, Tcp};
 
-/// A link by name: `tcp:HOST:PORT`, `serial:DEVICE`, `qemu` or `qemu:IMAGE`.
+/// A link chosen by name: `tcp:HOST:PORT`, `serial:DEVICE`, `qemu` or `qemu:IMAGE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LinkChoice {
     /// A serial line behind a TCP port.
     Tcp(String),
     /// A serial device.
     Serial(PathBuf),
-    /// An emulator of our own with this image.
+    /// An emulator with this image, which this process starts.
     Qemu(PathBuf),
 }
 
@@ -31,10 +31,10 @@ impl FromStr for LinkChoice {
 }
 
 impl LinkChoice {
-    /// Opens the link, which a real-time thread may use; `baud` (bit/s) is for serial devices.
+    /// Opens the link, which may be moved to a real-time thread. `baud` (bit/s) applies to serial devices only.
     ///
     /// # Errors
-    /// Nothing answers at the address, the device cannot be opened, or the emulator does not start.
+    /// Nothing listens at the address, the device cannot be opened, or the emulator does not start.
     pub fn open(&self, baud: u32) -> Result<Box<dyn Link + Send>, LinkError> {
         match self {
             Self::Tcp(address) => Ok(Box::new(Tcp::connect(address)?)),

@@ -1,12 +1,12 @@
-//! When the ticks of a run are sent.
+//! Pace of a run: free or real time.
 
 use dashpot_realtime::pacing::{Clock, FinishedTick, MonotonicClock, Pacer, TickTiming};
 
-/// Ticks sent as soon as the one before is answered, or each when it is due.
+/// Pace at which the ticks of a run are sent.
 pub enum Pace<C: Clock = MonotonicClock> {
-    /// As soon as the one before is answered; the clock measures round trips.
+    /// Each tick is sent as soon as the previous one is answered; the clock measures round trips.
     Free(C),
-    /// Each a step after the one before, as a rig does.
+    /// Each tick is sent one step after the previous one, as on a rig.
     Paced(Box<Pacer<C>>),
 }
 
@@ -17,7 +17,7 @@ impl Default for Pace {
 }
 
 impl<C: Clock> Pace<C> {
-    /// The pacer, where the ticks are paced.
+    /// Returns the pacer if the ticks are paced.
     pub fn pacer(&self) -> Option<&Pacer<C>> {
         match self {
             Self::Free(_) => None,
@@ -25,7 +25,7 @@ impl<C: Clock> Pace<C> {
         }
     }
 
-    /// Returns when `tick` is to be sent.
+    /// Waits until `tick` is to be sent.
     pub(super) fn begin(&mut self, tick: u64) -> TickTiming {
         match self {
             Self::Free(clock) => TickTiming {
@@ -37,7 +37,7 @@ impl<C: Clock> Pace<C> {
         }
     }
 
-    /// The tick is answered.
+    /// Records that the tick has been answered.
     pub(super) fn end(&mut self, timing: TickTiming) -> FinishedTick {
         match self {
             Self::Free(clock) => FinishedTick {

@@ -1,4 +1,4 @@
-//! A target in an emulator that this process starts and ends.
+//! A target in an emulator that this process starts and stops.
 
 use std::io::{self, ErrorKind, Read};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
@@ -11,15 +11,15 @@ use super::{EmulatorError, Link, LinkError, Tcp};
 use crate::child::ChildProcess;
 use dashpot_files::FileError;
 
-/// The firmware as `cargo build --release` in `firmware/` leaves it.
+/// Firmware image that `cargo build --release` in `firmware/` creates.
 pub const DEFAULT_IMAGE: &str = "firmware/target/thumbv7em-none-eabihf/release/dashpot-firmware";
 
-/// A busy machine starts it late; one that ends is noticed at once.
+/// Time limit for starting the emulator, long enough for a busy machine. An emulator that exits is detected at once.
 const START_TIMEOUT: Duration = Duration::from_secs(60);
-/// With `-icount shift=0` an instruction takes a nanosecond of the target's time.
+/// With `-icount shift=0`, one instruction takes one nanosecond of target time.
 const INSTRUCTIONS_PER_S: f64 = 1e9;
 
-/// QEMU with a Cortex-M7 board (mps2-an500) whose UART is the link. Ended when dropped.
+/// QEMU with a Cortex-M7 board (mps2-an500). Its UART is the link. The emulator is ended when dropped.
 #[derive(Debug)]
 pub struct Qemu {
     emulator: Emulator,
@@ -35,12 +35,12 @@ impl Qemu {
     /// Starts the emulator with `image`, an ELF file for Arm.
     ///
     /// # Errors
-    /// The file is not an image, the emulator is not installed or ends at once.
+    /// The file is not an image, or the emulator is not installed or ends at once.
     pub fn start(image: &Path) -> Result<Self, LinkError> {
         Self::start_with_outputs(image, None)
     }
 
-    /// As [`Qemu::start`]; what the target's second UART sends, its outputs, goes to the file.
+    /// As [`Qemu::start`]; the second UART of the target, which sends its outputs, is written to the file.
     ///
     /// # Errors
     /// As [`Qemu::start`].
@@ -84,9 +84,9 @@ impl Link for Qemu {
 }
 
 impl Emulator {
-    /// How the emulator ended, when that is why the link broke.
+    /// Returns how the emulator ended if this broke the link, otherwise `error`.
     fn explain(&self, error: LinkError) -> LinkError {
-        // It may need a moment to end after its socket did.
+        // The process may end shortly after its socket closes.
         let deadline = Instant::now() + Duration::from_millis(200);
         while Instant::now() < deadline {
             if let Some(ended) = self.ended() {
@@ -97,18 +97,18 @@ impl Emulator {
         error
     }
 
-    /// How it ended, if it has, and what it wrote to its standard error.
+    /// Returns the exit status and standard error if the emulator has ended.
     fn ended(&self) -> Option<EmulatorError> {
         let status = self.0.ended()?;
         let message = match self.0.errors(2000).trim() {
             "" => String::new(),
-            text => format!("; it said: {text}"),
+            text => format!("; its output: {text}"),
         };
         Some(EmulatorError::Ended { status, message })
     }
 }
 
-/// The emulator takes any file and runs it, so what is no image for this target is refused here.
+/// Checks that the file is an image for this target, because the emulator would run any file.
 fn check_image(image: &Path) -> Result<(), EmulatorError> {
     let mut start = [0; 20];
     let read = std::fs::File::open(image).and_then(|mut file| file.read_exact(&mut start));
@@ -123,7 +123,7 @@ fn check_image(image: &Path) -> Result<(), EmulatorError> {
         Ok(()) if start[..6] == *b"\x7fELF\x01\x01" && start[18..] == [40, 0] => Ok(()),
         _ => Err(FileError::in_file(
             image,
-            "no firmware image: must be a 32-bit little-endian ELF file for Arm",
+            "not a firmware image: expected a 32-bit little-endian ELF file for Arm",
         )
         .into()),
     }
@@ -154,7 +154,7 @@ fn launch(image: &Path, outputs: Option<&Path>) -> Result<(Emulator, Tcp), LinkE
     Ok((emulator, link))
 }
 
-/// A local port and its number.
+/// Opens a local port and returns its number.
 fn listen() -> io::Result<(TcpListener, u16)> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
     listener.set_nonblocking(true)?;

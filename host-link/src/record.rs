@@ -1,13 +1,13 @@
-//! The record of one tick of a run.
+//! Record of one tick of a run.
 
 use std::fmt;
 
-/// A tick that both sides stepped. Lists have one number a place.
+/// A tick that target and host have stepped. Lists have one number per slot.
 #[derive(Clone, Copy, Debug)]
 pub struct TickRecord<'a> {
     /// Tick, from 1.
     pub tick: u32,
-    /// Displacements sent (m).
+    /// Displacements sent to the target (m).
     pub displacements_m: &'a [f32],
     /// Forces of the target (N).
     pub target_forces_n: &'a [f32],
@@ -15,42 +15,42 @@ pub struct TickRecord<'a> {
     pub host_forces_n: &'a [f32],
     /// Status bits of the target.
     pub target_status: &'a [u16],
-    /// Clock ticks of the target that the step of the whole bank took.
+    /// Clock ticks of the target for the step of the whole bank.
     pub clock_ticks: u32,
-    /// From the step's request to its answer, repetitions and recoveries included (ns).
+    /// Time from the request to its answer, including repetitions and recoveries (ns).
     pub round_trip_ns: u64,
-    /// What happened besides.
+    /// Other events during the tick.
     pub events: &'a [Event],
 }
 
-/// What can happen in a tick besides its step.
+/// Events that can happen during a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// Made on purpose: a frame was lost.
+    /// Injected: a frame was lost.
     Drop,
-    /// Made on purpose: a frame had a wrong bit.
+    /// Injected: a bit of a frame was flipped.
     Corrupt,
-    /// Made on purpose: a frame came late.
+    /// Injected: a frame arrived late.
     Delay,
-    /// Made on purpose: a frame came twice.
+    /// Injected: a frame arrived twice.
     Duplicate,
-    /// Made on purpose: a frame came after the one sent after it.
+    /// Injected: a frame arrived after the next frame.
     Reorder,
-    /// Made on purpose: the target was reset.
+    /// Injected: the target was reset.
     Reset,
     /// The host sent a request again.
     Repeat,
-    /// The host gave the target its dampers and states again.
+    /// The host sent the dampers and states to the target again.
     Recovery,
-    /// A paced tick was answered after the next was due.
+    /// A paced tick was answered after the next tick was due.
     Late,
     /// A force or status word differs from the host's.
     Mismatch,
 }
 
 impl Event {
-    /// Whether it was made on purpose.
-    pub fn is_made(self) -> bool {
+    /// True if the event is an injected fault.
+    pub fn is_injected(self) -> bool {
         matches!(
             self,
             Self::Drop

@@ -1,4 +1,4 @@
-//! What a run found.
+//! Report of a run.
 
 use dashpot_core::link::{Counters, Forces};
 use serde::Serialize;
@@ -7,33 +7,33 @@ use super::LinkFaults;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::{Distribution, Figures};
 
-/// What a target said of itself.
+/// Description of a target, as the target reports it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Target {
     /// Version of its core.
     pub core_version: String,
-    /// Dampers it holds.
+    /// Number of dampers.
     pub dampers: usize,
-    /// Revision of each.
+    /// Revision of each damper.
     pub revisions: Vec<u32>,
-    /// Step of every damper (s).
+    /// Step of all dampers (s).
     pub step_s: f32,
-    /// Rate of the clock that measures its steps (Hz).
+    /// Frequency of the clock that measures the steps (Hz).
     pub clock_hz: u32,
 }
 
-/// Clock ticks or instructions of one tick of the bank.
+/// Clock ticks or instructions per tick of the bank.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Cost {
-    /// Least.
+    /// Minimum.
     pub min: f64,
     /// Mean.
     pub mean: f64,
-    /// Most.
+    /// Maximum.
     pub max: f64,
 }
 
-/// A force or status that is not the host's.
+/// A force or status that differs between target and host.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Mismatch {
     /// Tick, from 1.
@@ -50,61 +50,61 @@ pub struct Mismatch {
     pub host_status: u16,
 }
 
-/// How a paced run kept its time.
+/// Timing of a paced run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pacing {
-    /// Ticks answered after the next was due.
+    /// Number of ticks answered after the next tick was due.
     pub missed_deadlines: u64,
-    /// Their fraction of all ticks (1).
+    /// Fraction of such ticks (1).
     pub missed_share: f64,
-    /// From due to sent.
+    /// Time from due to sent.
     pub lateness: Figures,
-    /// From due to answered.
+    /// Time from due to answered.
     pub response: Figures,
 }
 
 impl From<&PacingReport> for Pacing {
-    fn from(seen: &PacingReport) -> Self {
+    fn from(report: &PacingReport) -> Self {
         Self {
-            missed_deadlines: seen.missed_deadlines,
-            missed_share: seen.missed_deadlines as f64 / seen.ticks.max(1) as f64,
-            lateness: seen.lateness.figures(),
-            response: seen.response.figures(),
+            missed_deadlines: report.missed_deadlines,
+            missed_share: report.missed_deadlines as f64 / report.ticks.max(1) as f64,
+            lateness: report.lateness.figures(),
+            response: report.response.figures(),
         }
     }
 }
 
-/// What a run found.
+/// Report of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Report {
-    /// The target.
+    /// Target.
     pub target: Target,
-    /// Ticks stepped.
+    /// Number of ticks.
     pub ticks: u32,
-    /// Forces and status words that differ from the host's, in bits.
+    /// Number of forces and status words whose bits differ from those of the host.
     pub mismatches: u64,
-    /// The first of them.
+    /// First mismatch.
     pub first_mismatch: Option<Mismatch>,
-    /// Dampers whose state at the end differs from the host's, in bits.
+    /// Number of dampers whose final state differs from that of the host, compared bit by bit.
     pub state_mismatches: usize,
-    /// From a step request to its answer, repetitions included.
+    /// Time from a step request to its answer, including repetitions.
     pub round_trip: Figures,
-    /// Where ticks were sent when due.
+    /// Timing, if the run was paced.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pacing: Option<Pacing>,
-    /// Clock ticks of the target that a step of the whole bank takes.
+    /// Clock ticks of the target per step of the whole bank.
     pub clock_ticks: Cost,
-    /// The same in instructions, where the link counts them.
+    /// Instructions per step of the whole bank, if the link counts them.
     pub instructions: Option<Cost>,
-    /// Times the target was given its dampers and states again.
+    /// Number of times the host sent the dampers and states to the target again.
     pub recoveries: u64,
-    /// Faults the host noticed.
+    /// Faults that the host detected.
     pub link_faults: LinkFaults,
-    /// The target's own counters, since it was last reset.
+    /// Counters of the target since its last reset.
     pub target_counters: Counters,
 }
 
-/// What is measured tick by tick.
+/// Measurements accumulated over the ticks.
 #[derive(Default)]
 pub(super) struct Measured {
     pub(super) mismatches: u64,
@@ -112,6 +112,7 @@ pub(super) struct Measured {
     pub(super) round_trip: Distribution,
     pub(super) recoveries: u64,
     clock_ticks: u64,
+    /// Minimum and maximum.
     clock_range: Option<(u32, u32)>,
     steps: u64,
 }
@@ -121,8 +122,8 @@ impl Measured {
         let taken = forces.clock_ticks;
         self.steps += 1;
         self.clock_ticks += u64::from(taken);
-        let (least, most) = self.clock_range.unwrap_or((taken, taken));
-        self.clock_range = Some((least.min(taken), most.max(taken)));
+        let (min, max) = self.clock_range.unwrap_or((taken, taken));
+        self.clock_range = Some((min.min(taken), max.max(taken)));
     }
 
     pub(super) fn mismatch(&mut self, mismatch: Mismatch) {
@@ -131,11 +132,11 @@ impl Measured {
     }
 
     pub(super) fn cost(&self) -> Cost {
-        let (least, most) = self.clock_range.unwrap_or_default();
+        let (min, max) = self.clock_range.unwrap_or_default();
         Cost {
-            min: f64::from(least),
+            min: f64::from(min),
             mean: self.clock_ticks as f64 / self.steps.max(1) as f64,
-            max: f64::from(most),
+            max: f64::from(max),
         }
     }
 }

@@ -1,25 +1,24 @@
-//! Limits of waiting for an answer.
+//! Limits for waiting and repeating requests.
 
 use std::time::Duration;
 
-/// What a byte may take on the way to a target behind a bridge, which has it from the host at once: 87 us at
-/// 115200 bit/s.
+/// Time per byte to a target behind a bridge, which buffers the bytes of the host: 87 us at 115200 bit/s, rounded up.
 const BYTE_TIME: Duration = Duration::from_micros(100);
 
-/// How long to wait for an answer, and how often to ask.
+/// Waiting time for an answer and number of tries.
 ///
-/// A wait without an answer doubles the next one, up to eight times the first and 12 s: the target may be slow, and
-/// every repeated request is one more for it to answer. The longer wait stays until answers come sooner again.
+/// Each wait without an answer doubles the next wait, up to eight times the first wait and 12 s: the target may be
+/// slow, and it must answer every repeated request. Waits become shorter again when answers arrive sooner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RetryLimits {
-    /// First wait, beside the time the bytes of a request take.
+    /// First wait, in addition to the transmission time of the request.
     pub timeout: Duration,
-    /// Tries of a request, 1 at least.
+    /// Number of tries, at least 1.
     pub tries: u32,
 }
 
 impl Default for RetryLimits {
-    /// Eight tries, the first of a fifth of a second.
+    /// Eight tries with a first wait of 200 ms.
     fn default() -> Self {
         Self {
             timeout: Duration::from_millis(200),
@@ -29,7 +28,7 @@ impl Default for RetryLimits {
 }
 
 impl RetryLimits {
-    /// How long to wait for the answer to a frame of so many bytes.
+    /// Returns the first wait for the answer to a frame with this number of bytes.
     pub(super) fn for_frame(&self, bytes: usize) -> Duration {
         self.timeout + BYTE_TIME.saturating_mul(bytes as u32)
     }

@@ -8,17 +8,17 @@ use serialport::SerialPort;
 
 use super::{Link, LinkError};
 
-/// A serial device, 8 data bits, no parity, no flow control.
+/// A serial device with 8 data bits, no parity and no flow control.
 pub struct Serial {
     port: Box<dyn SerialPort>,
     name: String,
 }
 
 impl Serial {
-    /// Opens `device` at `baud` bits a second.
+    /// Opens `device` at `baud` bit/s.
     ///
     /// # Errors
-    /// There is no such device, it may not be opened, or it does not know the rate.
+    /// The device does not exist, cannot be opened, or does not support the rate.
     pub fn open(device: &Path, baud: u32) -> Result<Self, LinkError> {
         let name = format!("serial:{}", device.display());
         let port = serialport::new(device.to_string_lossy(), baud)
@@ -40,7 +40,7 @@ impl Serial {
 
 impl Link for Serial {
     fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
-        // The wait for the answer begins when the bytes have left.
+        // The wait for the answer starts when the bytes have been sent.
         self.port
             .write_all(bytes)
             .and_then(|()| self.port.flush())
@@ -52,7 +52,7 @@ impl Link for Serial {
             .set_timeout(timeout)
             .map_err(|error| self.error("", error.into()))?;
         match self.port.read(buffer) {
-            Ok(0) => Err(self.error("", io::Error::other("the device is gone"))),
+            Ok(0) => Err(self.error("", io::Error::other("the device was disconnected"))),
             Ok(count) => Ok(count),
             Err(error) => match error.kind() {
                 ErrorKind::TimedOut | ErrorKind::Interrupted => Ok(0),

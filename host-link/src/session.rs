@@ -1,4 +1,4 @@
-//! A run: the same motion through the target and through the host's core, tick by tick.
+//! A run: target and host step the same motion, tick by tick.
 
 use std::collections::VecDeque;
 
@@ -10,20 +10,20 @@ use super::report::Measured;
 use super::{Client, Event, Link, LinkError, Pace, Report, SessionError, Target, TickRecord};
 use dashpot_realtime::pacing::Clock;
 
-/// Attempts to bring a target back before the run stops.
-const MOST_RECOVERIES: u32 = 10;
+/// Maximum number of attempts to recover a target before the run stops.
+const MAX_RECOVERIES: u32 = 10;
 
-/// A target that said hello.
+/// An open session with a target.
 pub struct Session<L> {
     client: Client<L>,
     target: Target,
 }
 
 impl<L: Link> Session<L> {
-    /// Says hello.
+    /// Opens a session.
     ///
     /// # Errors
-    /// No answer, or a target whose forces cannot be compared with this host's.
+    /// The target does not answer, or its forces cannot be compared with those of this host.
     pub fn open(mut client: Client<L>) -> Result<Self, SessionError> {
         let target = target(&mut client)?;
         let version = env!("CARGO_PKG_VERSION");
@@ -35,23 +35,23 @@ impl<L: Link> Session<L> {
         Ok(Self { client, target })
     }
 
-    /// The target.
+    /// Returns the target.
     pub fn target(&self) -> &Target {
         &self.target
     }
 
-    /// The link.
+    /// Returns the link.
     pub fn link(&mut self) -> &mut L {
         self.client.link()
     }
 
-    /// Drives every damper of the target with `motion` (m), one displacement a tick until it ends, damper i
-    /// i ticks behind the first, as wheelsets run over the same track. `dampers` is one for all places or
-    /// one for each; ticks are sent as `pace` has it. `sink` receives the record of every tick.
+    /// Drives all dampers of the target with `motion`, which returns one displacement (m) per tick, or `None` at its
+    /// end. Damper i follows i ticks behind the first, like wheelsets on the same track. `dampers` contains one damper
+    /// for all slots or one per slot. `pace` determines when ticks are sent, and `sink` receives the record of each
+    /// tick.
     ///
     /// # Errors
-    /// Dampers that do not fit the target, `motion`'s, `sink`'s, or a target that is lost and does not
-    /// come back.
+    /// The dampers do not fit the target, `motion` or `sink` fails, or the target is lost and does not recover.
     pub fn run<C: Clock, E: From<SessionError>>(
         &mut self,
         dampers: &[Damper<f32>],
@@ -76,7 +76,7 @@ impl<L: Link> Session<L> {
         Ok(self.report(&host, measured, pace)?)
     }
 
-    /// What was found up to here, the states of both sides compared.
+    /// Compares the states of target and host, and returns the report up to this tick.
     pub(super) fn report<C: Clock>(
         &mut self,
         host: &HostReplica,
@@ -104,7 +104,7 @@ impl<L: Link> Session<L> {
         })
     }
 
-    /// One tick on both sides: compared, and its record handed to `sink`.
+    /// Steps target and host by one tick, compares them and passes the record to `sink`.
     pub(super) fn tick<C: Clock, E: From<SessionError>>(
         &mut self,
         host: &mut HostReplica,
@@ -120,7 +120,7 @@ impl<L: Link> Session<L> {
         };
         let before = self.event_counts(measured);
         let timing = pace.begin(u64::from(host.tick));
-        let forces = self.insist(host, measured, |client| match client.request(&request)? {
+        let forces = self.retry(host, measured, |client| match client.request(&request)? {
             Response::Forces(forces) => Ok(forces),
             _ => Err(LinkError::Unreadable),
         })?;
@@ -151,32 +151,32 @@ impl<L: Link> Session<L> {
         })
     }
 
-    /// How often each event but `Late` happened so far.
+    /// Returns how often each event except `Late` has happened so far.
     fn event_counts(&mut self, measured: &Measured) -> [(Event, u64); 9] {
-        let made = self.client.link().faults_made();
+        let injected = self.client.link().injected_faults();
         [
-            (Event::Drop, made.dropped),
-            (Event::Corrupt, made.corrupted),
-            (Event::Delay, made.delayed),
-            (Event::Duplicate, made.duplicated),
-            (Event::Reorder, made.reordered),
-            (Event::Reset, made.resets),
+            (Event::Drop, injected.dropped),
+            (Event::Corrupt, injected.corrupted),
+            (Event::Delay, injected.delayed),
+            (Event::Duplicate, injected.duplicated),
+            (Event::Reorder, injected.reordered),
+            (Event::Reset, injected.resets),
             (Event::Repeat, self.client.faults().repeated_requests),
             (Event::Recovery, measured.recoveries),
             (Event::Mismatch, measured.mismatches),
         ]
     }
 
-    /// Asks until the target does it, bringing it back to the host's last state when it was lost.
-    fn insist<R>(
+    /// Repeats a request until it succeeds. A lost target is first restored to the last state of the host.
+    fn retry<R>(
         &mut self,
         host: &HostReplica,
         measured: &mut Measured,
-        ask: impl Fn(&mut Client<L>) -> Result<R, LinkError>,
+        request: impl Fn(&mut Client<L>) -> Result<R, LinkError>,
     ) -> Result<R, SessionError> {
-        for _ in 0..MOST_RECOVERIES {
-            match ask(&mut self.client) {
-                // Another session may have been opened and have stepped: start over from our state.
+        for _ in 0..MAX_RECOVERIES {
+            match request(&mut self.client) {
+                // Another program may have opened a session and stepped the target: restore our state.
                 Err(LinkError::SessionLost | LinkError::Refused(Refusal::Tick(_))) => {}
                 done => return done.map_err(|error| after(host.tick, error)),
             }
@@ -184,28 +184,28 @@ impl<L: Link> Session<L> {
         }
         Err(SessionError::Lost {
             tick: host.tick,
-            times: MOST_RECOVERIES,
+            times: MAX_RECOVERIES,
             when: "in a row",
         })
     }
 
-    /// Gives the target the host's dampers, states and tick.
+    /// Sends the dampers, states and tick of the host to the target.
     pub(super) fn recover(
         &mut self,
         host: &HostReplica,
         measured: &mut Measured,
     ) -> Result<(), SessionError> {
         measured.recoveries += 1;
-        for _ in 0..MOST_RECOVERIES {
-            match give(&mut self.client, &self.target, host) {
+        for _ in 0..MAX_RECOVERIES {
+            match restore(&mut self.client, &self.target, host) {
                 Err(LinkError::SessionLost) => {}
                 done => return done.map_err(|error| after(host.tick, error)),
             }
         }
         Err(SessionError::Lost {
             tick: host.tick,
-            times: MOST_RECOVERIES,
-            when: "while it was given its state again",
+            times: MAX_RECOVERIES,
+            when: "while its state was restored",
         })
     }
 
@@ -214,7 +214,7 @@ impl<L: Link> Session<L> {
         host: &HostReplica,
         measured: &mut Measured,
     ) -> Result<usize, SessionError> {
-        let saved = self.insist(host, measured, |client| {
+        let saved = self.retry(host, measured, |client| {
             match client.request(&Request::Save)? {
                 Response::Saved { states, .. } => Ok(states.to_vec()),
                 _ => Err(LinkError::Unreadable),
@@ -233,7 +233,7 @@ impl<L: Link> Session<L> {
         loop {
             match self.client.request(&Request::Counters) {
                 Ok(Response::Counters(counters)) => return Ok(counters),
-                Err(LinkError::SessionLost) if tries < MOST_RECOVERIES => {
+                Err(LinkError::SessionLost) if tries < MAX_RECOVERIES => {
                     tries += 1;
                     self.client.hello()?;
                 }
@@ -244,7 +244,7 @@ impl<L: Link> Session<L> {
     }
 }
 
-/// The reason a run stopped, with the last tick that both sides confirmed.
+/// Adds the last tick that both sides confirmed to the reason why a run stopped.
 fn after(tick: u32, source: LinkError) -> SessionError {
     SessionError::After { tick, source }
 }
@@ -260,8 +260,8 @@ fn target<L: Link>(client: &mut Client<L>) -> Result<Target, LinkError> {
     })
 }
 
-/// Hello, the dampers where they are others, the states.
-fn give<L: Link>(
+/// Opens a new session, and sends the changed dampers and all states.
+fn restore<L: Link>(
     client: &mut Client<L>,
     expected: &Target,
     host: &HostReplica,
@@ -270,11 +270,11 @@ fn give<L: Link>(
     if (found.dampers, found.step_s) != (expected.dampers, expected.step_s) {
         return Err(LinkError::OtherTarget);
     }
-    for ((place, damper), revision) in (0..).zip(&host.dampers).zip(&found.revisions) {
+    for ((slot, damper), revision) in (0..).zip(&host.dampers).zip(&found.revisions) {
         if *revision != damper.revision() {
             let image = &damper.to_image();
             client.request(&Request::Load {
-                damper: place,
+                damper: slot,
                 image,
             })?;
         }

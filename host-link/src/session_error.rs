@@ -1,15 +1,15 @@
-//! Why a run has no result.
+//! Errors of a run.
 
 use super::LinkError;
 
-/// Why a run has no result.
+/// Errors of a run.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SessionError {
-    /// The target cannot be asked.
+    /// A request failed before the first tick.
     #[error(transparent)]
     Link(#[from] LinkError),
-    /// The target cannot be asked any more.
+    /// A request failed during the run.
     #[error("after tick {tick}: {source}")]
     After {
         /// The last tick that both sides confirmed.
@@ -17,60 +17,62 @@ pub enum SessionError {
         /// The reason.
         source: LinkError,
     },
-    /// The target was lost again and again.
+    /// The target was lost repeatedly.
     #[error("after tick {tick}: the target was lost {times} times {when}")]
     Lost {
         /// The last tick that both sides confirmed.
         tick: u32,
-        /// How often.
+        /// Number of times.
         times: u32,
-        /// Under which circumstances.
+        /// Circumstances.
         when: &'static str,
     },
     /// The target runs another version of the core.
     #[error(
-        "the target runs dashpot-core {target}, this host {}; bits are the same only between the same versions",
+        "the target runs dashpot-core {target}, this host {}; results are bit-identical only between equal versions",
         env!("CARGO_PKG_VERSION")
     )]
     Version {
         /// The target's version.
         target: String,
     },
-    /// Neither one damper nor one for each place.
+    /// The number of dampers is neither 1 nor the number of slots.
     #[error(
-        "{dampers} dampers, the target has {places} places; allowed: 1, for all places, or {places}, one for each"
+        "{dampers} dampers, but the target has {slots} slots; allowed: 1 for all slots, or {slots}, one per slot"
     )]
-    Dampers {
-        /// Dampers given.
+    DamperCount {
+        /// Number of dampers given.
         dampers: usize,
-        /// Places of the target.
-        places: usize,
+        /// Number of slots of the target.
+        slots: usize,
     },
-    /// A damper built for another step than the target's.
-    #[error("the damper is built for {damper_s} s, the target steps {target_s} s")]
+    /// The damper is built for another step than that of the target.
+    #[error(
+        "the damper is built for a step of {damper_s} s, but the step of the target is {target_s} s"
+    )]
     Step {
         /// Step of the damper (s).
         damper_s: f32,
         /// Step of the target (s).
         target_s: f32,
     },
-    /// More dampers than the target has places.
-    #[error("{dampers} dampers, the target has {places} places; allowed: 1 to {places}")]
-    Places {
-        /// Dampers given.
+    /// There are no dampers, or more dampers than slots.
+    #[error("{dampers} dampers, but the target has {slots} slots; allowed: 1 to {slots}")]
+    TooManyDampers {
+        /// Number of dampers given.
         dampers: usize,
-        /// Places of the target.
-        places: usize,
+        /// Number of slots of the target.
+        slots: usize,
     },
-    /// A force that is no finite number.
-    #[error("at tick {tick}: the target gave the force {force_n} N, allowed: a finite number")]
+    /// A force is not finite.
+    #[error("at tick {tick}: the target returned the force {force_n} N; allowed: a finite number")]
     Force {
         /// Tick of the target.
         tick: u32,
         /// The force (N).
         force_n: f32,
     },
-    /// The motion has no displacement.
-    #[error("the motion has no tick")]
+    /// The motion is empty.
+    #[error("the motion has no ticks")]
     NoTick,
 }

@@ -1,4 +1,4 @@
-//! A serial line behind a TCP port, as of an emulator or a terminal server.
+//! A serial line behind a TCP port, for example of an emulator or a terminal server.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
@@ -20,7 +20,7 @@ impl Tcp {
     /// Connects to `HOST:PORT`.
     ///
     /// # Errors
-    /// The address is not valid, or nothing listens there.
+    /// The address is invalid, or nothing listens there.
     pub fn connect(address: &str) -> Result<Self, LinkError> {
         let name = format!("tcp:{address}");
         let failed = |error| LinkError::line(&name, "cannot connect: ", error);
@@ -37,10 +37,10 @@ impl Tcp {
         })
     }
 
-    /// A link over an open connection, called `name` in errors.
+    /// Creates a link over an open connection; errors call it `name`.
     ///
     /// # Errors
-    /// The connection cannot be set to send at once.
+    /// Immediate sending (`TCP_NODELAY`) cannot be enabled.
     pub fn over(stream: TcpStream, name: String) -> Result<Self, LinkError> {
         stream
             .set_nodelay(true)
@@ -52,16 +52,16 @@ impl Tcp {
         })
     }
 
-    /// Acknowledges what was received at once. A peer with Nagle's delay, such as QEMU without `nodelay=on`,
-    /// sends its next bytes only then, and this system would otherwise wait 40 ms for an answer to carry
-    /// the acknowledgement. The system forgets the setting, so it is made anew after every reading.
+    /// Acknowledges received bytes at once. A peer that uses Nagle's algorithm, such as QEMU without `nodelay=on`,
+    /// waits for the acknowledgement before it sends more, and this system would otherwise delay it by 40 ms. The
+    /// system forgets the setting, so it is renewed after each read.
     #[cfg(target_os = "linux")]
     fn acknowledge(&self) -> Result<(), LinkError> {
         rustix::net::sockopt::set_tcp_quickack(&self.stream, true)
             .map_err(|error| self.error("", error.into()))
     }
 
-    /// Not on this system.
+    /// Does nothing on this system.
     #[cfg(not(target_os = "linux"))]
     fn acknowledge(&self) -> Result<(), LinkError> {
         Ok(())
@@ -80,7 +80,7 @@ impl Link for Tcp {
     }
 
     fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
-        // A timeout of zero would mean that there is no timeout; a whole millisecond keeps the setting from changing often.
+        // Zero would mean no timeout. Rounding to whole milliseconds avoids changing the setting often.
         let timeout = Duration::from_millis(timeout.as_millis().max(1) as u64);
         if self.timeout != Some(timeout) {
             self.stream

@@ -82,11 +82,11 @@ class Recordings(Test):
         """Options were replaced in the command's texts: after a backtick in a header one remained, and `--force` became `force`."""
         for text, options, told in (
             ("time_s,we`g,--force\n0,1,2\n1,2,3\n", {},
-             "column displacement_m is missing; there are `time_s`, `we`g`, `--force`; choose one with displacement=NAME or its number"),
+             "column displacement_m is missing; the file has `time_s`, `we`g`, `--force`; choose one with displacement=NAME or its number"),
             ("time_s,--force\n0,1\n1,2\n", {"displacement": "--force"},
-             "the file does not tell the unit of --force; name it: displacement_unit with m, cm, mm, um, in"),
+             "the file does not state the unit of --force; name it: displacement_unit with m, cm, mm, um, in"),
             ("--time NAME,--force`\n0,1\n1,2\n", {"displacement": "--force`", "displacement_unit": "m"},
-             "column time_s is missing; there are `--time NAME`, `--force``; choose one with time=NAME or its number"),
+             "column time_s is missing; the file has `--time NAME`, `--force``; choose one with time=NAME or its number"),
             ("time_s,displacement_m,--group\n0,0,1\n1,0,x\n", {"with_force": True, "force": "--group", "force_unit": "N"},
              "3: column --group: `x` is not a finite number"),
             ("time_s,displacement_m\n0,0\n1,`--skip-invalid\n", {},

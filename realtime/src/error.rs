@@ -1,61 +1,61 @@
-//! Why there is no real time.
+//! Errors of real-time runs.
 
 use crate::limits::{RATE_RANGE_HZ, TICKS_PER_ALLOWED_MISS};
 use crate::options::RealtimeOption;
 use crate::stop::Stop;
 use crate::timing::span;
 
-/// Why ticks cannot be paced, or were not on time.
+/// Errors of real-time runs: ticks could not be paced or were late.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RealtimeError {
-    /// A paced step is out of its range.
-    #[error("a paced step of {step_us} us: allowed are {}", paced_steps())]
+    /// The step is outside the range for paced runs.
+    #[error("a paced step of {step_us} us; allowed: {}", paced_steps())]
     Step {
         /// The step (us).
         step_us: f64,
     },
     /// The process may not use the core.
     #[error(
-        "core {core}: no core this process may use, allowed: {}",
+        "core {core}: this process may not use this core; allowed: {}",
         listed(allowed)
     )]
     Core {
-        /// The requested core.
+        /// Requested core.
         core: usize,
-        /// The cores that the process may use.
+        /// Cores that the process may use.
         allowed: Vec<usize>,
     },
     /// The system refused a real-time option.
     #[error("{option}: {reason}")]
     Refused {
-        /// The option.
+        /// Refused option.
         option: RealtimeOption,
-        /// Why, and what is missing.
+        /// Reason, and the missing permission.
         reason: String,
     },
     /// A tick took longer than allowed.
-    #[error("{}, allowed: {}", stopped(.0), span(.0.limit_ns as f64))]
+    #[error("{}; allowed: {}", stopped(.0), span(.0.limit_ns as f64))]
     Stopped(Stop),
-    /// More deadlines were missed than `--realtime` allows.
-    #[error("{missed} of {ticks} deadlines missed, allowed: one in {TICKS_PER_ALLOWED_MISS}")]
+    /// More than one deadline in [`TICKS_PER_ALLOWED_MISS`] was missed.
+    #[error("{missed} of {ticks} deadlines missed; allowed: one in {TICKS_PER_ALLOWED_MISS}")]
     TooManyMissed {
-        /// Ticks whose work ended after the next tick was due.
+        /// Number of ticks whose work ended after the next tick was due.
         missed: u64,
-        /// All ticks.
+        /// Number of ticks.
         ticks: u64,
     },
-    /// Deadlines were missed.
-    #[error("{missed} of {ticks} deadlines missed, allowed: none")]
+    /// A deadline was missed although none may be missed.
+    #[error("{missed} of {ticks} deadlines missed; allowed: none")]
     MissedDeadlines {
-        /// Ticks whose work ended after the next tick was due.
+        /// Number of ticks whose work ended after the next tick was due.
         missed: u64,
-        /// All ticks.
+        /// Number of ticks.
         ticks: u64,
     },
 }
 
-/// The steps that can be paced, as text.
+/// Describes the range of steps for paced runs.
 fn paced_steps() -> String {
     let (slowest_hz, fastest_hz) = (*RATE_RANGE_HZ.start(), *RATE_RANGE_HZ.end());
     format!(
@@ -67,13 +67,13 @@ fn paced_steps() -> String {
     )
 }
 
-/// Cores separated by commas.
+/// Lists cores, separated by commas.
 pub fn listed(cores: &[usize]) -> String {
     let cores: Vec<String> = cores.iter().map(usize::to_string).collect();
     cores.join(", ")
 }
 
-/// The tick that ended a run, and what it took.
+/// Describes the tick that ended a run, and its duration.
 pub fn stopped(stop: &Stop) -> String {
     format!(
         "stopped: tick {}, {:.6} s along the motion, took {}",

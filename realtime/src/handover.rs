@@ -1,107 +1,107 @@
-//! Records from a real-time thread to another one, through memory that is there before the run.
+//! Passes records from a real-time thread to another thread through preallocated memory.
 
-use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
+use std::sync::mpsc::{self, SyncSender, TryRecvError, sync_channel};
 use std::time::Duration;
 
-/// How long the reading thread sleeps when there is no record.
-const NAP: Duration = Duration::from_millis(1);
+/// Time that the receiving thread sleeps if there is no record.
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
 
-/// The end of the real-time thread. [`Self::give`] allocates nothing, calls nothing of the system and waits for nobody, as long as a record
-/// is free.
+/// Sender for the real-time thread. While a record is free, [`Self::send`] does not allocate, make system calls or
+/// wait.
 #[derive(Debug)]
-pub struct Giver<R> {
-    free: Receiver<Box<R>>,
+pub struct Sender<R> {
+    free: mpsc::Receiver<Box<R>>,
     filled: SyncSender<Box<R>>,
     waits: u64,
 }
 
-/// The end of the thread that reads the records.
+/// Receiver for the thread that reads the records.
 #[derive(Debug)]
-pub struct Taker<R> {
-    filled: Receiver<Box<R>>,
+pub struct Receiver<R> {
+    filled: mpsc::Receiver<Box<R>>,
     free: SyncSender<Box<R>>,
 }
 
 /// The thread that reads the records has ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the thread that reads the records has ended")]
-pub struct NobodyReads;
+pub struct ReaderEnded;
 
-/// Both ends, with as many records as the reading thread may fall behind by.
+/// Creates a sender and a receiver. `records` are the preallocated records; the receiver may fall behind by this many.
 ///
 /// ```
 /// use dashpot_realtime::handover::handover;
-/// let (mut giver, taker) = handover(vec![0_u32; 4]);
-/// let reading = std::thread::spawn(move || {
+/// let (mut sender, receiver) = handover(vec![0_u32; 4]);
+/// let reader = std::thread::spawn(move || {
 ///     let mut read = Vec::new();
-///     while taker.take(|record| read.push(*record)) {}
+///     while receiver.receive(|record| read.push(*record)) {}
 ///     read
 /// });
 /// for tick in 0..100 {
-///     giver.give(|record| *record = tick)?;
+///     sender.send(|record| *record = tick)?;
 /// }
-/// drop(giver);
-/// assert_eq!(reading.join().unwrap(), (0..100).collect::<Vec<_>>());
-/// # Ok::<(), dashpot_realtime::handover::NobodyReads>(())
+/// drop(sender);
+/// assert_eq!(reader.join().unwrap(), (0..100).collect::<Vec<_>>());
+/// # Ok::<(), dashpot_realtime::handover::ReaderEnded>(())
 /// ```
-pub fn handover<R>(records: Vec<R>) -> (Giver<R>, Taker<R>) {
+pub fn handover<R>(records: Vec<R>) -> (Sender<R>, Receiver<R>) {
     let (to_filled, filled) = sync_channel(records.len());
     let (to_free, free) = sync_channel(records.len());
     for record in records {
-        // There is room for all of them, and the other end is there.
+        // This cannot fail: the channel has room for all records, and its other end exists.
         let _is_sent = to_free.try_send(Box::new(record));
     }
-    let giver = Giver {
+    let sender = Sender {
         free,
         filled: to_filled,
         waits: 0,
     };
-    let taker = Taker {
+    let receiver = Receiver {
         filled,
         free: to_free,
     };
-    (giver, taker)
+    (sender, receiver)
 }
 
-impl<R> Giver<R> {
-    /// Has `fill` write a record, which the other thread then reads. Waits while no record is free, and counts that.
+impl<R> Sender<R> {
+    /// Lets `fill` write a record and sends it. If no record is free, this waits and counts the wait.
     ///
     /// # Errors
     /// The other thread has ended.
-    pub fn give(&mut self, fill: impl FnOnce(&mut R)) -> Result<(), NobodyReads> {
+    pub fn send(&mut self, fill: impl FnOnce(&mut R)) -> Result<(), ReaderEnded> {
         let mut record = match self.free.try_recv() {
             Ok(record) => record,
-            Err(TryRecvError::Disconnected) => return Err(NobodyReads),
+            Err(TryRecvError::Disconnected) => return Err(ReaderEnded),
             Err(TryRecvError::Empty) => {
                 self.waits += 1;
-                self.free.recv().map_err(|_| NobodyReads)?
+                self.free.recv().map_err(|_| ReaderEnded)?
             }
         };
         fill(&mut record);
-        self.filled.try_send(record).map_err(|_| NobodyReads)
+        self.filled.try_send(record).map_err(|_| ReaderEnded)
     }
 
-    /// Records for which [`Self::give`] had to wait, because the reading thread had fallen behind.
+    /// Number of records for which [`Self::send`] had to wait because the receiver had fallen behind.
     pub fn waits(&self) -> u64 {
         self.waits
     }
 }
 
-impl<R> Taker<R> {
-    /// Has `read` read the next record; false once there are no more and the other end is gone.
+impl<R> Receiver<R> {
+    /// Passes the next record to `read`. Returns false when there are no more records and the sender is dropped.
     ///
-    /// It looks for records now and then, and never blocks on them: the real-time thread would have to wake it.
-    pub fn take(&self, read: impl FnOnce(&R)) -> bool {
+    /// It polls for records instead of blocking, so that the real-time thread does not have to wake it.
+    pub fn receive(&self, read: impl FnOnce(&R)) -> bool {
         loop {
             match self.filled.try_recv() {
                 Ok(record) => {
                     read(&record);
-                    // The other end may be gone already.
+                    // The sender may already be dropped.
                     let _is_free = self.free.try_send(record);
                     return true;
                 }
                 Err(TryRecvError::Disconnected) => return false,
-                Err(TryRecvError::Empty) => std::thread::sleep(NAP),
+                Err(TryRecvError::Empty) => std::thread::sleep(POLL_INTERVAL),
             }
         }
     }

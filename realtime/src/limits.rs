@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-/// Rates that ticks can be paced at (Hz).
+/// Range of tick rates for paced runs (Hz).
 pub const RATE_RANGE_HZ: RangeInclusive<u32> = 1000..=10_000;
 
-/// Ticks of which one may miss its deadline.
+/// One tick of this many may miss its deadline.
 pub const TICKS_PER_ALLOWED_MISS: u64 = 1000;

@@ -4,25 +4,25 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// Real-time properties of the thread that steps.
+/// Real-time options of the thread that steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct RealtimeOptions {
     /// Priority under SCHED_FIFO, 1 to 99.
     pub fifo_priority: Option<u8>,
-    /// All memory locked, present and future: no page fault.
+    /// If true, locks all present and future memory, which prevents page faults.
     pub lock_memory: bool,
-    /// Core the thread is pinned to.
+    /// Core to which the thread is pinned.
     pub core: Option<usize>,
 }
 
-/// One of [`RealtimeOptions`], with its value.
+/// One of the [`RealtimeOptions`] with its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RealtimeOption {
     /// Priority under SCHED_FIFO.
     FifoPriority(u8),
-    /// All memory locked.
+    /// Locked memory.
     LockMemory,
-    /// Core the thread is pinned to.
+    /// Core to which the thread is pinned.
     Core(usize),
 }
 

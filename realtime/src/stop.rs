@@ -1,16 +1,16 @@
-//! A run ended by a slow tick.
+//! End of a run because of a slow tick.
 
 use serde::Serialize;
 
-/// A tick whose work took longer than allowed and which ended the run.
+/// The tick that ended a run because its work took longer than allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Stop {
-    /// The tick, from 0.
+    /// Number of the tick, from 0.
     pub tick: u64,
-    /// Its time along the motion (s): tick times step.
+    /// Time in the motion (s): tick times step.
     pub time_s: f64,
-    /// Its work (ns).
+    /// Duration of its work (ns).
     pub work_ns: f64,
-    /// The limit it broke (ns).
+    /// Limit for the duration (ns).
     pub limit_ns: u64,
 }

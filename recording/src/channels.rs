@@ -1,41 +1,42 @@
-//! Which channels of a file are read, and as what.
+//! Selection of the channels of a recording.
 
-use super::text::TextOptions;
+use super::text_options::TextOptions;
 use super::unit::{Quantity, Unit};
 
-/// Which channels of a file make a recording, and how they are understood. By default time, displacement and force are called
-/// `time_s`, `displacement_m` and `force_n`, or by other names that tell the quantity and its unit.
+/// Selection of the channels of a file, and options for reading them. By default the channels are `time_s`,
+/// `displacement_m` and `force_n`, or channels whose names consist of the quantity and its unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channels {
-    /// Time; of an MDF4 file the master of the group, where none is named.
+    /// Time. Without a name, the default in MDF4 files is the master channel of the group.
     pub time: Channel,
     /// Relative displacement of the seats.
     pub displacement: Channel,
     /// Force.
     pub force: Channel,
-    /// Name or number, from 1, of the group of an MDF4 file that the channels are in.
+    /// Name or number (from 1) of the MDF4 group that contains the channels.
     pub group: Option<String>,
-    /// Leaves out rows that lack a value (an empty cell, a null, a sample marked invalid, no finite number), which a recording is else
-    /// refused for; what is left out counts as a gap does.
+    /// If true, omits rows with a missing value: an empty cell, a null, a sample marked invalid, or a value that is not
+    /// finite. Otherwise such rows are errors. Omitted rows can create gaps.
     pub skip_invalid: bool,
-    /// How text is read.
+    /// Options for text files.
     pub text: TextOptions,
 }
 
-/// One channel.
+/// Selection of one channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
-    /// Its name in the file, with or without the unit behind it, or its number from 1, as `2` or, where a channel is called so, `#2`.
+    /// Name in the file, with or without its unit, or number from 1. If a channel has the name `2`, write the number as
+    /// `#2`.
     pub name: Option<String>,
-    /// Its unit, whatever the file tells.
+    /// Unit; replaces the unit stated in the file.
     pub unit: Option<Unit>,
-    /// Whether positive in the file is compression.
+    /// True if positive values in the file mean compression.
     pub reversed: bool,
 }
 
 impl Channels {
-    /// That of a quantity.
-    pub fn of(&self, quantity: Quantity) -> &Channel {
+    /// Returns the channel of a quantity.
+    pub fn channel(&self, quantity: Quantity) -> &Channel {
         match quantity {
             Quantity::Time => &self.time,
             Quantity::Displacement => &self.displacement,

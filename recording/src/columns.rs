@@ -1,5 +1,5 @@
-//! Tables of CSV as Parquet: float64 where every cell is a number or empty, text elsewhere; SHA-256 of the numbers in
-//! the metadata.
+//! Converts CSV tables to Parquet. Columns in which every cell is a number or empty become float64, all others text.
+//! The metadata contain the SHA-256 of the numbers.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -16,20 +16,20 @@ use crate::sums::{self, Sum};
 use dashpot_files::FileError;
 use dashpot_files::output::{cannot_write, write_whole};
 
-/// Rows of a row group: some 15 MB of a locomotive's history.
+/// Rows per row group: about 15 MB for the history of a locomotive.
 const ROWS: usize = 16_384;
 
-/// Cells of a column.
+/// Cells of one column.
 enum Column {
     Numbers(Vec<Option<f64>>, Sum),
     Texts(Vec<ByteArray>),
 }
 
-/// Writes the CSV file `from`, cells under a header, as Parquet to `to`; the columns called `texts` are text whatever
-/// they look like, for a hexadecimal digest may be all digits.
+/// Converts the CSV file `from`, which must have a header, to the Parquet file `to`. The columns named in `texts` are
+/// always text, because a hexadecimal digest may consist of digits only.
 ///
 /// # Errors
-/// A file that cannot be read or written.
+/// A file cannot be read or written.
 pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let unwritable = |error: ParquetError| cannot_write(to, io::Error::other(error));
@@ -45,7 +45,7 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
         })
         .collect();
     write_whole(to, |file| {
-        let bytes = Bytes::default();
+        let bytes = SharedBuffer::default();
         let properties = Arc::new(WriterProperties::builder().build());
         let mut writer =
             SerializedFileWriter::new(bytes.clone(), schema, properties).map_err(unwritable)?;
@@ -64,7 +64,7 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
             if count == ROWS || !is_row {
                 add(&mut writer, &mut columns).map_err(unwritable)?;
                 bytes
-                    .take_to(file)
+                    .flush_to(file)
                     .map_err(|error| cannot_write(to, error))?;
                 count = 0;
             }
@@ -81,29 +81,30 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
             });
         writer.append_key_value_metadata(sums::metadata(sums));
         writer.close().map_err(unwritable)?;
-        bytes.take_to(file).map_err(|error| cannot_write(to, error))
+        bytes
+            .flush_to(file)
+            .map_err(|error| cannot_write(to, error))
     })
 }
 
-/// Whether every cell of each column is a number or empty, and one at least a number.
+/// Returns for each column if all its cells are numbers or empty, with at least one number.
 fn numbers(from: &Path, texts: &[&str]) -> Result<Vec<bool>, FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
     let names = rows.headers().map_err(unreadable)?;
-    let mut are: Vec<bool> = names.iter().map(|name| !texts.contains(&name)).collect();
-    let mut have = vec![false; are.len()];
+    let mut only_numbers: Vec<bool> = names.iter().map(|name| !texts.contains(&name)).collect();
+    let mut has_number = vec![false; only_numbers.len()];
     let mut row = csv::StringRecord::new();
     while rows.read_record(&mut row).map_err(unreadable)? {
-        for (number, cell) in row.iter().enumerate() {
+        for (index, cell) in row.iter().enumerate() {
             let is_number = cell.parse::<f64>().is_ok();
-            are[number] &= is_number || cell.is_empty();
-            have[number] |= is_number;
+            only_numbers[index] &= is_number || cell.is_empty();
+            has_number[index] |= is_number;
         }
     }
-    Ok(are
-        .iter()
-        .zip(have)
-        .map(|(are, have)| *are && have)
+    let columns = only_numbers.into_iter().zip(has_number);
+    Ok(columns
+        .map(|(only_numbers, has_number)| only_numbers && has_number)
         .collect())
 }
 
@@ -125,43 +126,44 @@ fn schema<'a>(
     Ok(Arc::new(group.build()?))
 }
 
-/// A row group of what the columns hold, which they no longer do then.
+/// Writes the cells of the columns as a row group and clears them.
 fn add(
-    writer: &mut SerializedFileWriter<Bytes>,
+    writer: &mut SerializedFileWriter<SharedBuffer>,
     columns: &mut [Column],
 ) -> Result<(), ParquetError> {
     let mut group = writer.next_row_group()?;
     for column in columns {
-        let Some(mut place) = group.next_column()? else {
+        let Some(mut writer) = group.next_column()? else {
             continue;
         };
         match column {
             Column::Numbers(numbers, sum) => {
                 let read: Vec<f64> = numbers.iter().map(|n| n.unwrap_or(f64::NAN)).collect();
                 sum.add(&read);
-                let there: Vec<i16> = numbers.iter().map(|n| i16::from(n.is_some())).collect();
+                let levels: Vec<i16> = numbers.iter().map(|n| i16::from(n.is_some())).collect();
                 let values: Vec<f64> = numbers.drain(..).flatten().collect();
-                let place = place.typed::<DoubleType>();
-                place.write_batch(&values, Some(&there), None)?;
+                let writer = writer.typed::<DoubleType>();
+                writer.write_batch(&values, Some(&levels), None)?;
             }
             Column::Texts(texts) => {
-                let place = place.typed::<ByteArrayType>();
-                place.write_batch(texts, None, None)?;
+                let writer = writer.typed::<ByteArrayType>();
+                writer.write_batch(texts, None, None)?;
                 texts.clear();
             }
         }
-        place.close()?;
+        writer.close()?;
     }
     group.close()?;
     Ok(())
 }
 
-/// What the library has written and the file has not got: it takes no writer that is only lent.
+/// Buffer between the library, which must own its writer, and the file, which is only borrowed.
 #[derive(Clone, Default)]
-pub(super) struct Bytes(Arc<Mutex<Vec<u8>>>);
+pub(super) struct SharedBuffer(Arc<Mutex<Vec<u8>>>);
 
-impl Bytes {
-    pub(super) fn take_to(&self, file: &mut dyn Write) -> io::Result<()> {
+impl SharedBuffer {
+    /// Moves the buffered bytes to `file`.
+    pub(super) fn flush_to(&self, file: &mut dyn Write) -> io::Result<()> {
         match self.0.lock() {
             Ok(mut bytes) => file.write_all(&std::mem::take(&mut *bytes)),
             Err(error) => Err(io::Error::other(error.to_string())),
@@ -169,7 +171,7 @@ impl Bytes {
     }
 }
 
-impl Write for Bytes {
+impl Write for SharedBuffer {
     fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
         match self.0.lock() {
             Ok(mut bytes) => bytes.write(buffer),

@@ -1,5 +1,6 @@
-//! A recorded force, for a damper that stands outside a simulated vehicle.
+//! Recorded force of a damper that is not simulated with the vehicle.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use super::RecordingError;
@@ -8,45 +9,51 @@ use super::open::{Origin, open_rows};
 use super::unit::Quantity;
 use dashpot_files::FileError;
 
-/// What times may differ by and count as the same: text has them rounded to the nanosecond (s).
-const SAME_S: f64 = 1e-9;
+/// Tolerance for equal times (s): text rounds times to the nanosecond.
+const TIME_TOLERANCE_S: f64 = 1e-9;
 
-/// A force over time, between its samples on a straight line: channels time_s and force_n, else as a
-/// [`Recording`](super::Recording).
+/// Force over time, linear between samples. By default the channels are `time_s` and `force_n`; the file formats are
+/// those of a [`Recording`](super::Recording).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceHistory {
-    /// Times (s) and forces (N).
-    samples: Vec<[f64; 2]>,
+    samples: Vec<ForceSample>,
     unended_line: Option<u64>,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct ForceSample {
+    time_s: f64,
+    force_n: f64,
+}
+
 impl ForceHistory {
-    /// The force in the file at `path`, `-` being standard input, which must last over `needed_s` (s).
+    /// Reads the force from the file at `path` (`-` for standard input), which must cover the period `needed_s` (s).
     ///
     /// # Errors
-    /// As [`Recording::open`](super::Recording::open) and [`Recording::next_sample`](super::Recording::next_sample); a recording that
-    /// starts later or ends before.
-    pub fn open(path: &Path, needed_s: [f64; 2]) -> Result<Self, FileError> {
+    /// As [`Recording::open`](super::Recording::open) and [`Recording::next_sample`](super::Recording::next_sample);
+    /// also if the recording does not cover the period.
+    pub fn open(path: &Path, needed_s: RangeInclusive<f64>) -> Result<Self, FileError> {
         Self::open_with(path, &Channels::default(), needed_s)
     }
 
-    /// As [`ForceHistory::open`], of the channels that are chosen.
+    /// As [`ForceHistory::open`], with the given channels.
     ///
     /// # Errors
     /// As [`ForceHistory::open`].
     pub fn open_with(
         path: &Path,
         channels: &Channels,
-        needed_s: [f64; 2],
+        needed_s: RangeInclusive<f64>,
     ) -> Result<Self, FileError> {
         let quantities = [Quantity::Time, Quantity::Force];
         let mut rows = open_rows(Origin::Path(path), channels, quantities)?;
-        let samples = rows.read_all(|sample| sample)?;
-        if let (Some([from_s, _]), Some([to_s, _])) = (samples.first(), samples.last())
-            && (*from_s > needed_s[0] + SAME_S || *to_s < needed_s[1] - SAME_S)
+        let samples = rows.read_all(|[time_s, force_n]| ForceSample { time_s, force_n })?;
+        if let (Some(first), Some(last)) = (samples.first(), samples.last())
+            && (first.time_s > needed_s.start() + TIME_TOLERANCE_S
+                || last.time_s < needed_s.end() - TIME_TOLERANCE_S)
         {
-            return Err(rows.in_text(RecordingError::Short {
-                lasts_s: [*from_s, *to_s],
+            return Err(rows.in_file(RecordingError::Short {
+                recorded_s: first.time_s..=last.time_s,
                 needed_s,
             }));
         }
@@ -56,20 +63,23 @@ impl ForceHistory {
         })
     }
 
-    /// The last line of a text, where it has no line end and may be cut inside its last number.
+    /// Number of the last line of a text if it has no line end: it may be cut off inside its last number.
     pub fn unended_line(&self) -> Option<u64> {
         self.unended_line
     }
 
-    /// Force at a time (N); before the first sample the first, after the last the last.
+    /// Returns the force (N) at a time (s). Before the first and after the last sample the force is constant.
     pub fn force_n(&self, time_s: f64) -> f64 {
-        let after = self.samples.partition_point(|[time, _]| *time <= time_s);
+        let after = self
+            .samples
+            .partition_point(|sample| sample.time_s <= time_s);
         let before = self.samples.get(after.wrapping_sub(1));
         match (before, self.samples.get(after)) {
-            (Some([from_s, from_n]), Some([to_s, to_n])) => {
-                from_n + (to_n - from_n) * ((time_s - from_s) / (to_s - from_s))
+            (Some(from), Some(to)) => {
+                let fraction = (time_s - from.time_s) / (to.time_s - from.time_s);
+                from.force_n + (to.force_n - from.force_n) * fraction
             }
-            (Some([_, force_n]), None) | (None, Some([_, force_n])) => *force_n,
+            (Some(only), None) | (None, Some(only)) => only.force_n,
             (None, None) => 0.0,
         }
     }

@@ -1,51 +1,52 @@
-//! Gaps of a recording: sample intervals far longer than its median one.
+//! Gaps in a recording: sample intervals much longer than the median.
 
 use hdrhistogram::Histogram;
 use serde::Serialize;
 
-use super::place::{LeftOut, Place};
+use super::location::{LeftOut, RowLocation};
 
-/// An interval of more than this many median intervals is a gap. A logger whose stamps jitter by half an
-/// interval or that loses one or two samples makes no gap.
+/// An interval longer than this many median intervals is a gap. Jitter of half an interval and one or two lost samples
+/// are not gaps.
 pub const GAP_IN_MEDIANS: f64 = 5.0;
 
-/// Intervals are counted in nanoseconds, up to thirty years.
+/// Intervals are counted in nanoseconds.
 const UNITS_PER_S: f64 = 1e9;
-const LONGEST: u64 = 1_000_000_000_000_000_000;
+/// Longest interval that the histogram resolves: 31 years.
+const MAX_UNITS: u64 = 1_000_000_000_000_000_000;
 const SIGNIFICANT_DIGITS: u8 = 3;
 
-/// The intervals of a recording, counted in constant memory.
+/// Intervals of a recording, counted in constant memory.
 pub(super) struct Intervals {
     counts: Histogram<u32>,
     longest_units: u64,
     longest: Option<Gap>,
 }
 
-/// One gap of a recording.
+/// One gap in a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Gap {
-    /// Time of the sample before it (s).
+    /// Time of the sample before the gap (s).
     pub start_s: f64,
-    /// How long it is (s), to the nanosecond.
+    /// Duration (s), to the nanosecond.
     pub duration_s: f64,
-    /// Where the sample after it is.
+    /// Location of the sample after the gap.
     #[serde(flatten)]
-    pub place: Place,
+    pub location: RowLocation,
 }
 
-/// The gaps of a recording.
+/// Gaps and other irregularities of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Gaps {
-    /// Median sample interval (s), to three digits; `None` for less than two samples.
+    /// Median sample interval (s), to three digits; `None` for fewer than two samples.
     pub median_interval_s: Option<f64>,
-    /// How many intervals are over [`GAP_IN_MEDIANS`] times the median.
+    /// Number of intervals longer than [`GAP_IN_MEDIANS`] times the median.
     pub count: u64,
-    /// The longest of them.
+    /// Longest gap.
     pub longest: Option<Gap>,
-    /// Rows left out because they lacked a value; several of them make a gap.
+    /// Rows omitted because a value was missing; several of them in a row create a gap.
     pub left_out: LeftOut,
-    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last
-    /// number.
+    /// Number of the last line if the text has been read to its end and this line has no line end: it may be cut off
+    /// inside its last number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
 }
@@ -53,17 +54,18 @@ pub struct Gaps {
 impl Intervals {
     pub(super) fn new() -> Self {
         Self {
-            counts: Histogram::new_with_bounds(1, LONGEST, SIGNIFICANT_DIGITS)
+            counts: Histogram::new_with_bounds(1, MAX_UNITS, SIGNIFICANT_DIGITS)
                 .expect("bounds and digits within the histogram's"),
             longest_units: 0,
             longest: None,
         }
     }
 
-    /// Takes in the interval from `start_s` (s) to the sample at `end_s` (s), later; `place` tells where that is.
+    /// Adds the interval from `start_s` (s) to a later sample at `end_s` (s); `location` returns the location of that
+    /// sample.
     #[inline]
-    pub(super) fn add(&mut self, start_s: f64, end_s: f64, place: impl FnOnce() -> Place) {
-        // To the nearest; every row is taken in, and `round` is a call where the processor has no instruction for it.
+    pub(super) fn add(&mut self, start_s: f64, end_s: f64, location: impl FnOnce() -> RowLocation) {
+        // Rounds to the nearest unit. This runs for every row, and `round` may be a function call on some processors.
         let interval = (end_s - start_s) * UNITS_PER_S;
         let units = (interval + 0.5) as u64;
         self.counts.saturating_record(units.max(1));
@@ -72,12 +74,12 @@ impl Intervals {
             self.longest = Some(Gap {
                 start_s,
                 duration_s: interval.round() / UNITS_PER_S,
-                place: place(),
+                location: location(),
             });
         }
     }
 
-    /// The gaps among the intervals taken in.
+    /// Returns the gaps among the intervals added so far.
     pub(super) fn gaps(&self, left_out: LeftOut) -> Gaps {
         if self.counts.is_empty() {
             return Gaps {
@@ -102,7 +104,7 @@ impl Intervals {
     }
 }
 
-/// The interval (s) of `units`, as far as the histogram knows it.
+/// Converts `units` to seconds with the three digits that the histogram resolves.
 fn three_digits(units: u64) -> f64 {
     let seconds = units as f64 / UNITS_PER_S;
     format!("{seconds:.2e}").parse().unwrap_or(seconds)

@@ -1,4 +1,4 @@
-//! Panics of a library as errors.
+//! Turns panics of a library into errors.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -8,8 +8,8 @@ thread_local! {
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// What `read` gives, or `None` where it panics, as the library for Parquet does on some damaged files (a dictionary that is missing).
-/// Nothing is printed then. What `read` was given must not be used again.
+/// Runs `read`; returns `None` without printing anything if it panics. The Parquet library panics on some damaged
+/// files, such as one without a dictionary. After a panic, the data passed to `read` must not be used again.
 pub(super) fn guarded<T>(read: impl FnOnce() -> T) -> Option<T> {
     static QUIET: Once = Once::new();
     QUIET.call_once(|| {

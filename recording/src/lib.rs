@@ -10,15 +10,15 @@ mod force_history;
 mod gaps;
 #[cfg(feature = "parquet")]
 mod guarded;
+mod location;
 #[cfg(feature = "mdf")]
 mod mdf;
 mod measurement;
 mod open;
-mod opened;
 mod overview;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod place;
+mod recording_file;
 mod remedy;
 mod rows;
 mod samples;
@@ -28,26 +28,27 @@ pub mod stretches;
 #[cfg(feature = "parquet")]
 pub(crate) mod sums;
 mod text;
+mod text_options;
 pub mod tick_grid;
 mod unit;
-pub mod written;
+pub mod writer;
 
 use std::io::Read;
 use std::path::Path;
 use std::rc::Rc;
 
 pub use channels::{Channel, Channels};
-pub use error::RecordingError;
-pub(crate) use error::{MAX_GAP_TICKS, MOST_TICKS};
+pub(crate) use error::{MAX_GAP_TICKS, MAX_TICKS};
+pub use error::{RecordingError, remedy};
 pub use force_history::ForceHistory;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
+pub use location::{LeftOut, RowLocation};
 pub use measurement::{MeasuredSample, Measurement};
 use open::{Origin, open_rows};
 pub use overview::{ChannelOverview, Overview, TimeOverview, overview};
-pub use place::{LeftOut, Place};
-pub use remedy::{Remedy, remedy};
+pub use remedy::Remedy;
 use rows::Rows;
-pub use text::{DecimalMark, Separator, TextOptions};
+pub use text_options::{DecimalMark, Separator, TextOptions};
 pub use unit::{Quantity, Unit};
 
 use dashpot_files::FileError;
@@ -62,7 +63,7 @@ pub struct Sample {
 }
 
 impl Sample {
-    fn of([time_s, displacement_m]: [f64; 2]) -> Self {
+    fn from_row([time_s, displacement_m]: [f64; 2]) -> Self {
         Self {
             time_s,
             displacement_m,
@@ -70,13 +71,13 @@ impl Sample {
     }
 }
 
-/// A recorded motion, read row by row in bounded memory. What the file is, is found in its first bytes.
+/// A recorded motion, read row by row in bounded memory. The first bytes of the file determine its format.
 pub struct Recording {
     rows: Rows<2>,
 }
 
 impl Recording {
-    /// Opens the recording at `path`, `-` being standard input, with the channels `time_s` and `displacement_m`.
+    /// Opens the recording at `path` (`-` for standard input) with the default channels `time_s` and `displacement_m`.
     ///
     /// # Errors
     /// As [`Recording::open_with`].
@@ -84,15 +85,16 @@ impl Recording {
         Self::open_with(path, &Channels::default())
     }
 
-    /// Opens the recording at `path`, `-` being standard input.
+    /// Opens the recording at `path` (`-` for standard input) with the given channels.
     ///
     /// # Errors
-    /// No readable file, an empty one, one of another kind, a channel that is missing or may be several, or whose unit is not known.
+    /// The file is unreadable, empty or in an unsupported format. A channel is missing or ambiguous, or its unit is
+    /// unknown.
     pub fn open_with(path: &Path, channels: &Channels) -> Result<Self, FileError> {
-        Self::of(Origin::Path(path), channels)
+        Self::from_origin(Origin::Path(path), channels)
     }
 
-    /// A recording from `source`, called `path` in errors, with the channels `time_s` and `displacement_m`.
+    /// Reads a recording from `source` with the default channels; errors name it `path`.
     ///
     /// # Errors
     /// As [`Recording::open_with`].
@@ -100,7 +102,7 @@ impl Recording {
         Self::read_with(path, source, &Channels::default())
     }
 
-    /// A recording from `source`, called `path` in errors.
+    /// Reads a recording from `source` with the given channels; errors name it `path`.
     ///
     /// # Errors
     /// As [`Recording::open_with`].
@@ -109,56 +111,57 @@ impl Recording {
         source: Box<dyn Read>,
         channels: &Channels,
     ) -> Result<Self, FileError> {
-        Self::of(Origin::Stream(path, source), channels)
+        Self::from_origin(Origin::Stream(path, source), channels)
     }
 
-    /// Rows that were read from `path` already, once more.
-    pub fn again(path: &Path, samples: Rc<Vec<Sample>>) -> Self {
+    /// Creates a recording from samples in memory; errors name it `path`.
+    pub fn from_samples(path: &Path, samples: Rc<Vec<Sample>>) -> Self {
         let quantities = [Quantity::Time, Quantity::Displacement];
         let names = quantities.map(|quantity| quantity.column().to_owned());
         let samples = Box::new(samples::Samples::new(samples));
-        let rows = Rows::new(path, samples, names, samples::chosen(), false);
+        let rows = Rows::new(path, samples, names, samples::si_channels(), false);
         Self { rows }
     }
 
-    fn of(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
+    fn from_origin(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
         let quantities = [Quantity::Time, Quantity::Displacement];
         let rows = open_rows(origin, channels, quantities)?;
         Ok(Self { rows })
     }
 
-    /// The next row; `None` at the end.
+    /// Returns the next row; `None` at the end.
     ///
     /// # Errors
-    /// A value that is no finite number, a row of other length, or time that does not grow; with line or row, and column.
+    /// A value is not a finite number, a row has the wrong number of cells, or time does not increase. The error states
+    /// the line or row, and the column.
     pub fn next_sample(&mut self) -> Result<Option<Sample>, FileError> {
-        Ok(self.rows.next()?.map(Sample::of))
+        Ok(self.rows.next()?.map(Sample::from_row))
     }
 
-    /// All rows left.
+    /// Returns all remaining rows.
     ///
     /// # Errors
     /// As [`Recording::next_sample`].
     pub fn read_all(&mut self) -> Result<Vec<Sample>, FileError> {
-        self.rows.read_all(Sample::of)
+        self.rows.read_all(Sample::from_row)
     }
 
-    /// Bytes read so far, for a progress bar.
+    /// Number of bytes read so far, for a progress bar.
     pub fn position(&self) -> u64 {
         self.rows.position()
     }
 
-    /// The gaps among the rows read so far, and rows that were left out.
+    /// Returns the gaps among the rows read so far, and the omitted rows.
     pub fn gaps(&self) -> Gaps {
         self.rows.gaps()
     }
 
-    /// `error` in the recording as a whole.
-    pub(crate) fn in_text(&self, error: RecordingError) -> FileError {
-        self.rows.in_text(error)
+    /// Attaches `error` to the whole file.
+    pub(crate) fn in_file(&self, error: RecordingError) -> FileError {
+        self.rows.in_file(error)
     }
 
-    /// `error` in the time of the row read last.
+    /// Attaches `error` to the time of the last row read.
     pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
         self.rows.in_time(error)
     }

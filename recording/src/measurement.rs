@@ -1,4 +1,4 @@
-//! Recorded motion with the force that was measured on it.
+//! Recorded motion with the measured force.
 
 use std::io::Read;
 use std::path::Path;
@@ -22,7 +22,7 @@ pub struct MeasuredSample {
 }
 
 impl MeasuredSample {
-    fn of([time_s, displacement_m, force_n]: [f64; 3]) -> Self {
+    fn from_row([time_s, displacement_m, force_n]: [f64; 3]) -> Self {
         Self {
             time_s,
             displacement_m,
@@ -31,21 +31,22 @@ impl MeasuredSample {
     }
 }
 
-/// Displacement and force over time, read row by row in bounded memory from the same files as a [`Recording`](super::Recording).
+/// Displacement and force over time, read row by row in bounded memory from the same file formats as a
+/// [`Recording`](super::Recording).
 pub struct Measurement {
     rows: Rows<3>,
 }
 
 impl Measurement {
-    /// Opens the file at `path`, `-` being standard input.
+    /// Opens the file at `path` (`-` for standard input).
     ///
     /// # Errors
     /// As [`Recording::open_with`](super::Recording::open_with).
     pub fn open(path: &Path, channels: &Channels) -> Result<Self, FileError> {
-        Self::of(Origin::Path(path), channels)
+        Self::from_origin(Origin::Path(path), channels)
     }
 
-    /// A measurement from `source`, called `path` in errors.
+    /// Reads a measurement from `source`; errors name it `path`.
     ///
     /// # Errors
     /// As [`Measurement::open`].
@@ -54,47 +55,47 @@ impl Measurement {
         source: Box<dyn Read>,
         channels: &Channels,
     ) -> Result<Self, FileError> {
-        Self::of(Origin::Stream(path, source), channels)
+        Self::from_origin(Origin::Stream(path, source), channels)
     }
 
-    fn of(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
+    fn from_origin(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
         let quantities = [Quantity::Time, Quantity::Displacement, Quantity::Force];
         let rows = open_rows(origin, channels, quantities)?;
         Ok(Self { rows })
     }
 
-    /// The next row; `None` at the end.
+    /// Returns the next row; `None` at the end.
     ///
     /// # Errors
     /// As [`Recording::next_sample`](super::Recording::next_sample).
     pub fn next_sample(&mut self) -> Result<Option<MeasuredSample>, FileError> {
-        Ok(self.rows.next()?.map(MeasuredSample::of))
+        Ok(self.rows.next()?.map(MeasuredSample::from_row))
     }
 
-    /// All rows left.
+    /// Returns all remaining rows.
     ///
     /// # Errors
     /// As [`Measurement::next_sample`].
     pub fn read_all(&mut self) -> Result<Vec<MeasuredSample>, FileError> {
-        self.rows.read_all(MeasuredSample::of)
+        self.rows.read_all(MeasuredSample::from_row)
     }
 
-    /// Bytes read so far, for a progress bar.
+    /// Number of bytes read so far, for a progress bar.
     pub fn position(&self) -> u64 {
         self.rows.position()
     }
 
-    /// The gaps among the rows read so far, and rows that were left out.
+    /// Returns the gaps among the rows read so far, and the omitted rows.
     pub fn gaps(&self) -> Gaps {
         self.rows.gaps()
     }
 
-    /// `error` in the recording as a whole, placed.
-    pub fn in_text(&self, error: RecordingError) -> FileError {
-        self.rows.in_text(error)
+    /// Attaches `error` to the whole file.
+    pub(crate) fn in_file(&self, error: RecordingError) -> FileError {
+        self.rows.in_file(error)
     }
 
-    /// `error` in the time of the row read last.
+    /// Attaches `error` to the time of the last row read.
     pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
         self.rows.in_time(error)
     }

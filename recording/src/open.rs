@@ -1,4 +1,4 @@
-//! The rows of a file, by its kind.
+//! Opens a file according to its format.
 
 #[cfg(any(feature = "mdf", feature = "parquet"))]
 use std::fs::File;
@@ -9,9 +9,9 @@ use super::RecordingError;
 use super::channels::Channels;
 #[cfg(feature = "mdf")]
 use super::mdf::Mdf;
-use super::opened::Opened;
 #[cfg(feature = "parquet")]
 use super::parquet::Parquet;
+use super::recording_file::RecordingFile;
 use super::rows::Rows;
 use super::select::{label, select};
 use super::stream::{Kind, Stream};
@@ -19,24 +19,27 @@ use super::text::Text;
 use super::unit::Quantity;
 use dashpot_files::{FileError, input};
 
-/// Where a recording comes from.
+/// Origin of a recording.
 pub(super) enum Origin<'a> {
     /// A file, or standard input.
     Path(&'a Path),
-    /// Bytes, and what errors call them.
+    /// A stream of bytes, and its name in errors.
     Stream(&'a Path, Box<dyn Read>),
 }
 
-/// Finds the channels of a file.
+/// Opens a file and finds its channels.
 ///
 /// # Errors
-/// It cannot be read, is damaged or is of another kind.
-pub(super) fn open(origin: Origin<'_>, channels: &Channels) -> Result<Box<dyn Opened>, FileError> {
+/// The file is unreadable, damaged or in an unsupported format.
+pub(super) fn open(
+    origin: Origin<'_>,
+    channels: &Channels,
+) -> Result<Box<dyn RecordingFile>, FileError> {
     let (name, file, source) = match origin {
         Origin::Path(path) => (input::name(path), Some(path), input::open(path)?),
         Origin::Stream(name, source) => (name.into(), None, source),
     };
-    // Only what is jumped in needs the file itself.
+    // Only formats with random access need the file itself.
     #[cfg(not(any(feature = "mdf", feature = "parquet")))]
     let _ = file;
     let path: &Path = &name;
@@ -69,10 +72,10 @@ pub(super) fn open(origin: Origin<'_>, channels: &Channels) -> Result<Box<dyn Op
     }
 }
 
-/// Rows of the channels of `quantities`, the first of which is the time.
+/// Opens the rows of the channels of `quantities`. The first quantity is the time.
 ///
 /// # Errors
-/// As [`open`]; a channel that is missing or may be several, or its unit.
+/// As [`open`]; also if a channel is missing or ambiguous, or its unit is unknown.
 pub(super) fn open_rows<const N: usize>(
     origin: Origin<'_>,
     channels: &Channels,
@@ -90,7 +93,7 @@ pub(super) fn open_rows<const N: usize>(
     Ok(Rows::new(&path, rows, names, chosen, channels.skip_invalid))
 }
 
-/// The stream as a file to jump in: the file itself where it is one, else a temporary copy.
+/// Returns the stream as a file with random access: the file itself if possible, otherwise a temporary copy.
 #[cfg(any(feature = "mdf", feature = "parquet"))]
 fn seekable(stream: Stream, file: Option<&Path>) -> io::Result<File> {
     use std::io::Seek;

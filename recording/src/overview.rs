@@ -1,4 +1,4 @@
-//! What a file has: its channels with their ranges, and how even its times are.
+//! Overview of a file: its channels with their ranges, and the regularity of its times.
 
 use std::path::Path;
 
@@ -6,101 +6,102 @@ use serde::Serialize;
 
 use super::channels::Channels;
 use super::gaps::{Gaps, Intervals};
+use super::location::LeftOut;
 use super::open::{Origin, open};
-use super::opened::Opened;
-use super::place::LeftOut;
+use super::recording_file::RecordingFile;
 use super::rows::Source;
-use super::select::{Chosen, Found, label, select_in};
+use super::select::{ChannelInfo, SelectedChannel, label, select_in};
 use super::unit::Quantity;
 use crate::remedy::Remedy;
 use dashpot_files::{FileError, input};
 
-/// Channels of a group read at a time: a group may have thousands.
+/// Channels of a group read at a time; a group may have thousands of channels.
 const CHANNELS: usize = 32;
 
-/// What a file has.
+/// Overview of a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Overview {
-    /// Its channels, in order.
+    /// Channels, in the order of the file.
     pub channels: Vec<ChannelOverview>,
-    /// Its times: one, or one for each group.
+    /// Time channels: one per group, or a single one.
     pub times: Vec<TimeOverview>,
-    /// The last line of a text, where it has no line end and may be cut inside its last number.
+    /// Number of the last line of a text if it has no line end: it may be cut off inside its last number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
 }
 
-/// A channel.
+/// Overview of one channel.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ChannelOverview {
-    /// Its number, from 1.
+    /// Number, from 1.
     pub number: usize,
-    /// Its name, empty where it has none.
+    /// Name; empty if the channel has none.
     pub name: String,
-    /// Its unit as the file tells it.
+    /// Unit as stated in the file.
     pub unit: Option<String>,
-    /// Number of its group, from 1, where the file has groups.
+    /// Number of its group, from 1; `None` if the file has no groups.
     pub group: Option<usize>,
-    /// What its values are in the file.
+    /// Type of the values in the file.
     pub kind: String,
-    /// Why they are not read, where they are numbers of another width or at another place than is read.
+    /// Reason why numbers cannot be read: their width or bit position is not supported.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unread: Option<String>,
-    /// Rows of the file or of its group.
+    /// Number of rows in the file or the group.
     pub rows: u64,
-    /// Rows without a finite number, or marked invalid.
+    /// Number of rows that are marked invalid or have no finite number.
     pub invalid: u64,
-    /// First number, in the unit of the file as the others.
+    /// First number, in the unit of the file (like `last`, `min` and `max`).
     pub first: Option<f64>,
     /// Last number.
     pub last: Option<f64>,
-    /// Smallest number.
+    /// Minimum.
     pub min: Option<f64>,
-    /// Largest number.
+    /// Maximum.
     pub max: Option<f64>,
 }
 
-/// A time.
+/// Overview of a time channel.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct TimeOverview {
-    /// Number of the group, from 1, where the file has groups.
+    /// Number of the group, from 1; `None` if the file has no groups.
     pub group: Option<usize>,
     /// Name of the group.
     pub group_name: Option<String>,
-    /// The channel's name or number; `None` where there is none that can be told.
+    /// Name or number of the channel; `None` if no time channel was found.
     pub channel: Option<String>,
-    /// Why there is none.
+    /// Reason why no time channel was found.
     pub reason: Option<String>,
-    /// What the user can do about it.
+    /// Suggested remedy.
     #[serde(skip)]
     pub remedy: Option<Remedy>,
-    /// First and last time (s).
+    /// First and last time (s), in this order.
     pub from_to_s: Option<[f64; 2]>,
-    /// Intervals over their sum (Hz).
+    /// Sampling rate (Hz): inverse of the mean regular interval.
     pub rate_hz: Option<f64>,
-    /// Standard deviation of the intervals that are no gaps (s).
+    /// Standard deviation of the regular intervals (s).
     pub jitter_s: Option<f64>,
-    /// Greatest deviation of these intervals from their mean (s).
+    /// Largest deviation of a regular interval from the mean (s).
     pub largest_deviation_s: Option<f64>,
-    /// Rows whose time does not grow, which `replay` refuses.
+    /// Number of rows whose time does not increase; such a recording cannot be replayed.
     pub not_growing: u64,
-    /// Intervals far over the median.
+    /// Intervals much longer than the median.
     pub gaps: Option<Gaps>,
 }
 
-/// What is found of a time while it is read.
-struct Times {
-    chosen: Chosen,
+/// Statistics of a time channel while it is read.
+struct TimeScan {
+    chosen: SelectedChannel,
     first_s: Option<f64>,
     last_s: f64,
     not_growing: u64,
     intervals: Intervals,
-    regular: Regular,
+    regular: RegularIntervals,
 }
 
-/// Mean and spread of the intervals up to [`super::GAP_IN_MEDIANS`] times the mean so far, by Welford's recurrence.
+/// Mean and spread of the regular intervals (up to [`super::GAP_IN_MEDIANS`] times the running mean), computed with
+/// Welford's method.
 #[derive(Default)]
-struct Regular {
+struct RegularIntervals {
     count: u64,
     mean_s: f64,
     squares: f64,
@@ -108,10 +109,10 @@ struct Regular {
     longest_s: f64,
 }
 
-/// Reads all of the file at `path`, `-` being standard input.
+/// Reads the whole file at `path` (`-` for standard input) and returns its overview.
 ///
 /// # Errors
-/// It cannot be read, is damaged or of another kind.
+/// The file is unreadable, damaged or in an unsupported format.
 pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError> {
     let mut opened = open(Origin::Path(path), channels)?;
     let found = opened.found().to_vec();
@@ -127,24 +128,26 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
     for group in 0..groups.len().max(1) {
         let time =
             select_in(&found, &groups, Some(group), channels, [Quantity::Time]).or_else(|error| {
-                let named = the_time(&found, group).filter(|_| channels.time.name.is_none());
+                let channel =
+                    only_time_channel(&found, group).filter(|_| channels.time.name.is_none());
                 let mut channels = channels.clone();
-                channels.time.name = Some(named.ok_or(error)?);
+                channels.time.name = Some(channel.ok_or(error)?);
                 select_in(&found, &groups, Some(group), &channels, [Quantity::Time])
             });
         let (time, error) = match time {
             Ok([chosen]) => (Some(chosen), None),
             Err(error) => (None, Some(error)),
         };
-        let mut times = time.map(Times::new);
-        let all = || (0..found.len()).filter(|&i| found[i].group == group && found[i].is_number);
-        let all: Vec<usize> = all().collect();
-        let most = if groups.is_empty() {
-            all.len()
+        let mut times = time.map(TimeScan::new);
+        let numeric: Vec<usize> = (0..found.len())
+            .filter(|&i| found[i].group == group && found[i].is_number)
+            .collect();
+        let batch_size = if groups.is_empty() {
+            numeric.len()
         } else {
             CHANNELS
         };
-        for indices in all.chunks(most.max(1)) {
+        for indices in numeric.chunks(batch_size.max(1)) {
             let unended = read(&mut *opened, indices, &mut overview.channels, &mut times)?;
             overview.unended_line = overview.unended_line.or(unended);
         }
@@ -154,7 +157,7 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
             channel: time.map(|time| label(&found, time.index)),
             reason: error.as_ref().map(ToString::to_string),
             remedy: error.and_then(|error| error.remedy()),
-            ..times.map_or_else(TimeOverview::default, Times::overview)
+            ..times.map_or_else(TimeOverview::default, TimeScan::overview)
         });
     }
     for (channel, found) in overview.channels.iter_mut().zip(&found) {
@@ -170,9 +173,9 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
     Ok(overview)
 }
 
-/// The number of the one channel of a group that has a unit of time.
-fn the_time(found: &[Found], group: usize) -> Option<String> {
-    let is_time = |found: &Found| match &found.unit {
+/// Returns the number, such as `#2`, of the channel with a unit of time if the group has exactly one.
+fn only_time_channel(found: &[ChannelInfo], group: usize) -> Option<String> {
+    let is_time = |found: &ChannelInfo| match &found.unit {
         Some(unit) => Quantity::Time.unit(unit).is_some(),
         None => Quantity::Time.unit_in_name(&found.name).is_some(),
     };
@@ -183,7 +186,7 @@ fn the_time(found: &[Found], group: usize) -> Option<String> {
     }
 }
 
-fn channel((index, found): (usize, &Found)) -> ChannelOverview {
+fn channel((index, found): (usize, &ChannelInfo)) -> ChannelOverview {
     ChannelOverview {
         number: index + 1,
         name: found.name.clone(),
@@ -198,12 +201,12 @@ fn channel((index, found): (usize, &Found)) -> ChannelOverview {
     }
 }
 
-/// Reads all rows of some channels of one group; the last line, where it has no line end.
+/// Reads all rows of some channels of one group. Returns the number of the last line if it has no line end.
 fn read(
-    opened: &mut dyn Opened,
+    opened: &mut dyn RecordingFile,
     indices: &[usize],
     channels: &mut [ChannelOverview],
-    times: &mut Option<Times>,
+    times: &mut Option<TimeScan>,
 ) -> Result<Option<u64>, FileError> {
     let mut source = opened.rows(indices, true)?;
     let mut values = vec![0.0; indices.len()];
@@ -211,12 +214,12 @@ fn read(
     while source.next(&mut values)? {
         rows += 1;
         for (index, &value) in indices.iter().zip(&values) {
-            channels[*index].take(value);
+            channels[*index].record(value);
         }
         if let Some(times) = times
-            && let Some(place) = indices.iter().position(|i| *i == times.chosen.index)
+            && let Some(index) = indices.iter().position(|i| *i == times.chosen.index)
         {
-            times.take(values[place], &*source);
+            times.record(values[index], &*source);
         }
     }
     for index in indices {
@@ -226,7 +229,7 @@ fn read(
 }
 
 impl ChannelOverview {
-    fn take(&mut self, value: f64) {
+    fn record(&mut self, value: f64) {
         if !value.is_finite() {
             self.invalid += 1;
             return;
@@ -238,19 +241,19 @@ impl ChannelOverview {
     }
 }
 
-impl Times {
-    fn new(chosen: Chosen) -> Self {
+impl TimeScan {
+    fn new(chosen: SelectedChannel) -> Self {
         Self {
             chosen,
             first_s: None,
             last_s: 0.0,
             not_growing: 0,
             intervals: Intervals::new(),
-            regular: Regular::default(),
+            regular: RegularIntervals::default(),
         }
     }
 
-    fn take(&mut self, value: f64, source: &dyn Source) {
+    fn record(&mut self, value: f64, source: &dyn Source) {
         let time_s = self.chosen.unit.to_si(value);
         if !time_s.is_finite() {
             return;
@@ -258,8 +261,9 @@ impl Times {
         if self.first_s.is_none() {
             self.first_s = Some(time_s);
         } else if time_s > self.last_s {
-            self.intervals.add(self.last_s, time_s, || source.place());
-            self.regular.take(time_s - self.last_s);
+            self.intervals
+                .add(self.last_s, time_s, || source.location());
+            self.regular.record(time_s - self.last_s);
         } else {
             self.not_growing += 1;
             return;
@@ -286,8 +290,8 @@ impl Times {
     }
 }
 
-impl Regular {
-    fn take(&mut self, interval_s: f64) {
+impl RegularIntervals {
+    fn record(&mut self, interval_s: f64) {
         if self.count > 0 && interval_s > super::GAP_IN_MEDIANS * self.mean_s {
             return;
         }

@@ -1,47 +1,30 @@
-//! What a user can do about an error, as data: an error of the library names no option of the command and no argument
-//! of Python. Each front end says the remedy in its own words (`commands::remedy`, `remedy.rs` of the package for
-//! Python).
+//! Remedies for errors, as data. The library does not know the options of a command or the arguments of Python, so each
+//! front end puts the remedy into its own words.
 
-use std::error::Error;
+use crate::Quantity;
 
-use dashpot_files::FileError;
-
-use crate::{Quantity, RecordingError};
-
-/// What a user can do about an error.
+/// Action with which the user can resolve an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
-    /// Name the channel of the quantity, by its name or its number.
+    /// Choose the channel of the quantity by name or number.
     NameChannel(Quantity),
-    /// Choose the channel of the quantity by its number and give its unit: the channels have no names.
+    /// Choose the channel of the quantity by number and give its unit, because the channels have no names.
     NumberChannel {
-        /// What the channel measures.
+        /// Quantity that the channel measures.
         quantity: Quantity,
-        /// How many channels there are.
+        /// Number of channels in the file.
         count: usize,
     },
     /// Give the unit of the quantity.
     GiveUnit(Quantity),
-    /// Give the unit of the quantity, in place of the one that the file names.
+    /// Give a unit that replaces the one stated in the file.
     OverrideUnit(Quantity),
-    /// Name the group of the channels, by its name or its number.
+    /// Choose the channel group by name or number.
     NameGroup,
-    /// Say whether the first row has the names of the columns.
+    /// Say whether the first row contains column names.
     SayWhetherHeader,
-    /// Give the decimal mark of the numbers.
+    /// Give the decimal mark.
     GiveDecimalMark,
-    /// Leave out rows that lack a value.
+    /// Skip rows with missing values.
     SkipInvalid,
-}
-
-/// What the user can do about the error of a recording, beyond what its text says.
-pub fn remedy(error: &FileError) -> Option<Remedy> {
-    let source: &(dyn Error + Send + Sync) = match error {
-        FileError::Content { source, .. }
-        | FileError::Line { source, .. }
-        | FileError::Cell { source, .. }
-        | FileError::Row { source, .. } => source.as_ref(),
-        _ => return None,
-    };
-    source.downcast_ref::<RecordingError>()?.remedy()
 }

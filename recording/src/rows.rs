@@ -1,4 +1,4 @@
-//! Rows of a recording in SI, from whatever file.
+//! Rows of a recording in SI units, from any file format.
 
 use std::hint::black_box;
 use std::io;
@@ -6,37 +6,37 @@ use std::path::{Path, PathBuf};
 
 use super::error::RecordingError;
 use super::gaps::{Gaps, Intervals};
-use super::place::{LeftOut, Place};
-use super::select::Chosen;
+use super::location::{LeftOut, RowLocation};
+use super::select::SelectedChannel;
 use dashpot_files::FileError;
 
-/// What gives rows: the numbers of the chosen channels in the units of the file, not finite where there are none.
+/// Source of rows: numbers of the selected channels in the units of the file; missing values are not finite.
 pub(super) trait Source {
-    /// Takes the next row into `values`; `false` at the end.
+    /// Reads the next row into `values`; returns `false` at the end.
     fn next(&mut self, values: &mut [f64]) -> Result<bool, FileError>;
 
-    /// What is said of a value of the row taken last that is not finite.
-    fn missing(&self, place: usize) -> RecordingError;
+    /// Returns the error for the value with this index in the last row, which is not finite.
+    fn missing(&self, index: usize) -> RecordingError;
 
-    /// Where the row taken last is.
-    fn place(&self) -> Place;
+    /// Location of the last row.
+    fn location(&self) -> RowLocation;
 
-    /// Bytes read so far, for a progress bar.
+    /// Number of bytes read so far, for a progress bar.
     fn position(&self) -> u64;
 
-    /// The last line of a text that was read to its end, where that line has no line end and may be cut inside its last
-    /// number.
+    /// Number of the last line if the text has been read to its end and this line has no line end: it may be cut off
+    /// inside its last number.
     fn unended_line(&self) -> Option<u64> {
         None
     }
 }
 
-/// Rows of `N` channels, the first of which is the time, which grows.
+/// Rows of `N` channels. The first channel is the time, which must increase.
 pub(super) struct Rows<const N: usize> {
     path: PathBuf,
     source: Box<dyn Source>,
     names: [String; N],
-    chosen: [Chosen; N],
+    chosen: [SelectedChannel; N],
     skip_invalid: bool,
     left_out: LeftOut,
     last_time_s: Option<f64>,
@@ -48,7 +48,7 @@ impl<const N: usize> Rows<N> {
         path: &Path,
         source: Box<dyn Source>,
         names: [String; N],
-        chosen: [Chosen; N],
+        chosen: [SelectedChannel; N],
         skip_invalid: bool,
     ) -> Self {
         Self {
@@ -63,29 +63,29 @@ impl<const N: usize> Rows<N> {
         }
     }
 
-    /// The next row in SI; `None` at the end.
+    /// Returns the next row in SI units; `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<[f64; N]>, FileError> {
         let mut numbers = [0.0; N];
         let row = loop {
             if !self.source.next(&mut numbers)? {
                 return match self.last_time_s {
-                    None => Err(self.in_text(RecordingError::NoRow {
+                    None => Err(self.in_file(RecordingError::NoRow {
                         left_out: self.left_out.rows,
                     })),
                     Some(_) => Ok(None),
                 };
             }
-            // Into an array of its own, one by one: a copy of all that the source wrote one by one would wait for its writes, which wait
-            // for the step before.
+            // Converts each number on its own. Copying the whole array would have to wait for the single writes of the
+            // source, which wait for the previous step.
             let row: [f64; N] =
-                std::array::from_fn(|place| self.chosen[place].in_si(black_box(numbers[place])));
+                std::array::from_fn(|index| self.chosen[index].in_si(black_box(numbers[index])));
             match row.iter().position(|value| !value.is_finite()) {
                 None => break row,
                 Some(_) if self.skip_invalid => {
                     self.left_out.rows += 1;
-                    self.left_out.first.get_or_insert(self.source.place());
+                    self.left_out.first.get_or_insert(self.source.location());
                 }
-                Some(place) => return Err(self.in_cell(place, self.source.missing(place))),
+                Some(index) => return Err(self.in_cell(index, self.source.missing(index))),
             }
         };
         let time_s = row[0];
@@ -93,19 +93,23 @@ impl<const N: usize> Rows<N> {
             if time_s <= before_s {
                 return Err(self.in_time(RecordingError::Time { time_s, before_s }));
             }
-            self.intervals.add(before_s, time_s, || self.source.place());
+            self.intervals
+                .add(before_s, time_s, || self.source.location());
         }
         self.last_time_s = Some(time_s);
         Ok(Some(row))
     }
 
-    /// All rows left, each as `of` has it.
-    pub(super) fn read_all<T>(&mut self, of: impl Fn([f64; N]) -> T) -> Result<Vec<T>, FileError> {
+    /// Returns all remaining rows, each converted by `convert`.
+    pub(super) fn read_all<T>(
+        &mut self,
+        convert: impl Fn([f64; N]) -> T,
+    ) -> Result<Vec<T>, FileError> {
         let mut kept = Vec::new();
         while let Some(row) = self.next()? {
             kept.try_reserve(1)
                 .map_err(|_| FileError::read(&self.path, io::ErrorKind::OutOfMemory.into()))?;
-            kept.push(of(row));
+            kept.push(convert(row));
         }
         Ok(kept)
     }
@@ -121,7 +125,7 @@ impl<const N: usize> Rows<N> {
         }
     }
 
-    pub(super) fn in_text(&self, error: RecordingError) -> FileError {
+    pub(super) fn in_file(&self, error: RecordingError) -> FileError {
         FileError::in_file(&self.path, error)
     }
 
@@ -129,15 +133,15 @@ impl<const N: usize> Rows<N> {
         self.in_cell(0, error)
     }
 
-    fn in_cell(&self, place: usize, error: RecordingError) -> FileError {
+    fn in_cell(&self, index: usize, error: RecordingError) -> FileError {
         self.source
-            .place()
-            .error(&self.path, &self.names[place], error)
+            .location()
+            .error(&self.path, &self.names[index], error)
     }
 }
 
-impl Place {
-    /// `error` in the channel `name` of the file at `path`.
+impl RowLocation {
+    /// Attaches `error` to the channel `name` of the file at `path`.
     pub(super) fn error(self, path: &Path, name: &str, error: RecordingError) -> FileError {
         match self {
             Self::Line(line) => FileError::in_cell(path, line, name, error),

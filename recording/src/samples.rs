@@ -1,9 +1,9 @@
-//! Rows that were read already.
+//! Rows in memory as a source of rows.
 
 use std::rc::Rc;
 
 use super::error::RecordingError;
-use super::place::Place;
+use super::location::RowLocation;
 use super::rows::Source;
 use super::{Sample, unit};
 use dashpot_files::FileError;
@@ -25,11 +25,9 @@ impl Source for Samples {
         let Some(sample) = self.samples.get(self.next) else {
             return Ok(false);
         };
-        for (value, of) in values
-            .iter_mut()
-            .zip([sample.time_s, sample.displacement_m])
-        {
-            *value = of;
+        let row = [sample.time_s, sample.displacement_m];
+        for (value, number) in values.iter_mut().zip(row) {
+            *value = number;
         }
         self.next += 1;
         Ok(true)
@@ -41,8 +39,8 @@ impl Source for Samples {
         }
     }
 
-    fn place(&self) -> Place {
-        Place::Row(self.next as u64)
+    fn location(&self) -> RowLocation {
+        RowLocation::Row(self.next as u64)
     }
 
     fn position(&self) -> u64 {
@@ -50,11 +48,13 @@ impl Source for Samples {
     }
 }
 
-/// The channels of rows in SI.
-pub(super) fn chosen() -> [super::select::Chosen; 2] {
-    [unit::Quantity::Time, unit::Quantity::Displacement].map(|quantity| super::select::Chosen {
-        index: 0,
-        unit: quantity.units()[0],
-        reversed: false,
+/// Returns the channels of rows in SI units.
+pub(super) fn si_channels() -> [super::select::SelectedChannel; 2] {
+    [unit::Quantity::Time, unit::Quantity::Displacement].map(|quantity| {
+        super::select::SelectedChannel {
+            index: 0,
+            unit: quantity.units()[0],
+            reversed: false,
+        }
     })
 }

@@ -1,52 +1,52 @@
-//! Which of the channels that a file has are those of a recording, and in which units.
+//! Finds the channels of a recording among those of a file, and their units.
 
 use super::channels::Channels;
 use super::error::RecordingError;
 use super::unit::{Quantity, Unit};
 
-/// A channel that a file has.
+/// A channel of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Found {
-    /// Its name, without the unit; empty where the file has none.
+pub(super) struct ChannelInfo {
+    /// Name without the unit; empty if the channel has no name.
     pub(super) name: String,
-    /// Name and unit as the file has them in one text, else the name.
+    /// Name as written in the file, possibly with the unit.
     pub(super) whole: String,
-    /// Its unit, where the file tells it outside of the name.
+    /// Unit stated in the file, apart from an ending of the name such as `_mm`.
     pub(super) unit: Option<String>,
-    /// Number of its group, from 0.
+    /// Index of its group, from 0.
     pub(super) group: usize,
-    /// Whether the time of its group.
+    /// True if the channel contains the times of its group.
     pub(super) is_master: bool,
-    /// What its values are in the file.
+    /// Type of the values in the file.
     pub(super) kind: String,
-    /// Whether they can be read as numbers.
+    /// True if the values can be read as numbers.
     pub(super) is_number: bool,
-    /// Why they are not, where they are numbers of another width or at another place than is read.
+    /// Reason why numbers cannot be read: their width or bit position is not supported.
     pub(super) unread: Option<Unread>,
-    /// Rows, where the file tells before they are read.
+    /// Number of rows, if it is known before reading.
     pub(super) rows: Option<u64>,
 }
 
-/// Numbers that are not read.
+/// Numbers in an unsupported format.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Unread {
-    /// What they are.
+    /// Format of the numbers.
     pub(super) held: String,
-    /// What is read instead.
+    /// Supported formats.
     pub(super) allowed: &'static str,
 }
 
-/// A channel that was chosen.
+/// Channel selected for a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Chosen {
-    /// Which of those found.
+pub(super) struct SelectedChannel {
+    /// Index among the channels of the file.
     pub(super) index: usize,
     pub(super) unit: Unit,
     pub(super) reversed: bool,
 }
 
-impl Chosen {
-    /// A number of the file in SI, positive in extension.
+impl SelectedChannel {
+    /// Converts a number of the file to SI, positive in extension.
     #[inline]
     pub(super) fn in_si(&self, number: f64) -> f64 {
         let value = self.unit.to_si(number);
@@ -54,16 +54,16 @@ impl Chosen {
     }
 }
 
-/// The channels of `quantities`, which begin with the time, among those `found` in `groups`.
+/// Selects the channels of `quantities` from those `found` in `groups`. The first quantity is the time.
 ///
 /// # Errors
-/// One is missing, there are several, or its unit is not known; a time in another group than the values.
+/// A channel is missing or ambiguous, its unit is unknown, or the time is in a different group than the values.
 pub(super) fn select<const N: usize>(
-    found: &[Found],
+    found: &[ChannelInfo],
     groups: &[String],
     channels: &Channels,
     quantities: [Quantity; N],
-) -> Result<[Chosen; N], RecordingError> {
+) -> Result<[SelectedChannel; N], RecordingError> {
     let wanted = channels
         .group
         .as_deref()
@@ -72,37 +72,38 @@ pub(super) fn select<const N: usize>(
     select_in(found, groups, wanted, channels, quantities)
 }
 
-/// As [`select`], in a group.
+/// As [`select`], but with the index of the group, if it is known.
 pub(super) fn select_in<const N: usize>(
-    found: &[Found],
+    found: &[ChannelInfo],
     groups: &[String],
     mut group: Option<usize>,
     channels: &Channels,
     quantities: [Quantity; N],
-) -> Result<[Chosen; N], RecordingError> {
+) -> Result<[SelectedChannel; N], RecordingError> {
     let mut indices = [0; N];
     let mut order: Vec<usize> = (0..N).collect();
     if groups.len() > 1 {
-        // The time is that of the values' group.
+        // The group of the values determines the time channel.
         order.reverse();
     }
-    for place in order {
-        let index = find(found, groups, group, channels, quantities[place])?;
+    for position in order {
+        let index = find(found, groups, group, channels, quantities[position])?;
         let own = found[index].group;
-        indices[place] = index;
+        indices[position] = index;
         group = Some(own);
     }
-    let mut chosen = [Chosen {
+    let mut chosen = [SelectedChannel {
         index: 0,
         unit: Quantity::Time.units()[0],
         reversed: false,
     }; N];
-    for (place, chosen) in chosen.iter_mut().enumerate() {
-        let (quantity, index) = (quantities[place], indices[place]);
-        if let Some(other) = indices[..place].iter().position(|other| *other == index) {
+    for (position, chosen) in chosen.iter_mut().enumerate() {
+        let (quantity, index) = (quantities[position], indices[position]);
+        if let Some(other) = indices[..position].iter().position(|other| *other == index) {
             return Err(RecordingError::SameChannel {
                 channel: label(found, index),
-                quantities: [quantities[other], quantity],
+                first: quantities[other],
+                second: quantity,
             });
         }
         if let Some(Unread { held, allowed }) = &found[index].unread {
@@ -120,17 +121,17 @@ pub(super) fn select_in<const N: usize>(
                 kind: found[index].kind.clone(),
             });
         }
-        *chosen = Chosen {
+        *chosen = SelectedChannel {
             index,
             unit: unit(&found[index], label(found, index), channels, quantity)?,
-            reversed: channels.of(quantity).reversed,
+            reversed: channels.channel(quantity).reversed,
         };
     }
     Ok(chosen)
 }
 
-/// What messages call the channel of an index.
-pub(super) fn label(found: &[Found], index: usize) -> String {
+/// Returns the name of a channel for messages, or its number if it has no name.
+pub(super) fn label(found: &[ChannelInfo], index: usize) -> String {
     match found.get(index) {
         Some(found) if !found.name.is_empty() => found.name.clone(),
         _ => (index + 1).to_string(),
@@ -152,14 +153,14 @@ fn group_number(group: &str, groups: &[String]) -> Result<usize, RecordingError>
 }
 
 fn find(
-    found: &[Found],
+    found: &[ChannelInfo],
     groups: &[String],
     group: Option<usize>,
     channels: &Channels,
     quantity: Quantity,
 ) -> Result<usize, RecordingError> {
     let all = || (0..found.len()).filter(|&index| group.is_none_or(|g| found[index].group == g));
-    let option = channels.of(quantity).name.as_deref();
+    let option = channels.channel(quantity).name.as_deref();
     let name = option.unwrap_or(quantity.column());
     let mut candidates: Vec<usize> = all()
         .filter(|&index| found[index].name == name || found[index].whole == name)
@@ -170,7 +171,7 @@ fn find(
         }
         if candidates.is_empty() {
             candidates = all()
-                .filter(|&index| is_called(&found[index].name, quantity))
+                .filter(|&index| has_standard_name(&found[index].name, quantity))
                 .collect();
         }
     }
@@ -191,7 +192,8 @@ fn find(
             Some(group) if group != found[index].group => Err(RecordingError::OtherGroup {
                 quantity,
                 channel: label(found, index),
-                groups: [found[index].group, group].map(|g| group_label(groups, g)),
+                group: group_label(groups, found[index].group),
+                expected: group_label(groups, group),
             }),
             _ => Ok(index),
         };
@@ -205,7 +207,8 @@ fn find(
                 (Some(index), Some(group)) => RecordingError::OtherGroup {
                     quantity,
                     channel: label(found, index),
-                    groups: [found[index].group, group].map(|g| group_label(groups, g)),
+                    group: group_label(groups, found[index].group),
+                    expected: group_label(groups, group),
                 },
                 _ => missing(found, quantity, name),
             })
@@ -243,7 +246,7 @@ fn find(
     }
 }
 
-/// The index that `2` or `#2` is the number of.
+/// Returns the index of a channel number such as `2` or `#2`.
 fn by_number(text: &str, count: usize) -> Option<usize> {
     let number: usize = text.strip_prefix('#').unwrap_or(text).parse().ok()?;
     number.checked_sub(1).filter(|index| *index < count)
@@ -256,8 +259,8 @@ fn group_label(groups: &[String], number: usize) -> String {
     }
 }
 
-/// Whether a name tells the quantity, and no more than its unit beside it.
-fn is_called(name: &str, quantity: Quantity) -> bool {
+/// True if a name is that of the quantity, optionally followed by its unit.
+fn has_standard_name(name: &str, quantity: Quantity) -> bool {
     let lower = name.to_ascii_lowercase();
     lower == quantity.name()
         || lower
@@ -266,7 +269,7 @@ fn is_called(name: &str, quantity: Quantity) -> bool {
             && quantity.unit_in_name(name).is_some()
 }
 
-fn missing(found: &[Found], quantity: Quantity, name: &str) -> RecordingError {
+fn missing(found: &[ChannelInfo], quantity: Quantity, name: &str) -> RecordingError {
     RecordingError::MissingChannel {
         quantity,
         name: name.to_owned(),
@@ -276,36 +279,36 @@ fn missing(found: &[Found], quantity: Quantity, name: &str) -> RecordingError {
 }
 
 fn unit(
-    found: &Found,
+    found: &ChannelInfo,
     channel: String,
     channels: &Channels,
     quantity: Quantity,
 ) -> Result<Unit, RecordingError> {
-    if let Some(unit) = channels.of(quantity).unit {
+    if let Some(unit) = channels.channel(quantity).unit {
         return Ok(unit);
     }
     let in_name = quantity.unit_in_name(&found.name);
-    let told = found.unit.as_deref().map(bare).filter(|t| !t.is_empty());
-    match (told, in_name) {
+    let stated = found.unit.as_deref().map(bare).filter(|t| !t.is_empty());
+    match (stated, in_name) {
         (None, Some(unit)) => Ok(unit),
         (None, None) => Err(RecordingError::NoUnit { quantity, channel }),
-        (Some(told), in_name) => match (quantity.unit(told), in_name) {
+        (Some(stated), in_name) => match (quantity.unit(stated), in_name) {
             (Some(unit), Some(in_name)) if unit != in_name => Err(RecordingError::TwoUnits {
                 quantity,
                 channel,
-                unit: told.to_owned(),
+                unit: stated.to_owned(),
             }),
             (Some(unit), _) => Ok(unit),
             (None, _) => Err(RecordingError::UnknownUnit {
                 quantity,
                 channel,
-                unit: told.to_owned(),
+                unit: stated.to_owned(),
             }),
         },
     }
 }
 
-/// The unit without brackets.
+/// Removes brackets around a unit.
 pub(super) fn bare(text: &str) -> &str {
     let text = text.trim();
     let pairs = [('[', ']'), ('(', ')')];

@@ -1,4 +1,4 @@
-//! The bytes of a recording: decompressed, counted, and of what kind they are.
+//! Byte stream of a recording: decompresses it, counts bytes and detects the file format.
 
 use std::cell::Cell;
 use std::io::{self, Cursor, Read};
@@ -6,33 +6,33 @@ use std::rc::Rc;
 
 use flate2::read::MultiGzDecoder;
 
-/// Bytes that tell every kind.
-const TELLING: usize = 8;
+/// Number of bytes needed to detect any format.
+const SIGNATURE_BYTES: usize = 8;
 
 const GZIP: &[u8] = b"\x1f\x8b";
 
-/// What a file is.
+/// Format of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Text, as far as its first bytes tell.
+    /// Text, according to its first bytes.
     Text,
-    /// ASAM MDF, of version 4.
+    /// ASAM MDF version 4.
     Mdf4,
     /// Apache Parquet.
     Parquet,
-    /// What is not read, by its name.
+    /// Unsupported format, with its name and a workaround.
     Other(&'static str),
 }
 
-/// First bytes of files that are taken for recordings and not read.
-const OTHERS: [(&[u8], &str); 9] = [
+/// First bytes of unsupported formats, with their names and workarounds.
+const UNSUPPORTED: [(&[u8], &str); 9] = [
     (
         b"PK\x03\x04",
-        "a zip archive or a workbook of Excel (it starts with PK); unpack it, or save the sheet as CSV",
+        "a zip archive or an Excel workbook (it starts with PK); unpack it, or save the sheet as CSV",
     ),
     (
         b"\xd0\xcf\x11\xe0",
-        "an old workbook of Excel; save the sheet as CSV",
+        "an old Excel workbook; save the sheet as CSV",
     ),
     (
         b"\x28\xb5\x2f\xfd",
@@ -48,20 +48,20 @@ const OTHERS: [(&[u8], &str); 9] = [
     ),
     (
         b"\x89HDF\r\n\x1a\n",
-        "HDF5 or a MAT-file of version 7.3; export it as Parquet or CSV",
+        "HDF5 or a MAT-file (version 7.3); export it as Parquet or CSV",
     ),
     (
         b"MATLAB 5",
-        "a MAT-file of version 5; export it as Parquet or CSV",
+        "a MAT-file (version 5); export it as Parquet or CSV",
     ),
-    (b"TDSm", "TDMS of LabVIEW; export it as Parquet or CSV"),
+    (b"TDSm", "LabVIEW TDMS; export it as Parquet or CSV"),
     (
         b"UnFinMF ",
-        "MDF4 that its writer did not finish; open and save it with the program that wrote it",
+        "an unfinished MDF4 file; open and save it with the program that wrote it",
     ),
 ];
 
-/// The bytes of a file from the first on, whose first are known.
+/// Bytes of a file after inspecting the first of them.
 pub(super) struct Stream {
     head: Vec<u8>,
     rest: Box<dyn Read>,
@@ -70,7 +70,7 @@ pub(super) struct Stream {
     is_compressed: bool,
 }
 
-/// Bytes of the file read so far, for a progress bar.
+/// Number of bytes of the file read so far, for a progress bar.
 pub(super) type Count = Rc<Cell<u64>>;
 
 struct Counted {
@@ -86,7 +86,7 @@ impl Read for Counted {
     }
 }
 
-/// Says of errors that they are of the compression.
+/// Decompressor whose errors mention the compression.
 struct Decompressed(MultiGzDecoder<Box<dyn Read>>);
 
 impl Read for Decompressed {
@@ -99,10 +99,10 @@ impl Read for Decompressed {
 }
 
 impl Stream {
-    /// The bytes of `source`, decompressed where they are compressed with gzip.
+    /// Wraps `source` and decompresses gzip.
     ///
     /// # Errors
-    /// The source fails.
+    /// The source cannot be read.
     pub(super) fn new(source: Box<dyn Read>) -> io::Result<Self> {
         let count = Count::default();
         let counted = Box::new(Counted {
@@ -122,8 +122,10 @@ impl Stream {
 
     fn peeked(mut rest: Box<dyn Read>, count: &Count) -> io::Result<Self> {
         let mut head = Vec::new();
-        // No more than tells the kind: a logger at the other end of a pipe may be writing still.
-        rest.by_ref().take(TELLING as u64).read_to_end(&mut head)?;
+        // Read no more than needed: a logger at the other end of a pipe may still be writing.
+        rest.by_ref()
+            .take(SIGNATURE_BYTES as u64)
+            .read_to_end(&mut head)?;
         Ok(Self {
             head,
             rest,
@@ -132,7 +134,7 @@ impl Stream {
         })
     }
 
-    /// What the file is.
+    /// Format of the file.
     pub(super) fn kind(&self) -> Kind {
         if self.head.starts_with(b"MDF     ") {
             return Kind::Mdf4;
@@ -140,29 +142,29 @@ impl Stream {
         if self.head.starts_with(b"PAR1") {
             return Kind::Parquet;
         }
-        let other = OTHERS
+        let other = UNSUPPORTED
             .iter()
             .find(|(start, _)| self.head.starts_with(start));
         other.map_or(Kind::Text, |(_, name)| Kind::Other(name))
     }
 
-    /// Whether the bytes of the file are others.
+    /// True if the file itself is compressed.
     #[cfg(any(feature = "mdf", feature = "parquet"))]
     pub(super) fn is_compressed(&self) -> bool {
         self.is_compressed
     }
 
-    /// The first bytes, [`TELLING`] of them unless there are fewer.
+    /// First bytes of the file, at most [`SIGNATURE_BYTES`].
     pub(super) fn head(&self) -> &[u8] {
         &self.head
     }
 
-    /// The count of bytes read.
+    /// Shared count of the bytes read.
     pub(super) fn count(&self) -> Count {
         Rc::clone(&self.count)
     }
 
-    /// All bytes, the first too.
+    /// Returns a reader of all bytes, including the first.
     pub(super) fn into_reader(self) -> Box<dyn Read> {
         Box::new(Cursor::new(self.head).chain(self.rest))
     }

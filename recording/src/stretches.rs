@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use crate::GAP_IN_MEDIANS;
 
-/// The median interval of times that rise; `None` for less than two.
+/// Returns the median interval of increasing times; `None` for fewer than two times.
 pub fn median_interval(times_s: &[f64]) -> Option<f64> {
     let mut intervals: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     intervals.sort_unstable_by(f64::total_cmp);
     intervals.get(intervals.len() / 2).copied()
 }
 
-/// The stretches between gaps, which are intervals over [`GAP_IN_MEDIANS`] times the median one.
+/// Returns the index ranges between gaps, which are intervals longer than [`GAP_IN_MEDIANS`] times the median.
 pub fn stretches(times_s: &[f64]) -> Vec<Range<usize>> {
     let Some(median) = median_interval(times_s) else {
         return Vec::new();

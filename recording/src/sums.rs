@@ -1,23 +1,23 @@
-//! SHA-256 of the numbers of each column, in the metadata of Parquet files that Dashpot writes: a changed byte of a
-//! number is found when the column is read. Files of other programs have none.
+//! SHA-256 checksums of columns. Dashpot writes them to the metadata of Parquet files, so that a damaged number is
+//! detected when the column is read. Files of other programs have no such checksums.
 
 use std::collections::BTreeMap;
 
 use parquet::file::metadata::KeyValue;
 use sha2::{Digest, Sha256};
 
-/// Key of the metadata: an object of JSON with the sum of each column of numbers, hexadecimal, by the column's name.
+/// Metadata key of the checksums: a JSON object that maps the name of each numeric column to a hexadecimal checksum.
 pub(crate) const SUMS: &str = "dashpot_sha256";
 
-/// Numbers that are hashed at a time.
+/// Numbers hashed at a time.
 const NUMBERS: usize = 64;
 
-/// SHA-256 of the numbers of a column as float64 in little-endian bytes, a null being a NaN.
+/// SHA-256 of the numbers of a column as little-endian float64; a null counts as NaN.
 #[derive(Clone, Default)]
 pub(crate) struct Sum(Sha256);
 
 impl Sum {
-    /// Takes in the next numbers of the column.
+    /// Adds the next numbers of the column.
     pub(crate) fn add(&mut self, numbers: &[f64]) {
         let mut bytes = [[0; 8]; NUMBERS];
         for numbers in numbers.chunks(NUMBERS) {
@@ -28,14 +28,14 @@ impl Sum {
         }
     }
 
-    /// The sum of all numbers, hexadecimal.
+    /// Returns the checksum of all numbers, hexadecimal.
     pub(crate) fn text(&self) -> String {
         let bytes = self.0.clone().finalize();
         bytes.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }
 
-/// The metadata that has the sums of these columns.
+/// Creates the metadata entry with the checksums of the columns.
 pub(crate) fn metadata<'a>(sums: impl Iterator<Item = (&'a str, &'a Sum)>) -> KeyValue {
     let sums: BTreeMap<&str, String> = sums.map(|(name, sum)| (name, sum.text())).collect();
     KeyValue::new(SUMS.into(), serde_json::json!(sums).to_string())

@@ -1,52 +1,70 @@
-//! Recordings on the ticks of a step.
+//! Recordings resampled to the ticks of a fixed step.
 
 use std::collections::VecDeque;
 
-use crate::{GAP_IN_MEDIANS, MAX_GAP_TICKS, MOST_TICKS, Measurement, Recording, RecordingError};
+use crate::{GAP_IN_MEDIANS, MAX_GAP_TICKS, MAX_TICKS, Measurement, Recording, RecordingError};
 use dashpot_files::FileError;
 
 /// One tick of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tick {
-    /// Time (s), first sample plus a whole number of steps.
+    /// Time (s): first sample plus an integer number of steps.
     pub time_s: f64,
-    /// Displacement there (m), linear between samples.
+    /// Displacement (m), linear between samples.
     pub displacement_m: f64,
 }
 
-/// One tick of a motion with the force measured on it.
+/// One tick of a motion with the measured force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredTick {
-    /// Time (s), first sample plus a whole number of steps.
+    /// Time (s): first sample plus an integer number of steps.
     pub time_s: f64,
-    /// Displacement there (m), linear between samples; NaN in a gap, where nothing is known.
+    /// Displacement (m), linear between samples; NaN in a gap.
     pub displacement_m: f64,
-    /// Force there (N), linear between samples; NaN in a gap.
+    /// Force (N), linear between samples; NaN in a gap.
     pub force_n: f64,
 }
 
-/// After a gap of more ticks, rows that follow are read before any tick of the gap is given: the clock of a logger may
-/// have jumped there and back again.
+/// Gap length in ticks above which the rows after the gap are checked before its ticks are returned: the clock of the
+/// logger may have jumped forward and back.
 const LOOK_AHEAD_TICKS: f64 = 1e3;
 
-/// How many rows are read then: a second of a logger at 1 kHz.
+/// Number of rows to check after a long gap: one second of a logger at 1 kHz.
 const LOOK_AHEAD_ROWS: usize = 1000;
 
-/// What has rows of `N` values at times.
+/// One row: `N` values at a time.
+#[derive(Clone, Copy)]
+struct Row<const N: usize> {
+    time_s: f64,
+    values: [f64; N],
+}
+
+/// One tick: values interpolated between two rows.
+struct GridTick<const N: usize> {
+    time_s: f64,
+    values: [f64; N],
+    /// Interval between the surrounding rows (s); 0 if the tick is at a row.
+    interval_s: f64,
+}
+
+/// Source of rows with `N` values.
 trait Rows<const N: usize> {
-    fn next_row(&mut self) -> Result<Option<(f64, [f64; N])>, FileError>;
-    fn in_text(&self, error: RecordingError) -> FileError;
+    fn next_row(&mut self) -> Result<Option<Row<N>>, FileError>;
+    fn in_file(&self, error: RecordingError) -> FileError;
     fn in_time(&self, error: RecordingError) -> FileError;
 }
 
 impl Rows<1> for Recording {
-    fn next_row(&mut self) -> Result<Option<(f64, [f64; 1])>, FileError> {
+    fn next_row(&mut self) -> Result<Option<Row<1>>, FileError> {
         let sample = self.next_sample()?;
-        Ok(sample.map(|sample| (sample.time_s, [sample.displacement_m])))
+        Ok(sample.map(|sample| Row {
+            time_s: sample.time_s,
+            values: [sample.displacement_m],
+        }))
     }
 
-    fn in_text(&self, error: RecordingError) -> FileError {
-        Recording::in_text(self, error)
+    fn in_file(&self, error: RecordingError) -> FileError {
+        Recording::in_file(self, error)
     }
 
     fn in_time(&self, error: RecordingError) -> FileError {
@@ -55,13 +73,16 @@ impl Rows<1> for Recording {
 }
 
 impl Rows<2> for Measurement {
-    fn next_row(&mut self) -> Result<Option<(f64, [f64; 2])>, FileError> {
+    fn next_row(&mut self) -> Result<Option<Row<2>>, FileError> {
         let sample = self.next_sample()?;
-        Ok(sample.map(|sample| (sample.time_s, [sample.displacement_m, sample.force_n])))
+        Ok(sample.map(|sample| Row {
+            time_s: sample.time_s,
+            values: [sample.displacement_m, sample.force_n],
+        }))
     }
 
-    fn in_text(&self, error: RecordingError) -> FileError {
-        Measurement::in_text(self, error)
+    fn in_file(&self, error: RecordingError) -> FileError {
+        Measurement::in_file(self, error)
     }
 
     fn in_time(&self, error: RecordingError) -> FileError {
@@ -69,23 +90,23 @@ impl Rows<2> for Measurement {
     }
 }
 
-/// How far a sample meant for the tick at `time_s` (s) of steps of `step_s` (s) may lie from it by
-/// rounding (s).
+/// Returns the maximum rounding error (s) between a tick at `time_s` (s) with step `step_s` (s) and a sample recorded
+/// for that tick.
 pub fn rounding_s(time_s: f64, step_s: f64) -> f64 {
     1e-9 * step_s + 4.0 * f64::EPSILON * time_s.abs()
 }
 
-/// Rows on ticks: from the first row to within the last, linear between rows.
+/// Resamples rows to ticks from the first row up to the last row, linear between rows.
 struct Grid<R, const N: usize> {
     rows: R,
     step_s: f64,
     start_s: f64,
     number: u64,
-    before: (f64, [f64; N]),
-    after: (f64, [f64; N]),
-    /// Rows after them that were read already.
-    ahead: VecDeque<(f64, [f64; N])>,
-    /// Time of the row read last (s).
+    before: Row<N>,
+    after: Row<N>,
+    /// Later rows that have already been read.
+    ahead: VecDeque<Row<N>>,
+    /// Time of the last row read (s).
     read_s: f64,
 }
 
@@ -93,20 +114,20 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
     fn new(mut rows: R, step_s: f64) -> Result<Self, FileError> {
         let first = rows
             .next_row()?
-            .ok_or_else(|| rows.in_text(RecordingError::NoRow { left_out: 0 }))?;
+            .ok_or_else(|| rows.in_file(RecordingError::NoRow { left_out: 0 }))?;
         Ok(Self {
             rows,
             step_s,
-            start_s: first.0,
+            start_s: first.time_s,
             number: 0,
             before: first,
             after: first,
             ahead: VecDeque::new(),
-            read_s: first.0,
+            read_s: first.time_s,
         })
     }
 
-    /// Reads rows that follow, so that what is wrong with them is an error before a gap is filled.
+    /// Reads the following rows, so that their errors are reported before a gap is filled.
     fn look_ahead(&mut self) -> Result<(), FileError> {
         while self.ahead.len() < LOOK_AHEAD_ROWS {
             let Some(row) = self.read_row()? else {
@@ -117,14 +138,14 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         Ok(())
     }
 
-    /// The row after the one read last, where it is not too far from that one and from the first.
-    fn read_row(&mut self) -> Result<Option<(f64, [f64; N])>, FileError> {
+    /// Reads the next row and checks its distance from the previous and the first row.
+    fn read_row(&mut self) -> Result<Option<Row<N>>, FileError> {
         let Some(next) = self.rows.next_row()? else {
             return Ok(None);
         };
-        let (before_s, time_s) = (self.read_s, next.0);
+        let (before_s, time_s) = (self.read_s, next.time_s);
         let ticks = (time_s - before_s) / self.step_s;
-        if time_s - self.start_s > MOST_TICKS * self.step_s {
+        if time_s - self.start_s > MAX_TICKS * self.step_s {
             return Err(self.rows.in_time(RecordingError::TooLong { time_s }));
         }
         if ticks > MAX_GAP_TICKS {
@@ -138,13 +159,12 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         Ok(Some(next))
     }
 
-    /// Time, values, and the interval between the rows around them, 0 at a row.
-    fn next_tick(&mut self) -> Result<Option<(f64, [f64; N], f64)>, FileError> {
+    fn next_tick(&mut self) -> Result<Option<GridTick<N>>, FileError> {
         let offset_s = self.number as f64 * self.step_s;
         let time_s = self.start_s + offset_s;
-        // A sample meant for a tick may lie a rounding before it.
+        // Rounding may place the sample of a tick slightly before the tick.
         let slack_s = rounding_s(time_s, self.step_s);
-        while self.after.0 + slack_s < time_s {
+        while self.after.time_s + slack_s < time_s {
             let next = match self.ahead.pop_front() {
                 Some(next) => Some(next),
                 None => self.read_row()?,
@@ -152,49 +172,58 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
             let Some(next) = next else {
                 return Ok(None);
             };
-            if next.0 - self.after.0 > LOOK_AHEAD_TICKS * self.step_s {
+            if next.time_s - self.after.time_s > LOOK_AHEAD_TICKS * self.step_s {
                 self.look_ahead()?;
             }
             self.before = self.after;
             self.after = next;
         }
         self.number += 1;
-        let ((before_s, before), (after_s, after)) = (self.before, self.after);
-        if time_s + slack_s >= after_s {
-            return Ok(Some((time_s, after, 0.0)));
+        let (before, after) = (self.before, self.after);
+        if time_s + slack_s >= after.time_s {
+            return Ok(Some(GridTick {
+                time_s,
+                values: after.values,
+                interval_s: 0.0,
+            }));
         }
-        let interval_s = after_s - before_s;
-        let fraction = (time_s - before_s) / interval_s;
-        let between = |value: usize| before[value] + fraction * (after[value] - before[value]);
-        Ok(Some((time_s, std::array::from_fn(between), interval_s)))
+        let interval_s = after.time_s - before.time_s;
+        let fraction = (time_s - before.time_s) / interval_s;
+        let (from, to) = (before.values, after.values);
+        let between = |index: usize| from[index] + fraction * (to[index] - from[index]);
+        Ok(Some(GridTick {
+            time_s,
+            values: std::array::from_fn(between),
+            interval_s,
+        }))
     }
 }
 
-/// A recorded motion on ticks: from its first sample to within its last.
+/// A recorded motion resampled to ticks, from its first sample up to its last.
 pub struct TickGrid(Grid<Recording, 1>);
 
 impl TickGrid {
-    /// The grid of `step_s` (s) over `recording`.
+    /// Resamples `recording` to ticks of `step_s` (s).
     ///
     /// # Errors
-    /// No readable row.
+    /// The first row is missing or invalid.
     pub fn new(recording: Recording, step_s: f64) -> Result<Self, FileError> {
         Grid::new(recording, step_s).map(Self)
     }
 
-    /// The next tick; `None` past the last sample.
+    /// Returns the next tick; `None` after the last sample.
     ///
     /// # Errors
-    /// A row that cannot be read, or a recording over 24 hours of 10 kHz ticks long.
+    /// A row is invalid, or the recording is longer than 24 hours of ticks at 10 kHz.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, FileError> {
         let tick = self.0.next_tick()?;
-        Ok(tick.map(|(time_s, [displacement_m], _)| Tick {
-            time_s,
-            displacement_m,
+        Ok(tick.map(|tick| Tick {
+            time_s: tick.time_s,
+            displacement_m: tick.values[0],
         }))
     }
 
-    /// All ticks left.
+    /// Returns all remaining ticks.
     ///
     /// # Errors
     /// As [`TickGrid::next_tick`].
@@ -206,7 +235,7 @@ impl TickGrid {
         Ok(ticks)
     }
 
-    /// Displacements (m) at all ticks left.
+    /// Returns the displacements (m) at all remaining ticks.
     ///
     /// # Errors
     /// As [`TickGrid::next_tick`].
@@ -226,43 +255,44 @@ impl TickGrid {
     }
 }
 
-/// A motion and the force measured on it, on ticks: from the first sample to within the last.
+/// A recorded motion and force resampled to ticks, from the first sample up to the last.
 pub struct MeasuredGrid(Grid<Measurement, 2>);
 
 impl MeasuredGrid {
-    /// The grid of `step_s` (s) over `measurement`.
+    /// Resamples `measurement` to ticks of `step_s` (s).
     ///
     /// # Errors
-    /// No readable row.
+    /// The first row is missing or invalid.
     pub fn new(measurement: Measurement, step_s: f64) -> Result<Self, FileError> {
         Grid::new(measurement, step_s).map(Self)
     }
 
-    /// The next tick; `None` past the last sample.
+    /// Returns the next tick; `None` after the last sample.
     ///
     /// # Errors
     /// As [`TickGrid::next_tick`].
     pub fn next_tick(&mut self) -> Result<Option<MeasuredTick>, FileError> {
-        let Some((time_s, [displacement_m, force_n], interval_s)) = self.0.next_tick()? else {
+        let Some(tick) = self.0.next_tick()? else {
             return Ok(None);
         };
+        let [displacement_m, force_n] = tick.values;
         let known = |value: f64| {
-            if self.is_gap(interval_s) {
+            if self.is_gap(tick.interval_s) {
                 f64::NAN
             } else {
                 value
             }
         };
         Ok(Some(MeasuredTick {
-            time_s,
+            time_s: tick.time_s,
             displacement_m: known(displacement_m),
             force_n: known(force_n),
         }))
     }
 
-    /// Whether samples are further apart than a logger's own interval and jitter explain.
+    /// True if an interval between samples is longer than jitter of the logger can explain.
     fn is_gap(&self, interval_s: f64) -> bool {
-        // The median is asked for where it matters.
+        // Compute the median only for intervals that may be gaps.
         interval_s > GAP_IN_MEDIANS * self.0.step_s
             && self
                 .measurement()
@@ -308,7 +338,7 @@ mod tests {
         for ((x, force), (expected_x, expected_force)) in found.into_iter().zip(expected) {
             assert!((x - expected_x).abs() < 1e-9 && (force - expected_force).abs() < 1e-6);
         }
-        // At the rate of the rows they are those of the file, to the bit.
+        // If the ticks coincide with the rows, the values are bit-identical to the file.
         assert_eq!(
             ticks("0,0.1,7\n0.001,0.3,8\n0.002,0.7,9\n", 1e-3)[1],
             (0.3, 8.0)
@@ -316,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_made_up_in_a_gap() {
+    fn ticks_in_a_gap_are_nan() {
         let rows: String = (0..10)
             .map(|row| {
                 format!(
@@ -329,7 +359,7 @@ mod tests {
         assert_eq!(found.len(), 50);
         let unknown = found.iter().filter(|(x, _)| x.is_nan()).count();
         assert_eq!(unknown, 40);
-        // A logger of a lower rate has no gaps for that.
+        // A logger with a lower rate has no gaps.
         let slow: String = (0..20)
             .map(|row| format!("{},0.5,100\n", 0.01 * f64::from(row)))
             .collect();

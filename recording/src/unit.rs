@@ -1,8 +1,8 @@
-//! What a channel measures, and the units that it may have in a file.
+//! Quantities of channels and their units.
 
 use std::fmt;
 
-/// What a channel of a recording measures.
+/// Quantity that a channel measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// Time.
@@ -18,69 +18,91 @@ pub enum Quantity {
 pub struct Unit {
     quantity: Quantity,
     name: &'static str,
-    /// Other spellings.
-    others: &'static [&'static str],
-    /// SI is the number times the first over the second: one of the two is 1, so that 0.1 ms are 1e-4 s to the bit.
-    factor: [f64; 2],
+    /// Alternative spellings.
+    aliases: &'static [&'static str],
+    factor: Factor,
+}
+
+/// Conversion to SI: value times `multiplier` over `divisor`. One of the two is 1, so that 0.1 ms is exactly 1e-4 s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Factor {
+    multiplier: f64,
+    divisor: f64,
+}
+
+const SI: Factor = times(1.0);
+
+const fn times(multiplier: f64) -> Factor {
+    Factor {
+        multiplier,
+        divisor: 1.0,
+    }
+}
+
+const fn over(divisor: f64) -> Factor {
+    Factor {
+        multiplier: 1.0,
+        divisor,
+    }
 }
 
 const fn unit(
     quantity: Quantity,
     name: &'static str,
-    others: &'static [&'static str],
-    factor: [f64; 2],
+    aliases: &'static [&'static str],
+    factor: Factor,
 ) -> Unit {
     Unit {
         quantity,
         name,
-        others,
+        aliases,
         factor,
     }
 }
 
-/// Micro is the sign of its own (U+00B5) or the Greek letter.
+/// The prefix micro may be the micro sign (U+00B5) or the Greek letter mu (U+03BC).
 const TIMES: [Unit; 5] = [
-    unit(Quantity::Time, "s", &["sec", "seconds"], [1.0, 1.0]),
-    unit(Quantity::Time, "ms", &["msec"], [1.0, 1e3]),
+    unit(Quantity::Time, "s", &["sec", "seconds"], SI),
+    unit(Quantity::Time, "ms", &["msec"], over(1e3)),
     unit(
         Quantity::Time,
         "us",
         &["\u{b5}s", "\u{3bc}s", "usec"],
-        [1.0, 1e6],
+        over(1e6),
     ),
-    unit(Quantity::Time, "ns", &[], [1.0, 1e9]),
-    unit(Quantity::Time, "min", &[], [60.0, 1.0]),
+    unit(Quantity::Time, "ns", &[], over(1e9)),
+    unit(Quantity::Time, "min", &[], times(60.0)),
 ];
 
 const LENGTHS: [Unit; 5] = [
-    unit(Quantity::Displacement, "m", &[], [1.0, 1.0]),
-    unit(Quantity::Displacement, "cm", &[], [1.0, 1e2]),
-    unit(Quantity::Displacement, "mm", &[], [1.0, 1e3]),
+    unit(Quantity::Displacement, "m", &[], SI),
+    unit(Quantity::Displacement, "cm", &[], over(1e2)),
+    unit(Quantity::Displacement, "mm", &[], over(1e3)),
     unit(
         Quantity::Displacement,
         "um",
         &["\u{b5}m", "\u{3bc}m"],
-        [1.0, 1e6],
+        over(1e6),
     ),
-    // International yard and pound agreement, 1959: 25.4 mm.
-    unit(Quantity::Displacement, "in", &["inch", "\""], [0.0254, 1.0]),
+    // International yard and pound agreement (1959): 25.4 mm.
+    unit(Quantity::Displacement, "in", &["inch", "\""], times(0.0254)),
 ];
 
 const FORCES: [Unit; 5] = [
-    unit(Quantity::Force, "N", &[], [1.0, 1.0]),
-    unit(Quantity::Force, "daN", &[], [10.0, 1.0]),
-    unit(Quantity::Force, "kN", &[], [1e3, 1.0]),
-    unit(Quantity::Force, "MN", &[], [1e6, 1.0]),
-    // The pound of the agreement at standard gravity: 0.45359237 kg, 9.80665 m/s2.
+    unit(Quantity::Force, "N", &[], SI),
+    unit(Quantity::Force, "daN", &[], times(10.0)),
+    unit(Quantity::Force, "kN", &[], times(1e3)),
+    unit(Quantity::Force, "MN", &[], times(1e6)),
+    // Pound of the same agreement (0.45359237 kg) at standard gravity (9.80665 m/s2).
     unit(
         Quantity::Force,
         "lbf",
         &["lb", "lbs"],
-        [4.448_221_615_260_5, 1.0],
+        times(4.448_221_615_260_5),
     ),
 ];
 
-/// Names of channels that end so tell their unit. Not `in` and `min`, which are words too.
+/// Endings of channel names that state the unit. `in` and `min` are not included because they are also words.
 const ENDINGS: [(&str, &str); 8] = [
     ("_s", "s"),
     ("_ms", "ms"),
@@ -93,7 +115,7 @@ const ENDINGS: [(&str, &str); 8] = [
 ];
 
 impl Quantity {
-    /// Its name.
+    /// Name of the quantity.
     pub fn name(self) -> &'static str {
         match self {
             Self::Time => "time",
@@ -102,7 +124,7 @@ impl Quantity {
         }
     }
 
-    /// The name of its channel in SI, with the unit, as Dashpot writes it.
+    /// Name of the SI channel as Dashpot writes it, with the unit.
     pub fn column(self) -> &'static str {
         match self {
             Self::Time => "time_s",
@@ -111,7 +133,7 @@ impl Quantity {
         }
     }
 
-    /// Its units, that of SI first.
+    /// Known units; the SI unit is first.
     pub fn units(self) -> &'static [Unit] {
         match self {
             Self::Time => &TIMES,
@@ -120,19 +142,19 @@ impl Quantity {
         }
     }
 
-    /// Names of its units, for a message.
+    /// Names of the known units for messages.
     pub fn unit_names(self) -> String {
         let names: Vec<&str> = self.units().iter().map(|unit| unit.name).collect();
         names.join(", ")
     }
 
-    /// The unit of this name or another spelling of it.
+    /// Returns the unit with this name or alias.
     pub fn unit(self, text: &str) -> Option<Unit> {
-        let named = |unit: &&Unit| unit.name == text || unit.others.contains(&text);
+        let named = |unit: &&Unit| unit.name == text || unit.aliases.contains(&text);
         self.units().iter().find(named).copied()
     }
 
-    /// The unit that the name of a channel ends with, as `force_kn`.
+    /// Returns the unit at the end of a channel name such as `force_kn`.
     pub fn unit_in_name(self, name: &str) -> Option<Unit> {
         let lower = name.to_ascii_lowercase();
         let (_, unit) = ENDINGS.iter().find(|(ending, unit)| {
@@ -149,19 +171,19 @@ impl fmt::Display for Quantity {
 }
 
 impl Unit {
-    /// Its name.
+    /// Name of the unit.
     pub fn name(self) -> &'static str {
         self.name
     }
 
-    /// What it measures.
+    /// Quantity that the unit measures.
     pub fn quantity(self) -> Quantity {
         self.quantity
     }
 
-    /// `number` of it in SI.
+    /// Converts a value in this unit to SI.
     #[inline]
     pub fn to_si(self, number: f64) -> f64 {
-        number * self.factor[0] / self.factor[1]
+        number * self.factor.multiplier / self.factor.divisor
     }
 }

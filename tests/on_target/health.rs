@@ -9,7 +9,7 @@ use dashpot_core::Damper;
 use dashpot_core::health::{HealthSettings, HealthStatus};
 use dashpot_core::link::Refusal;
 use dashpot_experiment::watch::{SAMPLES, Watch};
-use dashpot_host_link::{Client, LinkError};
+use dashpot_host_link::{Client, HealthSample, LinkError};
 use dashpot_testbench::excitation::Excitation;
 use dashpot_testbench::health::{Noise, watch};
 use serde_json::Value;
@@ -135,17 +135,17 @@ fn a_reading_over_the_link_has_the_bits_of_the_desk() {
     assert!(matches!(none, Err(LinkError::Refused(Refusal::NoHealth))));
     client.load_health(slot, &model).unwrap();
     let samples = samples("in-service").into_iter().take(21_000);
-    let samples: Vec<(f32, f32)> = samples
-        .map(|[x0, x1, x2, x3, f0, f1, f2, f3]| {
-            let displacement_m = f32::from_le_bytes([x0, x1, x2, x3]);
-            (displacement_m, f32::from_le_bytes([f0, f1, f2, f3]))
+    let samples: Vec<HealthSample> = samples
+        .map(|[x0, x1, x2, x3, f0, f1, f2, f3]| HealthSample {
+            displacement_m: f32::from_le_bytes([x0, x1, x2, x3]),
+            force_n: f32::from_le_bytes([f0, f1, f2, f3]),
         })
         .collect();
     let history = watch(
         &model,
         samples
             .iter()
-            .map(|(x, force)| (f64::from(*x), f64::from(*force))),
+            .map(|sample| (f64::from(sample.displacement_m), f64::from(sample.force_n))),
         7.0,
     );
     for (part, expected) in samples.chunks(7000).zip(&history.readings) {

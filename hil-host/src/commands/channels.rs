@@ -94,7 +94,7 @@ fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overv
             None => line.push_str(&format!(" --{quantity} CHANNEL")),
         }
         let known_unit = channel.and_then(|channel| unit_of(channel, quantity));
-        let given = given.of(quantity).unit.map(|unit| unit.name());
+        let given = given.channel(quantity).unit.map(|unit| unit.name());
         if let Some(unit) = given {
             line.push_str(&format!(" --{quantity}-unit {unit}"));
         } else if known_unit.is_none() {
@@ -117,7 +117,7 @@ fn choice<'a>(
         let numbers = overview.channels.iter().filter(|c| c.first.is_some());
         numbers.filter(move |channel| group.is_none() || channel.group == group)
     };
-    if let Some(name) = &given.of(quantity).name {
+    if let Some(name) = &given.channel(quantity).name {
         return all().find(|c| c.name == *name || c.number.to_string() == *name);
     }
     let called = |c: &&ChannelOverview| c.name == quantity.column();

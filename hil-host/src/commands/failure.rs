@@ -49,6 +49,9 @@ pub enum Kind {
 pub(super) fn remedy(error: &LinkError) -> &'static str {
     match error {
         LinkError::Silent { .. } => "; use a longer --timeout-ms or more --tries",
+        LinkError::Emulator(EmulatorError::NotInstalled) => {
+            "; on Debian and Ubuntu: apt-get install qemu-system-arm"
+        }
         _ => "",
     }
 }
@@ -302,11 +305,10 @@ impl From<LinkError> for Failure {
         match error {
             LinkError::CannotReset => Self::new(format!("{error}; use `--link qemu`")),
             LinkError::ResetFaults => Self::wrong_use(format!("{error}; use `--link qemu`")),
-            LinkError::Emulator(EmulatorError::NoImage(_)) => {
-                Self::new(format!("{error}, or name one with --link qemu:IMAGE"))
-            }
-            LinkError::Silent { .. } => Self::new(format!("{error}{}", remedy(&error))),
-            other => Self::new(other.to_string()),
+            LinkError::Emulator(EmulatorError::NoImage(_)) => Self::new(format!(
+                "{error}; build it with `cargo xtask firmware`, or name one with --link qemu:IMAGE"
+            )),
+            _ => Self::new(format!("{error}{}", remedy(&error))),
         }
     }
 }
@@ -315,7 +317,7 @@ impl From<SessionError> for Failure {
     fn from(error: SessionError) -> Self {
         match error {
             SessionError::Link(error) => error.into(),
-            SessionError::Dampers { .. } => Self::wrong_use(format!("--damper: {error}")),
+            SessionError::DamperCount { .. } => Self::wrong_use(format!("--damper: {error}")),
             SessionError::After { ref source, .. } => {
                 Self::new(format!("{error}{}", remedy(source)))
             }

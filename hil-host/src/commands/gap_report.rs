@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::counted;
-use dashpot_recording::{GAP_IN_MEDIANS, Gaps, Place};
+use dashpot_recording::{GAP_IN_MEDIANS, Gaps, RowLocation};
 
 /// Prints warnings about omitted rows, a missing line end and gaps, if there are any.
 pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
@@ -28,7 +28,7 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
         counted(gaps.count, "gap"),
         longest.duration_s,
         longest.start_s,
-        place(longest.place)
+        place(longest.location)
     )
 }
 
@@ -39,9 +39,9 @@ pub(super) fn unended(line: u64) -> String {
     )
 }
 
-fn place(place: Place) -> String {
+fn place(place: RowLocation) -> String {
     match place {
-        Place::Line(line) => format!("line {line}"),
-        Place::Row(row) => format!("row {row}"),
+        RowLocation::Line(line) => format!("line {line}"),
+        RowLocation::Row(row) => format!("row {row}"),
     }
 }

@@ -32,16 +32,16 @@ fn a_jump_is_refused_before_it_is_filled() {
         // A jump forth and back: 9 million ticks at 1 ms.
         (
             &[9000.0, 0.011][..],
-            "run.csv:13: column time_s: time 0.011 s does not grow; the row before has 9000 s",
+            "run.csv:13: column time_s: time 0.011 s does not increase; the previous row has 9000 s",
         ),
         // Two jumps forth, and a jump for a few samples.
         (
             &[4000.0, 9000.0, 0.012],
-            "run.csv:14: column time_s: time 0.012 s does not grow; the row before has 9000 s",
+            "run.csv:14: column time_s: time 0.012 s does not increase; the previous row has 9000 s",
         ),
         (
             &[9000.0, 9000.001, 9000.002, 0.013],
-            "run.csv:15: column time_s: time 0.013 s does not grow; the row before has 9000.002 s",
+            "run.csv:15: column time_s: time 0.013 s does not increase; the previous row has 9000.002 s",
         ),
         // A single jump when the clock is set to the time of day: 100 million ticks.
         (

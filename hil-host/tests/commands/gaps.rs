@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use dashpot_recording::{Gaps, Place, Recording};
+use dashpot_recording::{Gaps, Recording, RowLocation};
 
 use crate::common::{dashpot, json_of, text_of};
 
@@ -45,7 +45,10 @@ fn intervals_over_five_medians_are_gaps() {
     assert_eq!(found.count, 2);
     assert_eq!(found.median_interval_s, Some(0.01));
     let longest = found.longest.unwrap();
-    assert_eq!((longest.duration_s, longest.place), (0.2, Place::Line(25)));
+    assert_eq!(
+        (longest.duration_s, longest.location),
+        (0.2, RowLocation::Line(25))
+    );
     assert!((longest.start_s - 0.3).abs() < 1e-12);
 }
 

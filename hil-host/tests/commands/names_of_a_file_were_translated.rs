@@ -30,19 +30,19 @@ const CASES: [Case; 13] = [
     (
         "time_s,we`g,--force\n0,1,2\n1,2,3\n",
         &[],
-        "run.csv: column displacement_m is missing; there are `time_s`, `we`g`, `--force`; choose one with --displacement NAME or its number\n",
+        "run.csv: column displacement_m is missing; the file has `time_s`, `we`g`, `--force`; choose one with --displacement NAME or its number\n",
         &["--displacement", "we`g", "--displacement-unit", "mm"],
     ),
     (
         "time_s,--force\n0,1\n1,2\n",
         &["--displacement=--force"],
-        "run.csv: the file does not tell the unit of --force; give it with --displacement-unit: m, cm, mm, um, in\n",
+        "run.csv: the file does not state the unit of --force; give it with --displacement-unit: m, cm, mm, um, in\n",
         &["--displacement=--force", "--displacement-unit", "m"],
     ),
     (
         "--time NAME,--force`\n0,1\n1,2\n",
         &["--displacement=--force`", "--displacement-unit", "m"],
-        "run.csv: column time_s is missing; there are `--time NAME`, `--force``; choose one with --time NAME or its number\n",
+        "run.csv: column time_s is missing; the file has `--time NAME`, `--force``; choose one with --time NAME or its number\n",
         &[
             "--displacement=2",
             "--displacement-unit=m",
@@ -64,7 +64,7 @@ const CASES: [Case; 13] = [
     (
         "time_s,displacement [m],displacement [mm]\n0,0,0\n1,0,0\n",
         &[],
-        "run.csv: displacement: `displacement [m]`, `displacement [mm]` may be meant; choose one with --displacement NAME or its number\n",
+        "run.csv: displacement: several channels match: `displacement [m]`, `displacement [mm]`; choose one with --displacement NAME or its number\n",
         &["--displacement", "displacement [mm]"],
     ),
     (
@@ -76,7 +76,7 @@ const CASES: [Case; 13] = [
     (
         "time_s;displacement_m\ns;mm\n0;0\n1;0\n",
         &[],
-        "run.csv: column displacement_m has the unit `mm`, which is not that of its name; give it with --displacement-unit: m, cm, mm, um, in\n",
+        "run.csv: column displacement_m has the unit `mm`, but its name ends with another unit; give it with --displacement-unit: m, cm, mm, um, in\n",
         &["--displacement-unit", "mm"],
     ),
     (
@@ -87,7 +87,7 @@ const CASES: [Case; 13] = [
             "--displacement=#2",
             "--displacement-unit=m",
         ],
-        "run.csv:1: `0 1` may be names of columns or a row; use --header yes or --header no\n",
+        "run.csv:1: `0 1` could be the header or the first row; use --header yes or --header no\n",
         &[
             "--header=no",
             "--time=#1",
@@ -99,8 +99,8 @@ const CASES: [Case; 13] = [
     (
         "time_s;displacement_m\n0,5;0.25\n1,5;0.5\n",
         &[],
-        "run.csv:2: column displacement_m: `0.25` has a decimal point, the numbers before it have another mark or another one was asked \
-         for; use --decimal-mark point or --decimal-mark comma\n",
+        "run.csv:2: column displacement_m: `0.25` has a decimal point, unlike the numbers before it or the chosen decimal mark; \
+         use --decimal-mark point or --decimal-mark comma\n",
         &[],
     ),
     (
@@ -125,7 +125,7 @@ const CASES: [Case; 13] = [
     (
         "time_s,displacement_m\n0,0\n1,0\n",
         &["--group", "fast"],
-        "run.csv: no group `fast`, or several; there are none in this file (by number or name); choose one with --group\n",
+        "run.csv: group `fast` is missing or ambiguous; groups (by number or name): none in this file; choose one with --group\n",
         &[],
     ),
     (
@@ -153,7 +153,7 @@ fn the_advice_of_the_command_works() {
         // A time that does not advance is a different case.
         match replayed(text, advised, folder.path()) {
             Ok(()) => {}
-            Err(error) => assert!(error.contains("does not grow"), "{error}"),
+            Err(error) => assert!(error.contains("does not increase"), "{error}"),
         }
     }
 }
@@ -164,6 +164,6 @@ fn the_list_of_channels_gives_advice() {
     std::fs::write(folder.path().join("run.csv"), "t`,--force\n0,1\n1,2\n").unwrap();
     let ended = dashpot(&["channels", "run.csv"], folder.path()).success();
     let text = crate::common::text_of(&ended);
-    let expected = "no time: column time_s is missing; there are `t``, `--force`; choose one with --time NAME or its number";
+    let expected = "no time: column time_s is missing; the file has `t``, `--force`; choose one with --time NAME or its number";
     assert!(text.contains(expected), "{text}");
 }

@@ -62,7 +62,7 @@ fn bad_recordings_are_reported_with_their_location_and_leave_no_output() {
     let cases: [(&[u8], &[&str]); 9] = [
         (
             b"time_s,displacement_m\n0,0\n0.1,0\n0.05,0\n",
-            &["in.csv:4: column time_s", "does not grow"],
+            &["in.csv:4: column time_s", "does not increase"],
         ),
         (
             b"time_s,displacement_m\n0,0\n0.1,NaN\n",
@@ -74,7 +74,7 @@ fn bad_recordings_are_reported_with_their_location_and_leave_no_output() {
         ),
         (
             b"time_s,displacement_m\n0,0\n0.1,1,2\n",
-            &["line 3", "3 cells where the header has 2"],
+            &["line 3", "3 cells, but the header has 2"],
         ),
         (
             b"time_s,force\n0,0\n",
@@ -82,7 +82,7 @@ fn bad_recordings_are_reported_with_their_location_and_leave_no_output() {
         ),
         (
             b"time_s,time_s,displacement_m\n0,0,0\n",
-            &["column time_s is in the header 2 times"],
+            &["column time_s appears 2 times in the header"],
         ),
         (b"", &["empty"]),
         (b"time_s,displacement_m\n", &["no row after the header"]),

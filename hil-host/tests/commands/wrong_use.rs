@@ -91,7 +91,7 @@ fn step_sizes() {
     wrong_use(
         &REPLAY,
         &["--realtime", "--step-us", "62.5"],
-        "allowed are 100 to 1000 us",
+        "allowed: 100 to 1000 us",
     );
     wrong_use(&REPLAY, &["--fifo", "10"], "require --realtime");
 }
@@ -281,7 +281,11 @@ fn verify_and_pil() {
         wrong_use(&VERIFY, &["--at-most", value], "allowed: a number above 0");
     }
     wrong_use(&PIL[..3], &["--link", "usb"], "allowed: tcp:HOST:PORT");
-    wrong_use(&PIL, &["--faults", "flood=1"], "is no fault; allowed: drop");
+    wrong_use(
+        &PIL,
+        &["--faults", "flood=1"],
+        "is not a fault; allowed: drop",
+    );
     wrong_use(&PIL, &["--faults", "drop=2"], "not within 0 to 0.5");
     for (option, value) in [
         ("--ticks", "0"),

@@ -94,7 +94,7 @@ fn another_number_of_dampers_is_refused_before_the_target_is_touched() {
         assert_eq!(
             refused.to_string(),
             format!(
-                "--damper: {count} dampers, the target has 3 places; allowed: 1, for all places, or 3, one for each"
+                "--damper: {count} dampers, but the target has 3 slots; allowed: 1 for all slots, or 3, one per slot"
             )
         );
         // Only the hello is sent.

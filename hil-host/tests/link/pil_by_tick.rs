@@ -58,7 +58,7 @@ fn zero_dampers_and_more_than_slots_are_refused() {
     for dampers in [0, 4] {
         let error = started(&vec![built("paper"); dampers]).unwrap_err();
         assert!(
-            matches!(error, SessionError::Places { places: 3, .. }),
+            matches!(error, SessionError::TooManyDampers { slots: 3, .. }),
             "{error}"
         );
     }

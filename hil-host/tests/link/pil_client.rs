@@ -71,7 +71,7 @@ fn a_session_number_in_use_is_skipped() {
     assert!(matches!(lost, Err(LinkError::SessionLost)));
     let reported = LinkError::SessionLost.to_string();
     assert!(
-        reported.contains("another program said hello"),
+        reported.contains("another program opened a session"),
         "{reported}"
     );
     first.hello().unwrap();

@@ -215,7 +215,7 @@ fn a_wrong_number_of_dampers_is_wrong_use() {
     pil(&[&THREE[..4], &files].concat(), folder.path())
         .code(2)
         .stderr(contains(
-            "2 dampers, the target has 3 places; allowed: 1, for all places, or 3",
+            "2 dampers, but the target has 3 slots; allowed: 1 for all slots, or 3",
         ));
     assert_eq!(files_in(folder.path()), ["in.csv"]);
 }

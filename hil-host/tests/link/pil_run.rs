@@ -27,7 +27,7 @@ fn drive(rates: &str, seed: u64) -> (Report, FaultCounts) {
             |_| Ok(()),
         )
         .unwrap_or_else(|failure| panic!("{rates:?}: {failure}"));
-    (report, session.link().faults_made())
+    (report, session.link().injected_faults())
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn every_tick_reports_its_events() {
             },
         )
         .unwrap();
-    let made = session.link().faults_made();
+    let made = session.link().injected_faults();
     let ticks_with = |event| {
         reported
             .iter()
@@ -188,7 +188,7 @@ fn a_target_that_cannot_be_compared_is_refused() {
     ));
     let message = step.unwrap_err().to_string();
     assert!(
-        message.contains("0.001 s, the target steps 0.0005 s"),
+        message.contains("0.001 s, but the step of the target is 0.0005 s"),
         "{message}"
     );
 }
@@ -270,7 +270,7 @@ fn faults_are_checked() {
         ("drop", "`drop` is not KIND=PROBABILITY"),
         (
             "lose=0.1",
-            "`lose` is no fault; allowed: drop, corrupt, delay, duplicate, reorder, reset",
+            "`lose` is not a fault; allowed: drop, corrupt, delay, duplicate, reorder, reset",
         ),
         ("drop=0.6", "drop: `0.6` is not within 0 to 0.5"),
         ("drop=nan", "drop: `nan` is not within 0 to 0.5"),

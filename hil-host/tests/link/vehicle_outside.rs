@@ -193,7 +193,7 @@ fn more_dampers_than_slots_are_refused() {
         options.extend(["--outside", option.as_str()]);
     }
     vehicle(&options, folder.path()).code(2).stderr(contains(
-        "4 dampers, the target has 3 places; allowed: 1 to 3",
+        "4 dampers, but the target has 3 slots; allowed: 1 to 3",
     ));
 }
 
@@ -245,7 +245,7 @@ fn a_nan_force_ends_the_run() {
         folder.path(),
     );
     assert!(
-        error.contains("at tick 250: the target gave the force NaN N"),
+        error.contains("at tick 250: the target returned the force NaN N"),
         "{error}"
     );
 }
@@ -308,9 +308,9 @@ fn too_short_a_recording_is_refused() {
     let rows = [
         (
             "0.002,0\n0.7,0\n",
-            "it lasts from 0.002 s to 0.7 s, the run takes a force from 0.001 s to 0.6 s",
+            "the recording covers 0.002 s to 0.7 s, but the run needs a force from 0.001 s to 0.6 s",
         ),
-        ("0,0\n0.599,0\n", "it lasts from 0 s to 0.599 s"),
+        ("0,0\n0.599,0\n", "the recording covers 0 s to 0.599 s"),
     ];
     let option = outside(LATERAL, "force.csv");
     for (rows, message) in rows {
@@ -333,12 +333,12 @@ fn a_wrong_recording_is_reported_with_its_columns() {
             "time_s,displacement_m\n0,0\n1,0\n",
             "column force_n is missing",
         ),
-        ("", "or `time_s,force_n`, and at least one row, are needed"),
+        ("", "or `time_s,force_n` and at least one row"),
         (
             "time_s,force_n\n0,0\n1,x\n",
             "force.csv:3: column force_n: `x` is not a finite number",
         ),
-        ("time_s,force_n\n1,0\n0,0\n", "time 0 s does not grow"),
+        ("time_s,force_n\n1,0\n0,0\n", "time 0 s does not increase"),
     ];
     let option = outside(LATERAL, "force.csv");
     for (text, message) in texts {

@@ -74,7 +74,7 @@ fn recorded_forces_name_an_incomplete_last_line() {
     let path = folder.path().join("force.csv");
     for (rows, expected) in [("0,0\n1,125", Some(3)), ("0,0\n1,1250.5\n", None)] {
         std::fs::write(&path, format!("time_s,force_n\n{rows}")).unwrap();
-        let history = ForceHistory::open(&path, [0.0, 1.0]).unwrap();
+        let history = ForceHistory::open(&path, 0.0..=1.0).unwrap();
         assert_eq!(history.unended_line(), expected);
     }
 }

@@ -73,7 +73,7 @@ fn numbers_that_are_not_those_of_the_file_are_refused() {
             }
             Err(error) => {
                 let error = error.to_string();
-                let expected = "displacement: channel displacement_m holds ";
+                let expected = "displacement: channel displacement_m contains ";
                 assert!(!is_read && error.contains(expected), "{converted}: {error}");
             }
         }

@@ -142,14 +142,14 @@ fn other_widths_and_bit_offsets_are_refused() {
             &records,
         );
         let error = displacements(&path, "Weg").unwrap_err();
-        let expected = format!("odd.mf4: displacement: channel Weg holds {expected}");
+        let expected = format!("odd.mf4: displacement: channel Weg contains {expected}");
         assert!(error.ends_with(&expected), "{error}");
         // The other channels are read, and the list names the unreadable one.
         let list = overview(&path, &Channels::default()).unwrap();
         assert_eq!(list.channels[0].first, Some(0.0));
         assert_eq!((list.channels[1].first, list.channels[1].rows), (None, 9));
         let listed = text_of(&dashpot(&["channels", "odd.mf4"], folder.path()).success());
-        let reason = expected.split_once(" holds ").unwrap().1;
+        let reason = expected.split_once(" contains ").unwrap().1;
         assert!(
             listed.contains(&format!("warning: channel Weg is not read: {reason}")),
             "{listed}"

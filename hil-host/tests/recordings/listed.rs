@@ -79,11 +79,11 @@ fn files_that_are_no_recordings_are_refused() {
     std::fs::write(folder.path().join("header.csv"), "time_s,displacement_m\n").unwrap();
     std::fs::write(folder.path().join("book.xlsx"), b"PK\x03\x04\x14\0\x06\0").unwrap();
     for (file, expected) in [
-        ("empty.csv", "empty.csv: empty"),
+        ("empty.csv", "empty.csv: the file is empty"),
         ("header.csv", "header.csv: no row after the header"),
         (
             "book.xlsx",
-            "book.xlsx: it is a zip archive or a workbook of Excel",
+            "book.xlsx: the file is a zip archive or an Excel workbook",
         ),
         ("none.csv", "none.csv: cannot read"),
     ] {

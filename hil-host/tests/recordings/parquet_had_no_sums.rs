@@ -6,13 +6,17 @@ use std::io::Cursor;
 use std::path::Path;
 
 use dashpot_recording::columns;
-use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_recording::{Channels, MeasuredSample, Measurement};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use crate::common::{dashpot, error_of, files_in};
 
-const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
+const COLUMNS: [Column; 3] = [
+    Column::new("time_s", "s"),
+    Column::new("displacement_m", "m"),
+    Column::new("force_n", "N"),
+];
 
 fn read(bytes: &[u8]) -> Result<Vec<MeasuredSample>, String> {
     let source = Box::new(Cursor::new(bytes.to_vec()));
@@ -25,7 +29,7 @@ fn read(bytes: &[u8]) -> Result<Vec<MeasuredSample>, String> {
 fn own(folder: &Path, rows: usize) -> Vec<u8> {
     let path = folder.join("own.parquet");
     let mut file = File::create(&path).unwrap();
-    let mut written = Written::new(&path, &mut file, Form::Parquet, &COLUMNS).unwrap();
+    let mut written = RowWriter::new(&path, &mut file, FileFormat::Parquet, &COLUMNS).unwrap();
     for row in 0..rows {
         let time_s = row as f64 / 1e3;
         let values = [time_s, 1e-2 * (8.8 * time_s).sin(), 8e3 * time_s.cos()];

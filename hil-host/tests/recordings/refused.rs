@@ -28,7 +28,7 @@ fn an_ambiguous_group_must_be_chosen() {
         (
             "groups.mf4",
             named("Weg", "Temperatur"),
-            "`degC`, which the file says is the unit of Temperatur, is not one of force",
+            "the file states the unknown unit `degC` for Temperatur; known units of force:",
         ),
         (
             "groups.mf4",
@@ -38,7 +38,7 @@ fn an_ambiguous_group_must_be_chosen() {
         (
             "groups.mf4",
             no_group,
-            "no group `schnell`, or several; there are 1 `langsam`, 2 `Messung`",
+            "group `schnell` is missing or ambiguous; groups (by number or name): 1 `langsam`, 2 `Messung`",
         ),
         (
             "groups.mf4",
@@ -48,12 +48,12 @@ fn an_ambiguous_group_must_be_chosen() {
         (
             "plain.mf4",
             named("Weg", "force"),
-            "column force is missing; there are `time`, `Weg`, `Kraft`",
+            "column force is missing; the file has `time`, `Weg`, `Kraft`",
         ),
         (
             "units.parquet",
             named("x", "F"),
-            "column time_s is missing; there are `t`, `x`, `F`",
+            "column time_s is missing; the file has `t`, `x`, `F`",
         ),
     ];
     for (file, channels, expected) in cases {
@@ -68,6 +68,6 @@ fn an_ambiguous_group_must_be_chosen() {
     let error = rows(&path, &only_displacement)
         .expect_err("several")
         .to_string();
-    let expected = "channel Weg is in the groups 1 (langsam), 2 (Messung)";
+    let expected = "channel Weg is in several groups: 1 (langsam), 2 (Messung)";
     assert!(error.contains(expected), "{error}");
 }

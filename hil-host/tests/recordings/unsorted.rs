@@ -101,6 +101,6 @@ fn records_divided_between_blocks_are_refused() {
         &samples(),
     );
     let error = error_of(&ended);
-    assert!(error.contains("it says that it has 60 rows"), "{error}");
+    assert!(error.contains("the file declares 60 rows"), "{error}");
     ended.code(1);
 }

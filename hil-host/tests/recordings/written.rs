@@ -45,7 +45,7 @@ fn a_failed_replay_leaves_no_file() {
     for output in ["force.parquet", "force.mf4"] {
         let arguments = ["replay", "--input", "in.csv", "--output", output];
         let ended = dashpot(&arguments, folder.path());
-        assert!(error_of(&ended).contains("in.csv:4: column time_s: time 0.5 s does not grow"));
+        assert!(error_of(&ended).contains("in.csv:4: column time_s: time 0.5 s does not increase"));
         ended.code(1);
         assert_eq!(files_in(folder.path()), ["in.csv"]);
     }

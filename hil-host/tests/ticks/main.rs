@@ -54,7 +54,7 @@ fn driven(ticks: u64, between: impl FnMut()) {
     assert_eq!((driven.ticks, driven.waits), (ticks, 0));
     assert_eq!(pacer.report().ticks, ticks);
     let mut records = 0;
-    while taker.take(|_| records += 1) {}
+    while taker.receive(|_| records += 1) {}
     assert_eq!(records, ticks);
 }
 

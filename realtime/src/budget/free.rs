@@ -1,15 +1,15 @@
-//! A free run: one tick after another.
+//! Timing of a free run: each tick starts when the previous one ends.
 
 use super::{Length, Run, Series, stop};
 use crate::pacing::{Clock, FIRST_TICKS};
 use crate::timing::Distribution;
 
-/// Ticks timed together, so that reading the clock costs each a hundredth of itself.
+/// Number of ticks per batch, so that each tick carries only a hundredth of the cost of reading the clock.
 const BATCH: u64 = 100;
 
-/// Times `tick` one by one, then in batches of a hundred; each pass has all the ticks of `length`, or half
-/// its time, and counts them from 0. What two readings of the clock take, `overhead_ns`, is taken
-/// off. A tick timed alone that takes longer than `stop_above_ns` ends the run.
+/// Times `tick` in two passes: first each tick alone, then batches of a hundred ticks. Each pass runs all ticks of
+/// `length`, or half its time. `overhead_ns`, the cost of two clock readings, is subtracted from all results. The run
+/// ends when a single tick takes longer than `stop_above_ns`.
 pub fn free(
     clock: &impl Clock,
     overhead_ns: u64,
@@ -22,7 +22,7 @@ pub fn free(
     let mut stopped = None;
     let (mut single, mut batched) = (Distribution::new(), Distribution::new());
     let mut pass = Pass::new(clock, length);
-    while stopped.is_none() && pass.goes_on() {
+    while stopped.is_none() && pass.has_ticks_left() {
         let number = single.count();
         let elapsed_ns = pass.time(1, &mut tick);
         let work_ns = elapsed_ns.saturating_sub(overhead_ns) as f64;
@@ -33,7 +33,7 @@ pub fn free(
         stopped = stop(number, step_s, work_ns, stop_above_ns);
     }
     let mut pass = Pass::new(clock, length);
-    while stopped.is_none() && pass.goes_on() {
+    while stopped.is_none() && pass.has_ticks_left() {
         let work_ns = pass.time(BATCH, &mut tick).saturating_sub(overhead_ns);
         batched.record_ns(work_ns as f64 / BATCH as f64);
     }
@@ -77,8 +77,8 @@ impl<'a, C: Clock> Pass<'a, C> {
         }
     }
 
-    /// Whether ticks or time are left; the first tick always runs.
-    fn goes_on(&self) -> bool {
+    /// True if ticks or time are left; the first tick always runs.
+    fn has_ticks_left(&self) -> bool {
         match self.length {
             Length::Ticks(ticks) => self.ticks < ticks,
             Length::Nanoseconds(run_ns) => {
@@ -87,7 +87,7 @@ impl<'a, C: Clock> Pass<'a, C> {
         }
     }
 
-    /// Runs `ticks` ticks; from before to after them (ns).
+    /// Runs `ticks` ticks and returns their duration (ns).
     fn time(&mut self, ticks: u64, tick: &mut impl FnMut()) -> u64 {
         let before_ns = self.clock.now_ns();
         (0..ticks).for_each(|_| tick());

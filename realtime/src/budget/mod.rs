@@ -1,4 +1,4 @@
-//! Time per tick on this host, free running or in real ticks.
+//! Time per tick on this machine, in free or paced runs.
 
 mod free;
 mod paced;
@@ -10,42 +10,42 @@ use crate::RealtimeError;
 use crate::stop::Stop;
 use crate::timing::Distribution;
 
-/// How long a run lasts.
+/// Length of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Length {
-    /// So many ticks.
+    /// Number of ticks.
     Ticks(u64),
-    /// So many nanoseconds of the clock.
+    /// Duration on the clock (ns).
     Nanoseconds(u64),
 }
 
 /// Time spans of one kind.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// What they are spans of.
+    /// What was timed.
     pub name: &'static str,
-    /// Ticks from one span to the next.
+    /// Number of ticks per span.
     pub ticks_per_span: u64,
-    /// The spans.
+    /// Distribution of the spans.
     pub spans: Distribution,
 }
 
-/// What a run found.
+/// Result of a run.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// Ticks timed.
+    /// Number of timed ticks.
     pub ticks: u64,
-    /// Ticks whose work ended after the next tick was due; `None` free running.
+    /// Number of ticks whose work ended after the next tick was due; `None` in free runs.
     pub missed_deadlines: Option<u64>,
-    /// Why the run ended early, if it did.
+    /// Tick that ended the run early, if any.
     pub stopped: Option<Stop>,
-    /// Work of the first ticks, caches cold (ns).
+    /// Durations of the first ticks, with cold caches (ns).
     pub first_ticks_ns: Vec<u64>,
-    /// The spans by kind, those that were counted.
+    /// Spans by kind, without empty kinds.
     pub series: Vec<Series>,
 }
 
-/// The stop that a tick's work calls for under a limit.
+/// Returns a stop if the work of a tick exceeds the limit.
 fn stop(tick: u64, step_s: f64, work_ns: f64, limit_ns: Option<u64>) -> Option<Stop> {
     let limit_ns = limit_ns.filter(|limit| work_ns > *limit as f64)?;
     Some(Stop {
@@ -57,10 +57,10 @@ fn stop(tick: u64, step_s: f64, work_ns: f64, limit_ns: Option<u64>) -> Option<S
 }
 
 impl Run {
-    /// Whether the run met its limits.
+    /// Checks that the run met its limits.
     ///
     /// # Errors
-    /// It was stopped, or with `fail_on_miss` a deadline was missed.
+    /// A slow tick ended the run, or with `fail_on_miss` a deadline was missed.
     pub fn verdict(&self, fail_on_miss: bool) -> Result<(), RealtimeError> {
         if let Some(stop) = self.stopped {
             return Err(RealtimeError::Stopped(stop));

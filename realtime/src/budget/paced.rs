@@ -1,9 +1,9 @@
-//! A run in real ticks.
+//! Timing of a paced run.
 
 use super::{Length, Run, Series, stop};
 use crate::pacing::{Clock, Pacer};
 
-/// Runs `tick` at the ticks of `pacer`. A tick whose work takes longer than `stop_above_ns` ends the run.
+/// Runs `tick` at the ticks of `pacer`. The run ends when the work of a tick takes longer than `stop_above_ns`.
 pub fn paced<C: Clock>(
     mut pacer: Pacer<C>,
     length: Length,

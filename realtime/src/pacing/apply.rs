@@ -1,4 +1,4 @@
-//! Options that make a thread real-time; each is requested from the system, which may refuse it.
+//! Applies real-time options to a thread. The system may refuse each of them.
 
 use crate::RealtimeError;
 use crate::options::{RealtimeOption, RealtimeOptions};
@@ -14,10 +14,10 @@ impl RealtimeOption {
 
 #[cfg(target_os = "linux")]
 impl RealtimeOptions {
-    /// Applies the options to the calling thread (memory: to the process), the core first.
+    /// Applies the options to the calling thread, starting with the core. Locking applies to the memory of the process.
     ///
     /// # Errors
-    /// The first option the system does not allow, with what is missing.
+    /// The system refuses an option; the error states the missing permission.
     pub fn apply(&self) -> Result<(), RealtimeError> {
         if let Some(core) = self.core {
             pin(core)?;
@@ -37,7 +37,7 @@ impl RealtimeOptions {
     /// Applies the options to the calling thread.
     ///
     /// # Errors
-    /// Any option: they need Linux.
+    /// Any option is set: all of them need Linux.
     pub fn apply(&self) -> Result<(), RealtimeError> {
         let options = [
             self.fifo_priority.map(RealtimeOption::FifoPriority),
@@ -45,7 +45,9 @@ impl RealtimeOptions {
             self.core.map(RealtimeOption::Core),
         ];
         match options.into_iter().flatten().next() {
-            Some(option) => Err(option.refused("not on this system, it needs Linux".into())),
+            Some(option) => {
+                Err(option.refused("not supported on this system; it needs Linux".into()))
+            }
             None => Ok(()),
         }
     }
@@ -58,8 +60,11 @@ fn pin(core: usize) -> Result<(), RealtimeError> {
 
     let this_thread = Pid::from_raw(0);
     let refused = |reason: String| RealtimeOption::Core(core).refused(reason);
-    let granted = sched_getaffinity(this_thread)
-        .map_err(|error| refused(format!("the system does not tell its cores: {error}")))?;
+    let granted = sched_getaffinity(this_thread).map_err(|error| {
+        refused(format!(
+            "the system does not list the allowed cores: {error}"
+        ))
+    })?;
     let allowed: Vec<usize> = (0..CpuSet::count())
         .filter(|core| granted.is_set(*core).unwrap_or(false))
         .collect();

@@ -1,14 +1,14 @@
-//! The clock a pacer lives by.
+//! Clocks of a pacer.
 
-/// A monotonic clock that can be slept on until an absolute time.
+/// A monotonic clock that can sleep until an absolute time.
 pub trait Clock {
-    /// Time since an origin of the clock's own (ns).
+    /// Time since an arbitrary origin (ns).
     fn now_ns(&self) -> u64;
-    /// Returns at `deadline_ns` or, as the system's scheduler has it, after.
+    /// Sleeps until `deadline_ns` or, depending on the scheduler of the system, slightly longer.
     fn sleep_until_ns(&self, deadline_ns: u64);
 }
 
-/// The system's monotonic clock: absolute deadlines on Linux, relative sleeps elsewhere.
+/// Monotonic clock of the system. It sleeps until absolute deadlines on Linux, and for relative times elsewhere.
 #[derive(Debug, Clone, Copy)]
 pub struct MonotonicClock {
     origin: std::time::Instant,
@@ -33,7 +33,7 @@ impl Clock for MonotonicClock {
         use nix::sys::time::TimeSpec;
         use nix::time::{ClockId, ClockNanosleepFlags, clock_gettime, clock_nanosleep};
 
-        // Instant hides its zero, so the deadline is carried over to CLOCK_MONOTONIC each time.
+        // The origin of `Instant` is private, so each deadline is converted to CLOCK_MONOTONIC.
         let Some(left) = deadline_ns.checked_sub(self.now_ns()) else {
             return;
         };
@@ -58,8 +58,8 @@ impl Clock for MonotonicClock {
     }
 }
 
-/// Cost of reading the clock twice in a row (ns), median of ten thousand: what every time span
-/// measured with it holds beside the work.
+/// Measures the cost of two consecutive clock readings (ns), median of ten thousand. Every span measured with the clock
+/// includes this cost.
 pub fn overhead_ns(clock: &impl Clock) -> u64 {
     let mut spans: Vec<u64> = (0..10_000)
         .map(|_| {

@@ -1,4 +1,4 @@
-//! Real ticks at a fixed rate: absolute deadlines, so lateness does not add up.
+//! Paces ticks at a fixed rate in real time. Deadlines are absolute, so lateness does not accumulate.
 
 mod apply;
 mod clock;
@@ -10,13 +10,13 @@ use crate::limits::{RATE_RANGE_HZ, TICKS_PER_ALLOWED_MISS};
 use crate::options::RealtimeOptions;
 use crate::timing::Distribution;
 
-/// Ticks listed one by one after the start.
+/// Number of first ticks that are reported one by one.
 pub const FIRST_TICKS: usize = 8;
 
 /// Paces the work of ticks: tick n is due n steps after tick 0.
 ///
-/// No tick is left out: after an overrun the next ones start late, at once, until the work has caught
-/// up. A tick misses its deadline when its work ends after the next tick is due.
+/// No tick is skipped: after an overrun, the next ticks start immediately until the work has caught up. A tick misses
+/// its deadline if its work ends after the next tick is due.
 ///
 /// ```
 /// use dashpot_realtime::pacing::Pacer;
@@ -33,56 +33,56 @@ pub const FIRST_TICKS: usize = 8;
 pub struct Pacer<C: Clock = MonotonicClock> {
     clock: C,
     step_ns: f64,
-    /// When tick 0 is or would have been due.
+    /// Time at which tick 0 is or would have been due.
     origin_ns: Option<f64>,
-    /// The tick that [`Self::release`] has begun.
+    /// Tick that [`Self::release`] has started.
     open: Option<TickTiming>,
     report: PacingReport,
 }
 
-/// When a tick was due and when its work began.
+/// Times at which a tick was due and its work started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[must_use = "hand it to Pacer::finish after the work"]
+#[must_use = "pass it to Pacer::finish after the work"]
 pub struct TickTiming {
     /// Number of the tick.
     pub tick: u64,
-    /// Due, on the pacer's clock (ns).
+    /// Time at which the tick was due on the clock of the pacer (ns).
     pub due_ns: u64,
-    /// Work began after it was due by (ns).
+    /// Delay from due to the start of the work (ns).
     pub late_ns: u64,
 }
 
-/// A tick whose work has ended.
+/// Result of a tick after its work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FinishedTick {
-    /// From the work's begin to its end (ns).
+    /// Duration of the work (ns).
     pub work_ns: u64,
-    /// Whether the work ended before the next tick was due.
+    /// True if the work ended before the next tick was due.
     pub met_deadline: bool,
 }
 
-/// What a pacer saw.
+/// Statistics of a pacer.
 #[derive(Debug, Clone)]
 pub struct PacingReport {
-    /// Ticks finished.
+    /// Number of finished ticks.
     pub ticks: u64,
-    /// Ticks whose work ended after the next tick was due.
+    /// Number of ticks whose work ended after the next tick was due.
     pub missed_deadlines: u64,
-    /// From due to the work's begin (ns).
+    /// Time from due to the start of the work (ns).
     pub lateness: Distribution,
-    /// From the work's begin to its end, one clock reading within (ns).
+    /// Duration of the work, including one clock reading (ns).
     pub work: Distribution,
-    /// From due to the work's end (ns).
+    /// Time from due to the end of the work (ns).
     pub response: Distribution,
-    /// Work of the first ticks, caches cold (ns).
+    /// Durations of the work of the first ticks, with cold caches (ns).
     pub first_work_ns: Vec<u64>,
 }
 
 impl PacingReport {
-    /// Whether the ticks were on time: at most one in [`TICKS_PER_ALLOWED_MISS`] missed its deadline.
+    /// Checks that at most one tick in [`TICKS_PER_ALLOWED_MISS`] missed its deadline.
     ///
     /// # Errors
-    /// More missed.
+    /// More ticks missed their deadlines.
     pub fn verdict(&self) -> Result<(), RealtimeError> {
         let Self {
             ticks,
@@ -97,11 +97,11 @@ impl PacingReport {
 }
 
 impl Pacer<MonotonicClock> {
-    /// A pacer of `step_s` (s) on the system's clock, with the thread that calls it made real-time as
-    /// `options` ask.
+    /// Creates a pacer with a step of `step_s` (s) on the clock of the system, and applies `options` to the calling
+    /// thread.
     ///
     /// # Errors
-    /// The step is out of 100 us to 1 ms (10 to 1 kHz), or the system refuses an option.
+    /// The step is not within 100 us to 1 ms (10 to 1 kHz), or the system refuses an option.
     pub fn new(step_s: f64, options: &RealtimeOptions) -> Result<Self, RealtimeError> {
         let pacer = Self::with_clock(step_s, MonotonicClock::default())?;
         options.apply()?;
@@ -110,16 +110,16 @@ impl Pacer<MonotonicClock> {
 }
 
 impl<C: Clock> Pacer<C> {
-    /// A pacer on a clock given.
+    /// Creates a pacer with a step of `step_s` (s) on the given clock.
     ///
     /// # Errors
-    /// The step is out of 100 us to 1 ms.
+    /// The step is not within 100 us to 1 ms.
     pub fn with_clock(step_s: f64, clock: C) -> Result<Self, RealtimeError> {
         let (shortest_s, longest_s) = (
             1.0 / f64::from(*RATE_RANGE_HZ.end()),
             1.0 / f64::from(*RATE_RANGE_HZ.start()),
         );
-        // Half a nanosecond more either way: a step of 1/10000 s may be written in two ways.
+        // A tolerance of half a nanosecond accepts rounded steps such as 1/10000 s.
         if !(shortest_s - 5e-10..=longest_s + 5e-10).contains(&step_s) {
             return Err(RealtimeError::Step {
                 step_us: step_s * 1e6,
@@ -141,7 +141,7 @@ impl<C: Clock> Pacer<C> {
         })
     }
 
-    /// Sleeps until `tick` is due. The first call sets the time line: its tick is due a step later.
+    /// Sleeps until `tick` is due. The first call starts the schedule: its tick is due one step later.
     pub fn wait(&mut self, tick: u64) -> TickTiming {
         let now_ns = self.clock.now_ns();
         self.wait_from(tick, now_ns)
@@ -152,7 +152,7 @@ impl<C: Clock> Pacer<C> {
         let origin_ns = *self
             .origin_ns
             .get_or_insert(now_ns as f64 + self.step_ns - offset_ns);
-        // Exact to the nanosecond for 2^53 ns, a hundred days.
+        // Exact to the nanosecond for 2^53 ns, about a hundred days.
         let due_ns = (origin_ns + offset_ns).round() as u64;
         if now_ns < due_ns {
             self.clock.sleep_until_ns(due_ns);
@@ -164,8 +164,9 @@ impl<C: Clock> Pacer<C> {
         }
     }
 
-    /// Ends the work of the tick before, and sleeps until `tick` is due: the work of a tick is all that happens from its release to the
-    /// next one, its booking included. In place of [`Self::wait`] and [`Self::finish`], with [`Self::end`] after the last tick.
+    /// Ends the work of the previous tick and sleeps until `tick` is due. The work of a tick is then everything between
+    /// two releases, including the statistics. Use this instead of [`Self::wait`] and [`Self::finish`], and call
+    /// [`Self::end`] after the last tick.
     ///
     /// ```
     /// use dashpot_realtime::pacing::Pacer;
@@ -185,25 +186,25 @@ impl<C: Clock> Pacer<C> {
         let timing = self.wait_from(tick, now_ns);
         self.open = Some(timing);
         if let Some(before) = before {
-            self.book(before, now_ns);
+            self.record(before, now_ns);
         }
     }
 
-    /// Ends the work of the tick that [`Self::release`] began, if one did.
+    /// Ends the work of the tick that [`Self::release`] started, if there is one.
     pub fn end(&mut self) {
         if let Some(open) = self.open.take() {
             let now_ns = self.clock.now_ns();
-            self.book(open, now_ns);
+            self.record(open, now_ns);
         }
     }
 
-    /// Ends the work of a tick and books it.
+    /// Ends the work of a tick and records it.
     pub fn finish(&mut self, timing: TickTiming) -> FinishedTick {
         let now_ns = self.clock.now_ns();
-        self.book(timing, now_ns)
+        self.record(timing, now_ns)
     }
 
-    fn book(&mut self, timing: TickTiming, ended_ns: u64) -> FinishedTick {
+    fn record(&mut self, timing: TickTiming, ended_ns: u64) -> FinishedTick {
         let response_ns = ended_ns.saturating_sub(timing.due_ns);
         let work_ns = response_ns.saturating_sub(timing.late_ns);
         let report = &mut self.report;
@@ -222,12 +223,12 @@ impl<C: Clock> Pacer<C> {
         }
     }
 
-    /// What was seen so far.
+    /// Statistics so far.
     pub fn report(&self) -> &PacingReport {
         &self.report
     }
 
-    /// What was seen, of a pacer that is done.
+    /// Returns the statistics after the last tick.
     pub fn into_report(self) -> PacingReport {
         self.report
     }
@@ -237,7 +238,7 @@ impl<C: Clock> Pacer<C> {
         self.step_ns * 1e-9
     }
 
-    /// The clock.
+    /// Returns the clock.
     pub fn clock(&self) -> &C {
         &self.clock
     }

@@ -1,8 +1,8 @@
-//! Bins of a histogram of time spans, the same whatever the spans are, so that runs compare bin by bin.
+//! Fixed histogram bins for time spans, so that runs can be compared bin by bin.
 
 use serde::Serialize;
 
-/// Preferred numbers R10 of ISO 3: ten borders a decade, each a quarter above the one before.
+/// Preferred numbers R10 of ISO 3: ten borders per decade, with ratios of about 1.25.
 const R10: [f64; 10] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0];
 /// Decades of borders: from 1 ns to 10 s.
 const DECADES: usize = 10;
@@ -24,19 +24,19 @@ const fn borders_ns() -> [f64; BORDERS] {
     borders
 }
 
-/// A bin: spans of at least `from_ns` and less than `to_ns`. Borders are 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5,
-/// 6.3 and 8 times the powers of ten from 1 ns to 10 s; the first bin begins at 0, the last has no end.
+/// A bin with spans of at least `from_ns` and less than `to_ns`. Borders are 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3 and
+/// 8 times the powers of ten from 1 ns to 10 s. The first bin starts at 0, and the last one has no upper border.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bin {
-    /// Lower border (ns), in the bin.
+    /// Lower border (ns), inclusive.
     pub from_ns: f64,
-    /// Upper border (ns), in the next bin; `None` for the last.
+    /// Upper border (ns), exclusive; `None` for the last bin.
     pub to_ns: Option<f64>,
-    /// Spans in the bin.
+    /// Number of spans in the bin.
     pub count: u64,
 }
 
-/// Counts of every bin.
+/// Number of spans in each bin.
 #[derive(Debug, Clone)]
 pub(super) struct Bins([u64; BORDERS + 1]);
 
@@ -52,7 +52,7 @@ impl Bins {
         self.0[BORDERS_NS.partition_point(|border| *border <= span_ns)] += 1;
     }
 
-    /// The bins that hold spans, shortest first.
+    /// Returns the bins that are not empty, in increasing order.
     pub(super) fn occupied(&self) -> Vec<Bin> {
         let border = |index: usize| BORDERS_NS.get(index).copied();
         let bins = self.0.iter().enumerate().map(|(index, &count)| Bin {

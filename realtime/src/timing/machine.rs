@@ -1,4 +1,4 @@
-//! The machine a time was measured on.
+//! Description of the machine on which times are measured.
 
 use std::fmt;
 use std::fs;
@@ -7,39 +7,39 @@ use std::time::SystemTime;
 
 use serde::Serialize;
 
-/// What decides how long a step takes besides the program. What the system does not report, as in a
-/// container without `/proc` or outside Linux, is `None`.
+/// Description of the machine on which times are measured. Properties that the system does not report, for example in a
+/// container without `/proc` or outside Linux, are `None`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Machine {
     /// Model of the processor.
     pub processor: Option<String>,
-    /// Its architecture.
+    /// Architecture of the processor.
     pub architecture: &'static str,
-    /// The operating system.
+    /// Operating system.
     pub system: &'static str,
-    /// Release of its kernel.
+    /// Release of the kernel.
     pub kernel: Option<String>,
-    /// Frequency governor of the processor's cores; several where they differ.
+    /// Frequency governor of the cores; several if they differ.
     pub governor: Option<String>,
-    /// Mean number of tasks that run or want to, over 1, 5 and 15 minutes.
+    /// Mean number of running or waiting tasks over 1, 5 and 15 minutes.
     pub load_average: Option<[f64; 3]>,
-    /// When this was read, UTC.
+    /// Date and time of this description, UTC.
     pub date: String,
 }
 
 impl Machine {
-    /// This machine at the time `now`, from Linux's `proc` and `sys` folders under `root`, which is `/`
-    /// outside tests. `core` is the one the program is pinned to; the governor is then that core's.
+    /// Describes this machine at the time `now`, from the Linux directories `proc` and `sys` under `root` (`/` except
+    /// in tests). If the program is pinned to `core`, the governor is that of this core.
     pub fn read(root: &Path, core: Option<usize>, now: SystemTime) -> Self {
         let text = |path: &str| fs::read_to_string(root.join(path)).ok();
         Self {
             processor: text("proc/cpuinfo")
                 .and_then(|cpuinfo| model_name(&cpuinfo))
-                // On ARM the name of the board.
-                .or_else(|| text("proc/device-tree/model").and_then(|model| filled(&model))),
+                // On ARM this is the name of the board.
+                .or_else(|| text("proc/device-tree/model").and_then(|model| trimmed(&model))),
             architecture: std::env::consts::ARCH,
             system: std::env::consts::OS,
-            kernel: text("proc/sys/kernel/osrelease").and_then(|release| filled(&release)),
+            kernel: text("proc/sys/kernel/osrelease").and_then(|release| trimmed(&release)),
             governor: governor(root, core),
             load_average: text("proc/loadavg").and_then(|loads| load_average(&loads)),
             date: humantime::format_rfc3339_seconds(now).to_string(),
@@ -47,8 +47,8 @@ impl Machine {
     }
 }
 
-/// `text` without spaces and zero bytes around it; `None` when nothing is left.
-fn filled(text: &str) -> Option<String> {
+/// Trims whitespace and zero bytes; returns `None` if nothing is left.
+fn trimmed(text: &str) -> Option<String> {
     let text = text.trim_matches(|c: char| c.is_whitespace() || c == '\0');
     (!text.is_empty()).then(|| text.to_owned())
 }
@@ -56,21 +56,23 @@ fn filled(text: &str) -> Option<String> {
 fn model_name(cpuinfo: &str) -> Option<String> {
     let mut lines = cpuinfo.lines().filter_map(|line| line.split_once(':'));
     let (_, name) = lines.find(|(key, _)| key.trim() == "model name")?;
-    filled(name)
+    trimmed(name)
 }
 
 fn governor(root: &Path, core: Option<usize>) -> Option<String> {
     let cores = root.join("sys/devices/system/cpu");
-    let of = |name: &str| {
+    let governor_of = |name: &str| {
         let path = cores.join(name).join("cpufreq/scaling_governor");
-        fs::read_to_string(path).ok().and_then(|text| filled(&text))
+        fs::read_to_string(path)
+            .ok()
+            .and_then(|text| trimmed(&text))
     };
     if let Some(core) = core {
-        return of(&format!("cpu{core}"));
+        return governor_of(&format!("cpu{core}"));
     }
     let folders = fs::read_dir(&cores).ok()?.flatten();
     let mut governors: Vec<String> = folders
-        .filter_map(|folder| of(folder.file_name().to_str()?))
+        .filter_map(|folder| governor_of(folder.file_name().to_str()?))
         .collect();
     governors.sort();
     governors.dedup();

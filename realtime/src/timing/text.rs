@@ -1,6 +1,6 @@
-//! Time spans for people.
+//! Time spans as text.
 
-/// A span (ns) in the unit that leaves one to three digits before the point, to three significant digits.
+/// Formats a span (ns) to three significant digits, in the unit that leaves one to three digits before the point.
 ///
 /// ```
 /// use dashpot_realtime::timing::span;
@@ -10,7 +10,7 @@
 /// assert_eq!(span(0.0), "0.00 ns");
 /// ```
 pub fn span(span_ns: f64) -> String {
-    // The next unit begins where rounding to three digits would need a fourth before the point.
+    // Switch to the next unit where rounding to three digits would give four digits before the point.
     const NEXT: f64 = 999.5;
     let mut value = span_ns;
     let mut unit = "ns";
@@ -29,7 +29,7 @@ pub fn span(span_ns: f64) -> String {
     format!("{value:.digits$} {unit}")
 }
 
-/// [`span`], or `-` where there is none.
+/// Formats an optional span; `-` for `None`.
 pub fn optional_span(span_ns: Option<f64>) -> String {
     span_ns.map_or_else(|| "-".into(), span)
 }

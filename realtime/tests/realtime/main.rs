@@ -1,4 +1,4 @@
-//! Pacing and timing with clocks of the tests.
+//! Tests of pacing and timing with simulated clocks.
 
 mod pacing;
 mod timing;

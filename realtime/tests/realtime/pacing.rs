@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use dashpot_realtime::pacing::{Clock, Pacer};
 
-/// Time moves by sleeping, each sleep 5 us too long, and by hand.
+/// A clock that tests advance. Each sleep is 5 us too long.
 struct SimulatedClock(Cell<u64>);
 
 impl Clock for SimulatedClock {
@@ -17,14 +17,14 @@ impl Clock for SimulatedClock {
 }
 
 #[test]
-fn lateness_does_not_add_up_and_an_overrun_misses() {
+fn lateness_does_not_accumulate_and_overruns_miss_deadlines() {
     let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
     let mut late = Vec::new();
     for tick in 0..6 {
         let timing = pacer.wait(tick);
         assert_eq!(timing.due_ns, 700 + 1_000_000 * (tick + 1));
         late.push(timing.late_ns);
-        // Tick 2 works for 2.5 ms, the others 100 us.
+        // The work of tick 2 takes 2.5 ms, that of the others 100 us.
         let work = if tick == 2 { 2_500_000 } else { 100_000 };
         pacer.clock().0.set(pacer.clock().now_ns() + work);
         let finished = pacer.finish(timing);
@@ -32,19 +32,19 @@ fn lateness_does_not_add_up_and_an_overrun_misses() {
         let missed = tick == 2 || tick == 3;
         assert_eq!(finished.met_deadline, !missed, "tick {tick}");
     }
-    // Tick 2 ends 2.505 ms after it was due: tick 3 begins 1.505 ms late, tick 4 0.605 ms.
+    // Tick 2 ends 2.505 ms after it was due, so tick 3 starts 1.505 ms late and tick 4 0.605 ms late.
     assert_eq!(late, [5_000, 5_000, 5_000, 1_505_000, 605_000, 5_000]);
     assert_eq!(pacer.report().missed_deadlines, 2);
     assert_eq!(pacer.report().first_work_ns[2], 2_500_000);
 }
 
-/// What a command did after `finish` was in no figure: 11.7 ms of folded envelopes were reported as 60 us.
+/// Regression test: work after `finish` was not counted, so a tick of 11.7 ms was reported as 60 us.
 #[test]
-fn the_work_of_a_tick_is_all_until_the_next_is_awaited() {
+fn work_between_two_releases_is_counted() {
     let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
     for tick in 0..6 {
         pacer.release(tick);
-        // Tick 2 works for 2.5 ms, the others 100 us.
+        // The work of tick 2 takes 2.5 ms, that of the others 100 us.
         let work = if tick == 2 { 2_500_000 } else { 100_000 };
         pacer.clock().0.set(pacer.clock().now_ns() + work);
     }
@@ -73,7 +73,7 @@ fn one_deadline_in_a_thousand_may_be_missed() {
         let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
         for tick in 0..ticks {
             pacer.release(tick);
-            // A step of work, begun 5 us late, misses the tick's own deadline and no other.
+            // Work of one step that starts 5 us late misses only the deadline of its own tick.
             let work = if tick < missed { 1_000_000 } else { 1000 };
             pacer.clock().0.set(pacer.clock().now_ns() + work);
         }
@@ -82,18 +82,18 @@ fn one_deadline_in_a_thousand_may_be_missed() {
         let verdict = pacer.report().verdict();
         assert_eq!(verdict.is_ok(), is_on_time, "{missed} of {ticks}");
         if let Err(error) = verdict {
-            let words = format!("{missed} of {ticks} deadlines missed, allowed: one in 1000");
-            assert_eq!(error.to_string(), words);
+            let expected = format!("{missed} of {ticks} deadlines missed; allowed: one in 1000");
+            assert_eq!(error.to_string(), expected);
         }
     }
 }
 
 #[test]
-fn rates_out_of_range_are_refused() {
+fn rates_out_of_range_are_rejected() {
     for step_s in [99e-6, 1.001e-3, f64::NAN] {
-        let refusal = Pacer::with_clock(step_s, SimulatedClock(Cell::new(0)))
+        let error = Pacer::with_clock(step_s, SimulatedClock(Cell::new(0)))
             .err()
             .unwrap();
-        assert!(refusal.to_string().contains("100 to 1000 us"), "{refusal}");
+        assert!(error.to_string().contains("100 to 1000 us"), "{error}");
     }
 }

@@ -1,280 +1,312 @@
-//! What can be wrong with a recording. The texts name no option or argument: [`RecordingError::remedy`] says what the
-//! user can do, and each front end says it in its own words.
+//! Errors in recordings. The texts name no options or arguments: [`RecordingError::remedy`] returns the remedy as data,
+//! and each front end puts it into words.
 
 mod remedy;
 mod words;
 
-use super::text::{DecimalMark, Separator};
+use std::ops::RangeInclusive;
+
+pub use remedy::remedy;
+
+use super::text_options::{DecimalMark, Separator};
 use super::unit::Quantity;
-use words::{decimal_comma, listed, missing, numbered_list};
+use words::{decimal_comma, listed, mark_name, missing, no_row, numbered_list};
 
-/// Most ticks that a recording may span: 24 hours at 10 kHz, so that one mistyped time does not fill a disk.
-pub(crate) const MOST_TICKS: f64 = 864e6;
+/// Maximum length of a recording in ticks: 24 hours at 10 kHz. Without a limit, one mistyped time would fill a disk.
+pub(crate) const MAX_TICKS: f64 = 864e6;
 
-/// Most ticks between two samples, 1000 s at 10 kHz: more is a jump of the clock, which would fill a disk with ticks on
-/// a straight line.
+/// Maximum number of ticks between two samples, 1000 s at 10 kHz. A longer interval is a jump of the logger's clock,
+/// and interpolating across it would fill a disk.
 pub(crate) const MAX_GAP_TICKS: f64 = 1e7;
 
-/// What is wrong with a recording; the file, and the line and column where there is one, are
-/// in [`FileError`](dashpot_files::FileError).
+/// Errors in recordings. The enclosing [`FileError`](dashpot_files::FileError) states the file and, if known, the line
+/// or row and the column.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RecordingError {
-    /// The file holds nothing.
+    /// The file is empty.
     #[error(
-        "empty; a header such as `time_s,displacement_m` or `time_s,force_n`, and at least one row, are needed"
+        "the file is empty; it needs a header such as `time_s,displacement_m` or `time_s,force_n` and at least one row"
     )]
     Empty,
-    /// The file is of a kind that is not read.
-    #[error("it is {kind}; read are text (CSV), MDF4 and Parquet, compressed with gzip or not")]
+    /// The format of the file is not supported.
+    #[error(
+        "the file is {kind}; supported: text (CSV), MDF4 and Parquet, optionally compressed with gzip"
+    )]
     Kind {
-        /// Its kind.
+        /// Format of the file.
         kind: &'static str,
     },
-    /// The file is of a kind that this build does not read.
-    #[error("it is {kind}, which this build does not read: build it with the feature `{feature}`")]
+    /// This build does not support the format of the file.
+    #[error(
+        "the file is {kind}; this build cannot read it because it lacks the feature `{feature}`"
+    )]
     Feature {
-        /// Its kind.
+        /// Format of the file.
         kind: &'static str,
-        /// The feature of the crate.
+        /// Cargo feature that adds the format.
         feature: &'static str,
     },
     /// Several channels have the name.
-    #[error("column {column} is in the header {times} times; choose one by its number, such as 2")]
+    #[error(
+        "column {column} appears {times} times in the header; choose one by its number, such as 2"
+    )]
     RepeatedColumn {
         /// Name of the column.
         column: String,
-        /// How many there are.
+        /// Number of columns with this name.
         times: usize,
     },
-    /// A channel that is needed is not there.
+    /// A required channel is missing.
     #[error("{}", missing(*quantity, name, *numbered, found))]
     MissingChannel {
-        /// What it measures.
+        /// Quantity that the channel measures.
         quantity: Quantity,
-        /// Its name.
+        /// Name of the channel.
         name: String,
-        /// Whether the channels of the file have no names.
+        /// True if the channels of the file have no names.
         numbered: bool,
-        /// Names that there are.
+        /// Names of the channels in the file.
         found: Vec<String>,
     },
-    /// Several channels may be meant.
-    #[error("{quantity}: {} may be meant", listed(channels))]
+    /// Several channels match.
+    #[error("{quantity}: several channels match: {}", listed(channels))]
     SeveralChannels {
-        /// What they measure.
+        /// Quantity to find.
         quantity: Quantity,
-        /// Their names.
+        /// Names of the matching channels.
         channels: Vec<String>,
     },
-    /// A column is called by a number that another one has.
+    /// The name of a column is the number of another column.
     #[error(
         "{quantity}: `{text}` is the name of column #{named} and the number of another; write #{named} or #{text}"
     )]
     NameOrNumber {
-        /// What it measures.
+        /// Quantity that the column measures.
         quantity: Quantity,
-        /// The number.
+        /// Name of one column and number of another.
         text: String,
-        /// Number of the column that is called so.
+        /// Number of the column with this name.
         named: usize,
     },
-    /// The channel holds something else than numbers.
-    #[error("{quantity}: channel {channel} holds {kind}, not numbers that are read here")]
+    /// The channel does not contain numbers.
+    #[error("{quantity}: channel {channel} contains {kind}, not numbers in a supported format")]
     NoNumbers {
-        /// What it is to measure.
+        /// Quantity that the channel should measure.
         quantity: Quantity,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// What it holds.
+        /// Type of its values.
         kind: String,
     },
-    /// The channel's numbers are of a width or at a place that is not read.
-    #[error("{quantity}: channel {channel} holds {held}, allowed: {allowed}")]
+    /// The width or bit position of the channel's numbers is not supported.
+    #[error("{quantity}: channel {channel} contains {held}, allowed: {allowed}")]
     Width {
-        /// What it is to measure.
+        /// Quantity that the channel should measure.
         quantity: Quantity,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// What it holds.
+        /// Format of its numbers.
         held: String,
-        /// What is read instead.
+        /// Supported formats.
         allowed: &'static str,
     },
-    /// One channel is chosen twice.
-    #[error("{} and {}: both are column {channel}", quantities[0], quantities[1])]
+    /// The same channel is chosen for two quantities.
+    #[error("{first} and {second}: both are column {channel}")]
     SameChannel {
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// What it is to measure.
-        quantities: [Quantity; 2],
+        /// First quantity.
+        first: Quantity,
+        /// Second quantity.
+        second: Quantity,
     },
-    /// There is no such group.
+    /// The group is missing, or several groups have its name.
     #[error(
-        "no group `{group}`, or several; there are {} (by number or name)",
+        "group `{group}` is missing or ambiguous; groups (by number or name): {}",
         numbered_list(groups)
     )]
     Group {
-        /// The name or number.
+        /// Name or number of the group.
         group: String,
-        /// Names of those there are.
+        /// Names of the groups in the file.
         groups: Vec<String>,
     },
-    /// Channels of one name are in several groups.
-    #[error("channel {channel} is in the groups {}", groups.join(", "))]
+    /// Several groups have a channel with this name.
+    #[error("channel {channel} is in several groups: {}", groups.join(", "))]
     SeveralGroups {
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// The groups.
+        /// Labels of the groups.
         groups: Vec<String>,
     },
-    /// The channels have times of their own.
-    #[error("{quantity}: channel {channel} is in group {}, not in group {}; a recording is of one group, whose channels have the same times", groups[0], groups[1])]
+    /// The chosen channels are in different groups, so they have different times.
+    #[error(
+        "{quantity}: channel {channel} is in group {group}, not in group {expected}; all channels must be in one \
+         group, because each group has its own times"
+    )]
     OtherGroup {
-        /// What the channel measures.
+        /// Quantity that the channel measures.
         quantity: Quantity,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// Its group and that of the recording.
-        groups: [String; 2],
+        /// Label of its group.
+        group: String,
+        /// Label of the group of the other channels.
+        expected: String,
     },
-    /// The file does not tell the unit.
-    #[error("the file does not tell the unit of {channel}")]
+    /// The file does not state the unit.
+    #[error("the file does not state the unit of {channel}")]
     NoUnit {
-        /// What it measures.
+        /// Quantity that the channel measures.
         quantity: Quantity,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
     },
-    /// The unit is not known.
-    #[error("`{unit}`, which the file says is the unit of {channel}, is not one of {quantity} known here: {}", quantity.unit_names())]
+    /// The unit stated in the file is unknown.
+    #[error(
+        "the file states the unknown unit `{unit}` for {channel}; known units of {quantity}: {}",
+        quantity.unit_names()
+    )]
     UnknownUnit {
-        /// What it should measure.
+        /// Quantity that the channel should measure.
         quantity: Quantity,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// The unit.
+        /// Stated unit.
         unit: String,
     },
-    /// The name tells another unit.
-    #[error("column {channel} has the unit `{unit}`, which is not that of its name")]
+    /// The stated unit differs from the unit in the name.
+    #[error("column {channel} has the unit `{unit}`, but its name ends with another unit")]
     TwoUnits {
-        /// What it measures.
+        /// Quantity that the channel measures.
         quantity: Quantity,
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// The unit.
+        /// Stated unit.
         unit: String,
     },
-    /// The first row may be a header.
-    #[error("`{cells}` may be names of columns or a row")]
+    /// The first row could be a header or a row of numbers.
+    #[error("`{cells}` could be the header or the first row")]
     HeaderOrRow {
-        /// Its cells.
+        /// Cells of the first row.
         cells: String,
     },
-    /// The header is all there is.
-    #[error("no row after the header{}", if *left_out > 0 { format!(" that has all values: {left_out} were left out") } else { String::new() })]
+    /// The file has no usable rows.
+    #[error("{}", no_row(*left_out))]
     NoRow {
-        /// Rows that were left out.
+        /// Number of omitted rows.
         left_out: u64,
     },
-    /// The text cannot be read.
+    /// The text reader failed.
     #[error("cannot read: {0}")]
     Text(String),
     /// A row has more or fewer cells than the header.
-    #[error("line {line}: {cells} cells where the header has {expected}{}", decimal_comma(*cells, *expected, *separator))]
+    #[error(
+        "line {line}: {cells} cells, but the header has {expected}{}",
+        decimal_comma(*cells, *expected, *separator)
+    )]
     Cells {
         /// Line of the file, from 1.
         line: u64,
-        /// Cells of the row.
+        /// Number of cells in the row.
         cells: u64,
-        /// Cells of the header.
+        /// Number of cells in the header.
         expected: u64,
-        /// What separates them.
+        /// Separator of the cells.
         separator: Separator,
     },
-    /// A cell holds no number.
+    /// A cell does not contain a number.
     #[error("`{cell}` is not a finite number")]
     Number {
-        /// The cell's text, at most 40 bytes of it.
+        /// Text of the cell, cut to 40 bytes.
         cell: String,
     },
-    /// A number has another decimal mark than those before it.
-    #[error("`{cell}` has a decimal {}, the numbers before it have another mark or another one was asked for", match mark { DecimalMark::Point => "point", DecimalMark::Comma => "comma" })]
+    /// The decimal mark of a number differs from the chosen one or from that of earlier numbers.
+    #[error(
+        "`{cell}` has a decimal {}, unlike the numbers before it or the chosen decimal mark",
+        mark_name(*mark)
+    )]
     Mark {
-        /// The cell's text.
+        /// Text of the cell.
         cell: String,
-        /// Its mark.
+        /// Decimal mark of the cell.
         mark: DecimalMark,
     },
     /// A value is missing, marked invalid or infinite.
     #[error("`{cell}` is not a finite number")]
     NotFinite {
-        /// The cell's text, or what is said of the sample.
+        /// Text of the cell, or the value of the sample.
         cell: String,
     },
     /// A sample is marked invalid.
     #[error("the sample is marked invalid")]
     Invalid,
-    /// The file is damaged, or has what is not read.
+    /// The file is damaged or uses an unsupported feature of its format.
     #[error("cannot read the {kind}: {reason}")]
     Damaged {
-        /// Its kind.
+        /// Format of the file.
         kind: &'static str,
-        /// What the library says.
+        /// Message of the library that reads the format.
         reason: String,
     },
-    /// The file has less rows than it says.
-    #[error("it says that it has {declared} rows and has {found}: it is cut off or damaged")]
+    /// The file has fewer rows than it declares.
+    #[error("the file declares {declared} rows but has {found}: it is cut off or damaged")]
     CutOff {
-        /// Rows that it says.
+        /// Declared number of rows.
         declared: u64,
-        /// Rows that there are.
+        /// Actual number of rows.
         found: u64,
     },
-    /// A column is not the one that Dashpot wrote.
+    /// The numbers of a column differ from those that Dashpot wrote.
     #[error(
-        "column {column}: the SHA-256 of its numbers is not the one in the file's metadata: the file was damaged, or another program \
-         changed the column and kept the metadata, whose key {key} must then be removed"
+        "column {column}: the SHA-256 of its numbers differs from the one in the metadata: the file is damaged, or \
+         another program changed the column without removing the metadata key {key}"
     )]
     Sum {
-        /// The column.
+        /// Name of the column.
         column: String,
-        /// Key of the metadata with the sums.
+        /// Metadata key of the checksums.
         key: &'static str,
     },
-    /// Time stands still or goes back.
-    #[error("time {time_s} s does not grow; the row before has {before_s} s")]
+    /// Time does not increase.
+    #[error("time {time_s} s does not increase; the previous row has {before_s} s")]
     Time {
         /// Time of the row (s).
         time_s: f64,
-        /// Time of the row before (s).
+        /// Time of the previous row (s).
         before_s: f64,
     },
-    /// The recording does not last as long as it is needed.
-    #[error("it lasts from {} s to {} s, the run takes a force from {} s to {} s", lasts_s[0], lasts_s[1], needed_s[0], needed_s[1])]
-    Short {
-        /// Times of its first and last row (s).
-        lasts_s: [f64; 2],
-        /// Times between which there must be a force (s).
-        needed_s: [f64; 2],
-    },
-    /// Time jumps farther than a gap that is filled.
+    /// The recording does not cover the required period.
     #[error(
-        "time jumps from {before_s} s to {time_s} s: {ticks:.0} ticks without a sample, allowed: {MAX_GAP_TICKS}; is the clock wrong? Else \
-         split the recording there or take a larger step"
+        "the recording covers {} s to {} s, but the run needs a force from {} s to {} s",
+        recorded_s.start(),
+        recorded_s.end(),
+        needed_s.start(),
+        needed_s.end()
+    )]
+    Short {
+        /// Times of the first and last row (s).
+        recorded_s: RangeInclusive<f64>,
+        /// Period in which a force is required (s).
+        needed_s: RangeInclusive<f64>,
+    },
+    /// Time jumps by more than the longest allowed gap.
+    #[error(
+        "time jumps from {before_s} s to {time_s} s: {ticks:.0} ticks without a sample, allowed: {MAX_GAP_TICKS}; \
+         if the clock of the logger is right, split the recording there or use a larger step"
     )]
     Jump {
         /// Time of the row (s).
         time_s: f64,
-        /// Time of the row before (s).
+        /// Time of the previous row (s).
         before_s: f64,
-        /// Ticks between them.
+        /// Number of ticks between the rows.
         ticks: f64,
     },
     /// The recording is too long for the step.
     #[error(
-        "{time_s} s is more than {MOST_TICKS} ticks after the first sample; split the recording or take a larger step"
+        "{time_s} s is more than {MAX_TICKS} ticks after the first sample; split the recording or use a larger step"
     )]
     TooLong {
         /// Time of the row (s).

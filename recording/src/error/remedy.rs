@@ -1,10 +1,14 @@
-//! What the user can do about an error.
+//! Remedies of the errors.
+
+use std::error::Error;
+
+use dashpot_files::FileError;
 
 use super::RecordingError;
 use crate::remedy::Remedy;
 
 impl RecordingError {
-    /// What the user can do about it, beyond what the text says.
+    /// Returns the remedy for the error, which the error text does not include.
     pub fn remedy(&self) -> Option<Remedy> {
         match self {
             Self::MissingChannel {
@@ -21,8 +25,7 @@ impl RecordingError {
             | Self::NoNumbers { quantity, .. }
             | Self::Width { quantity, .. }
             | Self::SameChannel {
-                quantities: [_, quantity],
-                ..
+                second: quantity, ..
             }
             | Self::OtherGroup { quantity, .. } => Some(Remedy::NameChannel(*quantity)),
             Self::Group { .. } | Self::SeveralGroups { .. } => Some(Remedy::NameGroup),
@@ -36,4 +39,16 @@ impl RecordingError {
             _ => None,
         }
     }
+}
+
+/// Returns the remedy if `error` contains a [`RecordingError`] that has one.
+pub fn remedy(error: &FileError) -> Option<Remedy> {
+    let source: &(dyn Error + Send + Sync) = match error {
+        FileError::Content { source, .. }
+        | FileError::Line { source, .. }
+        | FileError::Cell { source, .. }
+        | FileError::Row { source, .. } => source.as_ref(),
+        _ => return None,
+    };
+    source.downcast_ref::<RecordingError>()?.remedy()
 }

@@ -1,4 +1,4 @@
-//! MDF4, read a bounded part at a time.
+//! Reads MDF4 files in blocks of bounded size.
 
 mod number;
 
@@ -11,29 +11,38 @@ use falcon_mdf::{Channel, ChannelGroup, Mf4Error, Mf4File, SignalsChunks};
 use self_cell::self_cell;
 
 use super::error::RecordingError;
-use super::opened::Opened;
-use super::place::Place;
+use super::location::RowLocation;
+use super::recording_file::RecordingFile;
 use super::rows::Source;
-use super::select::Found;
+use super::select::ChannelInfo;
 use dashpot_files::FileError;
 use number::{Reading, reading};
 
 /// Rows read at a time.
 const ROWS: usize = 1 << 14;
 
-/// Where a block of a channel group has the number of its rows (cg_cycle_count): behind its header, six links and its record's number.
+/// Offset of the number of rows (`cg_cycle_count`) in a channel group block: after the header, six links and the record
+/// number.
 const CYCLE_COUNT: u64 = 24 + 6 * 8 + 8;
 
-/// An MDF4 file whose channels are known.
+/// An MDF4 file with known channels.
 pub(super) struct Mdf {
     path: PathBuf,
     file: Arc<Mf4File>,
-    found: Vec<Found>,
+    found: Vec<ChannelInfo>,
     groups: Vec<String>,
-    /// Data group, channel group and place of each channel found.
-    places: Vec<[usize; 3]>,
+    /// Position of each channel in the file.
+    paths: Vec<ChannelPath>,
     readings: Vec<Reading>,
     bytes: u64,
+}
+
+/// Position of a channel in the file, as indices.
+#[derive(Clone, Copy)]
+struct ChannelPath {
+    data_group: usize,
+    channel_group: usize,
+    channel: usize,
 }
 
 self_cell!(
@@ -44,14 +53,14 @@ self_cell!(
     }
 );
 
-/// Values of the chosen channels.
+/// Rows of the selected channels.
 struct MdfRows {
     path: PathBuf,
     chunks: Chunks,
     channels: Vec<(Channel, Reading)>,
-    /// Values of each channel; not a number where they are invalid.
+    /// Values of each channel; NaN if invalid.
     values: Vec<Vec<f64>>,
-    /// Which rows are marked invalid, by channel.
+    /// Flags of invalid rows for each channel; empty if the channel has none.
     invalid: Vec<Vec<bool>>,
     next: usize,
     row: u64,
@@ -60,13 +69,13 @@ struct MdfRows {
 }
 
 impl Mdf {
-    /// Reads what channels there are.
+    /// Reads the list of channels.
     pub(super) fn open(path: &Path, file: File) -> Result<Self, FileError> {
         let bytes = file.metadata().map_or(0, |data| data.len());
         let failed = |error: Mf4Error| damaged(path, &error);
         let source = read_seek_source(file).map_err(failed)?;
         let file = Mf4File::from_source(Arc::new(source)).map_err(failed)?;
-        let (mut found, mut places, mut groups) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut found, mut paths, mut groups) = (Vec::new(), Vec::new(), Vec::new());
         let mut readings = Vec::new();
         for group in file
             .data_groups()
@@ -79,10 +88,14 @@ impl Mdf {
             let number = groups.len();
             groups.push(group.acquisition_name.clone());
             for (index, channel) in group.channels.iter().enumerate() {
-                places.push([group.data_group_index, group.index, index]);
+                paths.push(ChannelPath {
+                    data_group: group.data_group_index,
+                    channel_group: group.index,
+                    channel: index,
+                });
                 let reading = reading(channel, group);
                 readings.push(reading.clone().unwrap_or(Reading::Library));
-                found.push(Found {
+                found.push(ChannelInfo {
                     name: channel.name.clone(),
                     whole: channel.name.clone(),
                     unit: Some(unit(channel)).filter(|unit| !unit.is_empty()),
@@ -100,13 +113,14 @@ impl Mdf {
             file: Arc::new(file),
             found,
             groups,
-            places,
+            paths,
             readings,
             bytes,
         })
     }
 
-    /// The group of channels and how many rows it says it has: the library takes no more than the data can have, and says nothing.
+    /// Returns the declared number of rows of a group. The library silently reads fewer rows if data are missing, so
+    /// this compares both numbers.
     fn check_rows(&self, group: &ChannelGroup) -> Result<u64, FileError> {
         let offset = group.block_offset() + CYCLE_COUNT;
         let bytes = self.file.read_raw(offset, 8);
@@ -127,8 +141,8 @@ impl Mdf {
     }
 }
 
-impl Opened for Mdf {
-    fn found(&self) -> &[Found] {
+impl RecordingFile for Mdf {
+    fn found(&self) -> &[ChannelInfo] {
         &self.found
     }
 
@@ -141,17 +155,17 @@ impl Opened for Mdf {
         let mut rows = 0;
         let mut channels: Vec<(Channel, Reading)> = Vec::new();
         for index in indices {
-            let [data, group, channel] = self.places[*index];
-            let group = &groups[data].channel_groups[group];
+            let path = self.paths[*index];
+            let group = &groups[path.data_group].channel_groups[path.channel_group];
             rows = self.check_rows(group)?;
-            channels.push((group.channels[channel].clone(), self.readings[*index]));
+            channels.push((group.channels[path.channel].clone(), self.readings[*index]));
         }
-        let asked = channels
+        let requested: Vec<Channel> = channels
             .iter()
-            .map(|(channel, reading)| reading.asked(channel));
-        let asked: Vec<Channel> = asked.collect();
+            .map(|(channel, reading)| reading.requested(channel))
+            .collect();
         let chunks = Chunks::try_new(Arc::clone(&self.file), |file| {
-            file.signals_chunks(&asked, ROWS)
+            file.signals_chunks(&requested, ROWS)
         })
         .map_err(|error| damaged(&self.path, &error))?;
         Ok(Box::new(MdfRows {
@@ -169,7 +183,7 @@ impl Opened for Mdf {
 }
 
 impl MdfRows {
-    /// Reads the next part of the rows; `false` at the end.
+    /// Reads the next block of rows; returns `false` at the end.
     fn read(&mut self) -> Result<bool, FileError> {
         let path = &self.path;
         let failed = |error: Mf4Error| damaged(path, &error);
@@ -186,17 +200,17 @@ impl MdfRows {
             }
             return Ok(false);
         };
-        for (place, signal) in signals.iter().enumerate() {
-            let (channel, reading) = &self.channels[place];
-            self.values[place] = reading.numbers(signal, channel, self.row).map_err(failed)?;
-            self.invalid[place].clear();
+        for (index, signal) in signals.iter().enumerate() {
+            let (channel, reading) = &self.channels[index];
+            self.values[index] = reading.numbers(signal, channel, self.row).map_err(failed)?;
+            self.invalid[index].clear();
             if let Some(valid) = signal.validity() {
-                for (value, valid) in self.values[place].iter_mut().zip(&valid) {
+                for (value, valid) in self.values[index].iter_mut().zip(&valid) {
                     if !valid {
                         *value = f64::NAN;
                     }
                 }
-                self.invalid[place] = valid.iter().map(|valid| !valid).collect();
+                self.invalid[index] = valid.iter().map(|valid| !valid).collect();
             }
         }
         self.next = 0;
@@ -223,21 +237,21 @@ impl Source for MdfRows {
         Ok(true)
     }
 
-    fn missing(&self, place: usize) -> RecordingError {
+    fn missing(&self, index: usize) -> RecordingError {
         let row = self.next.saturating_sub(1);
-        if self.invalid[place].get(row) == Some(&true) {
+        if self.invalid[index].get(row) == Some(&true) {
             RecordingError::Invalid
         } else {
             RecordingError::NotFinite {
-                cell: self.values[place]
+                cell: self.values[index]
                     .get(row)
                     .map_or_else(String::new, f64::to_string),
             }
         }
     }
 
-    fn place(&self) -> Place {
-        Place::Row(self.row)
+    fn location(&self) -> RowLocation {
+        RowLocation::Row(self.row)
     }
 
     fn position(&self) -> u64 {
@@ -255,7 +269,7 @@ fn damaged(path: &Path, error: &Mf4Error) -> FileError {
     )
 }
 
-/// The unit; a master of time has seconds, whatever it says, by the standard.
+/// Returns the unit. By the standard, a time master without a unit is in seconds.
 fn unit(channel: &Channel) -> String {
     if channel.unit.is_empty() && channel.is_master() && channel.is_time_channel() {
         "s".into()

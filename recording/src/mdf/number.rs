@@ -1,25 +1,26 @@
-//! How the numbers of a channel are read: by the library, but for what it reads as zeros or counts from the wrong row.
+//! Decoding of numbers in MDF4 channels. The library decodes most formats, but reads 16-bit floats as zeros and counts
+//! the rows of virtual channels from the wrong start.
 
 use falcon_mdf::blocks::DataType;
 use falcon_mdf::{Channel, ChannelGroup, Conversion, Mf4Error, Signal, SignalValues};
 
-use super::super::select::Unread;
+use crate::select::Unread;
 
-/// How the numbers of a channel are read.
+/// Decoding method for the numbers of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reading {
-    /// By the library.
+    /// The library decodes the numbers.
     Library,
-    /// As floats of 16 bits, which the library reads as zeros: it reads their bits as whole numbers.
+    /// 16-bit floats: the library reads the bits as integers, because it would read the floats as zeros.
     Half,
-    /// As the number of the row, from 0: the library counts from the start of each part of the rows.
+    /// Row numbers from 0, because the library restarts counting in each block of rows.
     RowNumber,
 }
 
-/// How the numbers of `channel`, which is in `group`, are read.
+/// Returns the decoding method for `channel` of `group`.
 ///
 /// # Errors
-/// The library would read other numbers than the file has.
+/// The library would read wrong numbers.
 pub(super) fn reading(channel: &Channel, group: &ChannelGroup) -> Result<Reading, Unread> {
     if channel.channel_type.is_virtual() {
         return Ok(Reading::RowNumber);
@@ -56,21 +57,21 @@ pub(super) fn reading(channel: &Channel, group: &ChannelGroup) -> Result<Reading
 }
 
 impl Reading {
-    /// The channel that the library is asked for.
-    pub(super) fn asked(self, channel: &Channel) -> Channel {
-        let mut asked = channel.clone();
+    /// Returns the channel to request from the library.
+    pub(super) fn requested(self, channel: &Channel) -> Channel {
+        let mut requested = channel.clone();
         if self == Self::Half {
-            asked.data_type = match channel.is_little_endian() {
+            requested.data_type = match channel.is_little_endian() {
                 true => DataType::UIntLe,
                 false => DataType::UIntBe,
             };
-            asked.conversion = Conversion::None;
+            requested.conversion = Conversion::None;
         }
-        asked
+        requested
     }
 
-    /// The numbers of `channel` in a part of the rows, the first of which is row `first`, from 0; `signal` is what the
-    /// library has read of the channel that it was [`Self::asked`] for.
+    /// Decodes the numbers of `channel` in a block of rows that starts at row `first` (from 0). `signal` contains the
+    /// values of the [`Self::requested`] channel.
     pub(super) fn numbers(
         self,
         signal: &Signal,
@@ -93,15 +94,19 @@ impl Reading {
     }
 }
 
-/// A float of 16 bits by IEEE 754: a sign, 5 bits of an exponent that is 15 too high, 10 bits of a fraction.
+/// Converts an IEEE 754 half-precision float: a sign bit, 5 exponent bits with bias 15, and 10 fraction bits.
 fn from_half(bits: u16) -> f64 {
     let exponent = i32::from(bits >> 10 & 0x1f);
     let fraction = f64::from(bits & 0x3ff) / 1024.0;
-    let size = match exponent {
+    let magnitude = match exponent {
         0 => fraction * 2.0_f64.powi(-14),
         31 if fraction == 0.0 => f64::INFINITY,
         31 => f64::NAN,
         _ => (1.0 + fraction) * 2.0_f64.powi(exponent - 15),
     };
-    if bits >> 15 == 1 { -size } else { size }
+    if bits >> 15 == 1 {
+        -magnitude
+    } else {
+        magnitude
+    }
 }

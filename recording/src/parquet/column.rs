@@ -1,4 +1,4 @@
-//! Numbers of one column of a Parquet file.
+//! Numbers of one column in a Parquet file.
 
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
@@ -9,22 +9,32 @@ use parquet::schema::types::ColumnDescriptor;
 use super::schema::is_instant;
 use crate::sums::Sum;
 
-/// A chosen column.
+/// A selected column.
 pub(super) struct Column {
     index: usize,
-    /// Level at which a value is there.
+    /// Definition level of a value that is not null.
     present: i16,
-    /// Whether its numbers are instants, of which only the time since the first is of use: a double has not enough digits.
+    /// True if the numbers are timestamps. They are read relative to the first, because a double has too few digits.
     is_instant: bool,
     origin: Option<i64>,
     reader: Option<ColumnReader>,
     values: Vec<f64>,
-    /// The column's name, the sum that the file says it has, and that of the numbers read so far.
-    sum: Option<(String, String, Sum)>,
+    /// Checksums, if the file contains one for this column.
+    checksums: Option<Checksums>,
+}
+
+/// Expected and computed checksum of a column.
+struct Checksums {
+    /// Name of the column.
+    name: String,
+    /// Checksum in the metadata of the file.
+    expected: String,
+    /// Checksum of the numbers read so far.
+    computed: Sum,
 }
 
 impl Column {
-    /// The column of this number from 0, of no row group yet.
+    /// Creates a reader of the column with this index (from 0), before its first row group.
     pub(super) fn new(index: usize, descriptor: &ColumnDescriptor, sum: Option<String>) -> Self {
         Self {
             index,
@@ -33,33 +43,37 @@ impl Column {
             origin: None,
             reader: None,
             values: Vec::new(),
-            sum: sum.map(|sum| (descriptor.path().string(), sum, Sum::default())),
+            checksums: sum.map(|expected| Checksums {
+                name: descriptor.path().string(),
+                expected,
+                computed: Sum::default(),
+            }),
         }
     }
 
-    /// The column's name where the numbers read are not those that the file's sum is of.
+    /// Returns the name of the column if the checksum of its numbers is wrong.
     pub(super) fn differs_from_sum(&self) -> Option<&str> {
-        let (name, expected, sum) = self.sum.as_ref()?;
-        (*expected != sum.text()).then_some(name)
+        let checksums = self.checksums.as_ref()?;
+        (checksums.expected != checksums.computed.text()).then_some(&checksums.name)
     }
 
-    /// Goes to its start in a row group.
+    /// Opens the column in the next row group.
     pub(super) fn open(&mut self, group: &dyn RowGroupReader) -> Result<(), ParquetError> {
         self.reader = Some(group.get_column_reader(self.index)?);
         Ok(())
     }
 
-    /// Of the values read last that of this place.
+    /// Returns a value of the last block by its row.
     #[inline]
-    pub(super) fn value(&self, place: usize) -> Option<f64> {
-        self.values.get(place).copied()
+    pub(super) fn value(&self, row: usize) -> Option<f64> {
+        self.values.get(row).copied()
     }
 
-    /// Reads so many values; how many there were.
+    /// Reads up to `count` values; returns the number of values read.
     pub(super) fn read(&mut self, count: usize) -> Result<usize, ParquetError> {
         let read = self.read_values(count)?;
-        if let Some((_, _, sum)) = &mut self.sum {
-            sum.add(&self.values);
+        if let Some(checksums) = &mut self.checksums {
+            checksums.computed.add(&self.values);
         }
         Ok(read)
     }
@@ -81,7 +95,7 @@ impl Column {
             Some(ColumnReader::Int64ColumnReader(reader)) if self.is_instant => {
                 let origin = &mut self.origin;
                 take(reader, present, count, values, |value| {
-                    // Instants before year 1677 or after 2262 alone are farther apart than this can be.
+                    // The difference wraps only if timestamps (in ns) are more than 292 years apart.
                     value.wrapping_sub(*origin.get_or_insert(*value)) as f64
                 })
             }
@@ -93,7 +107,7 @@ impl Column {
     }
 }
 
-/// Reads so many values, not a number where there is none; how many there were.
+/// Reads up to `count` values, NaN for null; returns the number of values read.
 fn take<T: DataType>(
     reader: &mut ColumnReaderImpl<T>,
     present: i16,

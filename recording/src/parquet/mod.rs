@@ -1,4 +1,4 @@
-//! Parquet, read a bounded part at a time; the numbers of files that Dashpot wrote are checked against their sums.
+//! Reads Parquet files in blocks of bounded size and verifies the checksums of files that Dashpot wrote.
 
 mod column;
 mod rows;
@@ -14,30 +14,30 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use super::error::RecordingError;
 use super::guarded::guarded;
-use super::opened::Opened;
+use super::recording_file::RecordingFile;
 use super::rows::Source;
-use super::select::Found;
+use super::select::ChannelInfo;
 use super::sums::SUMS;
-use super::text::found;
+use super::text::column_from_header;
 use column::Column;
 use dashpot_files::FileError;
 use rows::ParquetRows;
 
-/// Key of the units in the file's metadata: an object of JSON with the unit of each column by its name.
+/// Metadata key of the units: a JSON object that maps the name of each column to its unit.
 pub(super) const UNITS: &str = "units";
 
-/// A Parquet file whose columns are known.
+/// A Parquet file with known columns.
 pub(super) struct Parquet {
     path: PathBuf,
     reader: Arc<SerializedFileReader<File>>,
-    found: Vec<Found>,
-    /// Sums of the columns by their names; none in files of other programs.
+    found: Vec<ChannelInfo>,
+    /// Checksums by column name; empty in files of other programs.
     sums: HashMap<String, String>,
     bytes: u64,
 }
 
 impl Parquet {
-    /// Reads what columns there are.
+    /// Reads the list of columns.
     pub(super) fn open(path: &Path, file: File) -> Result<Self, FileError> {
         let bytes = file.metadata().map_or(0, |data| data.len());
         let reader = read(path, || SerializedFileReader::new(file))?;
@@ -61,10 +61,10 @@ impl Parquet {
         let columns = metadata.schema_descr().columns();
         let found = columns.iter().map(|column| {
             let name = column.path().string();
-            let told = units.get(&name).and_then(|unit| unit.as_str());
-            let from_name = found(&name);
-            Found {
-                unit: told
+            let stated = units.get(&name).and_then(|unit| unit.as_str());
+            let from_name = column_from_header(&name);
+            ChannelInfo {
+                unit: stated
                     .map(str::to_owned)
                     .or(schema::unit(column))
                     .or(from_name.unit),
@@ -85,8 +85,8 @@ impl Parquet {
     }
 }
 
-impl Opened for Parquet {
-    fn found(&self) -> &[Found] {
+impl RecordingFile for Parquet {
+    fn found(&self) -> &[ChannelInfo] {
         &self.found
     }
 
@@ -108,7 +108,7 @@ impl Opened for Parquet {
     }
 }
 
-/// What the library reads.
+/// Calls the library and converts its errors and panics.
 fn read<T>(path: &Path, read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, FileError> {
     let reason = match guarded(read) {
         Some(Ok(read)) => return Ok(read),

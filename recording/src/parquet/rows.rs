@@ -1,4 +1,4 @@
-//! Rows of the chosen columns of a Parquet file.
+//! Rows of the selected columns of a Parquet file.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use super::column::Column;
 use super::read;
 use crate::error::RecordingError;
-use crate::place::Place;
+use crate::location::RowLocation;
 use crate::rows::Source;
 use crate::sums::SUMS;
 use dashpot_files::FileError;
@@ -18,13 +18,13 @@ use dashpot_files::FileError;
 /// Rows read at a time.
 const ROWS: usize = 1 << 13;
 
-/// Values of the chosen columns.
+/// Rows of the selected columns.
 pub(super) struct ParquetRows {
     path: PathBuf,
     reader: Arc<SerializedFileReader<File>>,
     columns: Vec<Column>,
     group: usize,
-    /// Rows left in the row group.
+    /// Remaining rows in the row group.
     left: usize,
     next: usize,
     read: usize,
@@ -34,7 +34,7 @@ pub(super) struct ParquetRows {
 }
 
 impl ParquetRows {
-    /// All `rows` of the columns of a file of so many `bytes`.
+    /// Creates a reader of the columns of a file with `rows` rows and a size of `bytes`.
     pub(super) fn new(
         path: &Path,
         reader: Arc<SerializedFileReader<File>>,
@@ -56,7 +56,7 @@ impl ParquetRows {
         }
     }
 
-    /// Reads the next part of the rows; `false` at the end.
+    /// Reads the next block of rows; returns `false` at the end.
     fn read(&mut self) -> Result<bool, FileError> {
         while self.left == 0 {
             if self.group == self.reader.num_row_groups() {
@@ -91,7 +91,7 @@ impl ParquetRows {
         Ok(())
     }
 
-    /// Compares the numbers, all read, with the sums in the file's metadata.
+    /// Verifies the checksums once all numbers have been read.
     fn check_sums(&self) -> Result<(), FileError> {
         match self.columns.iter().find_map(Column::differs_from_sum) {
             None => Ok(()),
@@ -129,16 +129,16 @@ impl Source for ParquetRows {
         Ok(true)
     }
 
-    fn missing(&self, place: usize) -> RecordingError {
+    fn missing(&self, index: usize) -> RecordingError {
         let row = self.next.saturating_sub(1);
-        let value = self.columns[place].value(row);
+        let value = self.columns[index].value(row);
         RecordingError::NotFinite {
             cell: value.map_or_else(String::new, |value| value.to_string()),
         }
     }
 
-    fn place(&self) -> Place {
-        Place::Row(self.row)
+    fn location(&self) -> RowLocation {
+        RowLocation::Row(self.row)
     }
 
     fn position(&self) -> u64 {

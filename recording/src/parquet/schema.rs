@@ -1,9 +1,9 @@
-//! What a column of a Parquet file is, by its type.
+//! Types and units of Parquet columns.
 
 use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type as Physical};
 use parquet::schema::types::ColumnDescriptor;
 
-/// The unit of a time, which its type tells.
+/// Returns the unit of a time or timestamp column from its type.
 pub(super) fn unit(column: &ColumnDescriptor) -> Option<String> {
     let unit = match column.logical_type_ref() {
         Some(LogicalType::Timestamp(stamp)) => Some(&stamp.unit),
@@ -30,8 +30,8 @@ pub(super) fn is_instant(column: &ColumnDescriptor) -> bool {
 }
 
 pub(super) fn is_number(column: &ColumnDescriptor) -> bool {
-    // Files of old writers have the older kind of type alone. Of a decimal the point is not in the number.
-    let is_odd = ![
+    // Old writers use only converted types. Decimals are excluded because their values are scaled integers.
+    let has_other_type = ![
         ConvertedType::NONE,
         ConvertedType::INT_8,
         ConvertedType::INT_16,
@@ -46,9 +46,9 @@ pub(super) fn is_number(column: &ColumnDescriptor) -> bool {
     ]
     .contains(&column.converted_type());
     let is_plain = match column.logical_type_ref() {
-        _ if is_odd => false,
+        _ if has_other_type => false,
         None | Some(LogicalType::Timestamp(_) | LogicalType::Time(_)) => true,
-        // Of 64 bits without sign, half the numbers would be read as negative ones.
+        // Large unsigned integers of 32 or 64 bits would be read as negative numbers.
         Some(LogicalType::Integer(integer)) => integer.is_signed || integer.bit_width < 32,
         Some(_) => false,
     };

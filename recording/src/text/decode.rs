@@ -1,4 +1,4 @@
-//! Characters of text: UTF-16 and other encodings made UTF-8.
+//! Character encodings of text.
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -6,10 +6,10 @@ use std::io::Read;
 use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
 use encoding_rs_io::DecodeReaderBytesBuilder;
 
-use super::super::stream::Stream;
+use crate::stream::Stream;
 
-/// The bytes of `stream` with text in UTF-8 or a superset of ASCII, whose cells [`characters`] reads: only that of an `encoding`
-/// that is named or can be told is decoded, which numbers need not.
+/// Returns the bytes of `stream`, decoded to UTF-8 if `encoding` is given or the text is UTF-16. Other text is not
+/// changed, because numbers need no decoding; [`characters`] decodes single cells.
 pub(super) fn decoded(stream: Stream, encoding: Option<&'static Encoding>) -> Box<dyn Read> {
     let encoding = encoding.or_else(|| utf_16(stream.head()));
     let bytes = stream.into_reader();
@@ -24,7 +24,7 @@ pub(super) fn decoded(stream: Stream, encoding: Option<&'static Encoding>) -> Bo
     }
 }
 
-/// The order of bytes of UTF-16: by the mark, or because all characters of the start are Latin.
+/// Detects UTF-16 by its byte order mark, or because all first characters are Latin.
 fn utf_16(head: &[u8]) -> Option<&'static Encoding> {
     if let Some((encoding, _)) = Encoding::for_bom(head) {
         return Some(encoding).filter(|encoding| [UTF_16LE, UTF_16BE].contains(encoding));
@@ -41,8 +41,8 @@ fn utf_16(head: &[u8]) -> Option<&'static Encoding> {
     }
 }
 
-/// A cell as characters: what is not UTF-8 is taken for Windows-1252, which has Latin-1 in it. Units of other encodings are not known
-/// then, and told so.
+/// Decodes a cell. Bytes that are not UTF-8 are read as Windows-1252, a superset of Latin-1. Units in other encodings
+/// are then reported as unknown.
 pub(super) fn characters(cell: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(cell) {
         Ok(text) => Cow::Borrowed(text),

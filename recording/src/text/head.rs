@@ -1,41 +1,56 @@
-//! The first lines of a text, looked at before they are read.
+//! Start of a text, read ahead to detect its separator.
 
 use std::io::{self, Read};
 
-/// Lines that are looked at beside blank ones and comments, and all that come with them: a header and a row.
+/// Lines to read ahead, not counting blank lines and comments: a header and a row.
 const LINES: usize = 2;
 
-/// Bytes that are looked at.
-const MOST: usize = 1 << 16;
+/// Maximum number of bytes to read ahead.
+const MAX_BYTES: usize = 1 << 16;
 
-/// Reads as much of `source` as [`LINES`] lines need, and no more than it has at hand: a logger at the other end of a pipe may be
-/// writing still. All that was read, and where its whole lines end.
-pub(super) fn read(source: &mut dyn Read) -> io::Result<(Vec<u8>, usize)> {
-    let mut head = Vec::new();
+/// Start of a text.
+pub(super) struct Head {
+    /// Bytes read so far.
+    pub(super) bytes: Vec<u8>,
+    /// Number of bytes in whole lines.
+    whole: usize,
+}
+
+impl Head {
+    /// Returns the whole lines.
+    pub(super) fn whole_lines(&self) -> &[u8] {
+        &self.bytes[..self.whole]
+    }
+}
+
+/// Reads the first [`LINES`] lines of `source`. It does not wait for more: a logger at the other end of a pipe may
+/// still be writing.
+pub(super) fn read(source: &mut dyn Read) -> io::Result<Head> {
+    let mut bytes = Vec::new();
     let mut buffer = [0; 1 << 13];
     loop {
         let length = source.read(&mut buffer)?;
-        head.extend_from_slice(&buffer[..length]);
+        bytes.extend_from_slice(&buffer[..length]);
         let has_ended = length == 0;
-        let whole = match head.iter().rposition(|byte| *byte == b'\n') {
-            _ if has_ended => head.len(),
+        let whole = match bytes.iter().rposition(|byte| *byte == b'\n') {
+            _ if has_ended => bytes.len(),
             Some(end) => end + 1,
             None => 0,
         };
-        if has_ended || head.len() >= MOST || lines(&head[..whole]) >= LINES {
-            return Ok((head, whole));
+        if has_ended || bytes.len() >= MAX_BYTES || count_lines(&bytes[..whole]) >= LINES {
+            return Ok(Head { bytes, whole });
         }
     }
 }
 
-fn lines(text: &[u8]) -> usize {
+fn count_lines(text: &[u8]) -> usize {
     let lines = text.split(|byte| *byte == b'\n');
     lines
         .filter(|line| !line.trim_ascii().is_empty() && !line.starts_with(b"#"))
         .count()
 }
 
-/// Passes over lines; how many there were, at most `count`.
+/// Skips up to `count` lines and returns the number of skipped lines.
 pub(super) fn skip_lines(source: &mut dyn Read, count: u64) -> io::Result<u64> {
     let mut skipped = 0;
     let mut byte = [0];

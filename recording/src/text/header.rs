@@ -1,17 +1,17 @@
-//! The header of a text: names of columns, and their units beside or under them.
+//! Header of a text: column names, with units next to or below them.
 
 use std::borrow::Cow;
 
-use super::super::error::RecordingError;
-use super::super::select::{Found, bare};
-use super::super::unit::Quantity;
 use super::decode::characters;
 use super::number::is_number;
+use crate::error::RecordingError;
+use crate::select::{ChannelInfo, bare};
+use crate::unit::Quantity;
 
-/// Whether the first row has names: one of its cells at least is no number.
+/// True if the first row is a header, which means that at least one of its cells is not a number.
 ///
 /// # Errors
-/// Its cells count from 0 or 1: pandas names columns so that have no names, and it may be a row too.
+/// The cells count up from 0 or 1. This could be a row, or the names that pandas gives to columns without names.
 pub(super) fn is_header(cells: &[String]) -> Result<bool, RecordingError> {
     if cells.iter().any(|cell| !is_number(cell.as_bytes())) {
         return Ok(true);
@@ -29,9 +29,9 @@ pub(super) fn is_header(cells: &[String]) -> Result<bool, RecordingError> {
     Ok(false)
 }
 
-/// A column by its header: `Weg`, `Weg [mm]`, `Weg (mm)` or `Weg / mm`; round brackets and a stroke may be part of the name, and are not a
-/// unit unless a known one.
-pub(in super::super) fn found(cell: &str) -> Found {
+/// Parses a column header: `Weg`, `Weg [mm]`, `Weg (mm)` or `Weg / mm`. Text in parentheses or after a slash may belong
+/// to the name, so it is a unit only if the unit is known.
+pub(in super::super) fn column_from_header(cell: &str) -> ChannelInfo {
     let parts = cell
         .strip_suffix(']')
         .and_then(|cell| cell.rsplit_once('['))
@@ -44,17 +44,17 @@ pub(in super::super) fn found(cell: &str) -> Found {
         Some((name, unit)) => (name.trim(), Some(unit.trim().to_owned())),
         None => (cell, None),
     };
-    Found {
+    ChannelInfo {
         name: name.to_owned(),
         whole: cell.to_owned(),
         unit,
         kind: "text".into(),
         is_number: true,
-        ..Found::default()
+        ..ChannelInfo::default()
     }
 }
 
-/// The units in the row under the header, where it is one: no cell of it is a number.
+/// Returns the units if the row below the header is a row of units, in which no cell is a number.
 pub(super) fn units<'a>(cells: impl Iterator<Item = &'a [u8]>) -> Option<Vec<String>> {
     let cells: Vec<Cow<'_, str>> = cells.map(|cell| characters(cell.trim_ascii())).collect();
     let is_text = |cell: &Cow<'_, str>| !cell.is_empty() && !is_number(cell.as_bytes());
@@ -63,8 +63,8 @@ pub(super) fn units<'a>(cells: impl Iterator<Item = &'a [u8]>) -> Option<Vec<Str
     is_row_of_units.then(|| cells.iter().map(|cell| bare(cell).to_owned()).collect())
 }
 
-/// Notes the units under the names, those that are empty but for.
-pub(super) fn take_units(found: &mut [Found], units: Vec<String>) {
+/// Sets the units of the columns, except where the cell is empty.
+pub(super) fn set_units(found: &mut [ChannelInfo], units: Vec<String>) {
     for (found, unit) in found.iter_mut().zip(units) {
         if !unit.is_empty() {
             found.unit = Some(unit);

@@ -1,13 +1,13 @@
-//! Line ends of a file: what the number of a row's line depends on.
+//! Line ends of a text, needed to determine line numbers.
 
 use std::io::{self, Read};
 
-/// A source that notes how its lines end.
+/// Reader that records how lines end.
 pub(super) struct LineEnds<R> {
     source: R,
     length: u64,
     last: u8,
-    /// Whether lines end in CR and LF; `None` before the first end.
+    /// True if lines end with CR and LF; `None` before the first line end.
     two_bytes: Option<bool>,
 }
 
@@ -21,13 +21,13 @@ impl<R: Read> LineEnds<R> {
         }
     }
 
-    /// Whether the source ends `position` bytes into the file, and not with a line end.
+    /// True if the source ends at byte `position` without a line end.
     pub(super) fn ends_unended(&self, position: u64) -> bool {
         position == self.length && ![b'\n', b'\r'].contains(&self.last)
     }
 
-    /// Whether a reader that ends rows at the first CR or LF has passed the LF of a row, `position` bytes
-    /// into the file.
+    /// True if a reader at byte `position` has passed the LF of its last row. The reader ends rows at the first CR or
+    /// LF.
     pub(super) fn has_passed_line_feed(&self, position: u64) -> bool {
         if position == self.length {
             // The last row may end without a line feed.

@@ -1,11 +1,10 @@
-//! Text: CSV and what else loggers call so.
+//! Text files: CSV and similar formats of loggers.
 
 mod decode;
 mod head;
 mod header;
 mod line_ends;
 mod number;
-mod options;
 mod rows;
 mod separator;
 
@@ -14,50 +13,57 @@ use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, Reader, ReaderBuilder};
 #[cfg(feature = "parquet")]
-pub(super) use header::found;
+pub(super) use header::column_from_header;
 use line_ends::LineEnds;
-pub use options::{DecimalMark, Separator, TextOptions};
 use rows::TextRows;
 
 use super::error::RecordingError;
-use super::opened::Opened;
+use super::recording_file::RecordingFile;
 use super::rows::Source;
-use super::select::Found;
+use super::select::ChannelInfo;
 use super::stream::{Count, Stream};
+use super::text_options::{Separator, TextOptions};
 use dashpot_files::FileError;
 
-/// A text whose columns are known and whose rows are still to be read.
+/// A text file with known columns and unread rows.
 pub(super) struct Text {
     path: PathBuf,
-    /// Until they are read.
+    /// `None` once the rows are being read.
     lines: Option<Lines>,
     options: TextOptions,
-    found: Vec<Found>,
-    /// Cells of a row.
+    found: Vec<ChannelInfo>,
+    /// Number of cells per row.
     cells: usize,
-    /// The first row, where it was looked at already, and its line.
-    pending: Option<(ByteRecord, u64)>,
+    /// First row, if it was read while looking for the header.
+    pending: Option<PendingRow>,
 }
 
-/// Records of the text with their lines.
+/// A row that was read before the other rows.
+struct PendingRow {
+    record: ByteRecord,
+    /// Line of the row, from 1.
+    line: u64,
+}
+
+/// Records of the text and their line numbers.
 struct Lines {
     path: PathBuf,
     reader: Reader<LineEnds<Box<dyn Read>>>,
     separator: Separator,
-    /// Lines before the first that the reader sees.
+    /// Number of skipped lines before the first line of the reader.
     skipped: u64,
     count: Count,
-    /// Bytes up to the end of the record read last.
+    /// Position of the end of the last record in bytes.
     end: u64,
-    /// Whether there is no record after it, and no line end.
+    /// True if no record follows and the last one has no line end.
     is_unended: bool,
 }
 
 impl Text {
-    /// Finds the columns of a text, which is called `path` in errors.
+    /// Finds the columns of a text; errors name it `path`.
     ///
     /// # Errors
-    /// An empty text, or one whose first line may be a header or a row.
+    /// The text is empty, or its first line could be a header or a row of numbers.
     pub(super) fn open(
         path: &Path,
         stream: Stream,
@@ -67,11 +73,11 @@ impl Text {
         let failed = |error| FileError::read(path, error);
         let mut source = BufReader::new(decode::decoded(stream, options.encoding));
         let skipped = head::skip_lines(&mut source, options.skip_lines).map_err(failed)?;
-        let (head, whole) = head::read(&mut source).map_err(failed)?;
+        let head = head::read(&mut source).map_err(failed)?;
         let separator = options
             .separator
-            .unwrap_or_else(|| separator::separator(&head[..whole]));
-        let source: Box<dyn Read> = Box::new(Cursor::new(head).chain(source));
+            .unwrap_or_else(|| separator::separator(head.whole_lines()));
+        let source: Box<dyn Read> = Box::new(Cursor::new(head.bytes).chain(source));
         let reader = ReaderBuilder::new()
             .comment(Some(b'#'))
             .delimiter(separator.byte())
@@ -107,18 +113,26 @@ impl Text {
         };
         let (mut found, mut pending) = (Vec::new(), None);
         if has_header {
-            found.extend(header.iter().map(|cell| header::found(cell)));
+            found.extend(header.iter().map(|cell| header::column_from_header(cell)));
             let mut second = ByteRecord::new();
             if lines.read(&mut second)? {
                 let line = lines.line();
                 match header::units(separator::cells(&second, lines.separator)) {
-                    Some(units) => header::take_units(&mut found, units),
-                    None => pending = Some((second, line)),
+                    Some(units) => header::set_units(&mut found, units),
+                    None => {
+                        pending = Some(PendingRow {
+                            record: second,
+                            line,
+                        });
+                    }
                 }
             }
         } else {
-            found.resize(header.len(), header::found(""));
-            pending = Some((first, first_line));
+            found.resize(header.len(), header::column_from_header(""));
+            pending = Some(PendingRow {
+                record: first,
+                line: first_line,
+            });
         }
         Ok(Self {
             path: lines.path.clone(),
@@ -131,8 +145,8 @@ impl Text {
     }
 }
 
-impl Opened for Text {
-    fn found(&self) -> &[Found] {
+impl RecordingFile for Text {
+    fn found(&self) -> &[ChannelInfo] {
         &self.found
     }
 
@@ -142,7 +156,7 @@ impl Opened for Text {
 
     fn rows(&mut self, indices: &[usize], lenient: bool) -> Result<Box<dyn Source>, FileError> {
         let lines = self.lines.take().ok_or_else(|| {
-            let reason = io::Error::other("it was read already");
+            let reason = io::Error::other("the text has already been read");
             FileError::read(&self.path, reason)
         })?;
         Ok(Box::new(TextRows::new(self, lines, indices, lenient)))
@@ -163,12 +177,12 @@ impl Lines {
         })
     }
 
-    /// Line of the record read last, where there is none after it and it has no line end.
+    /// Line of the last record if no record follows and it has no line end.
     fn unended_line(&self) -> Option<u64> {
         self.is_unended.then(|| self.line())
     }
 
-    /// Line of the record read last.
+    /// Line of the last record.
     fn line(&self) -> u64 {
         let (position, source) = (self.reader.position(), self.reader.get_ref());
         self.skipped + position.line() - u64::from(source.has_passed_line_feed(position.byte()))

@@ -1,20 +1,20 @@
-//! Numbers of text, with a decimal point or a decimal comma.
+//! Numbers in text, with a decimal point or a decimal comma.
 
-use super::options::DecimalMark;
+use crate::text_options::DecimalMark;
 
-/// What is wrong with a cell.
+/// Errors in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum NotNumber {
-    /// No number at all.
+    /// The cell is not a number.
     Text,
-    /// A number with the other decimal mark than those before it, or than the one that was asked for.
+    /// The decimal mark differs from that of earlier numbers or from the chosen one.
     OtherMark(DecimalMark),
 }
 
-/// Reads numbers that all have the same decimal mark.
+/// Parser of numbers that all have the same decimal mark.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Numbers {
-    /// The mark; `None` while no number had one.
+    /// Decimal mark; `None` until a number contains one.
     mark: Option<DecimalMark>,
 }
 
@@ -23,7 +23,7 @@ impl Numbers {
         Self { mark }
     }
 
-    /// The number in a cell; not a number (NaN) where it is empty.
+    /// Parses the number in a cell; an empty cell is NaN.
     pub(super) fn parse(&mut self, cell: &[u8]) -> Result<f64, NotNumber> {
         if cell.is_empty() {
             return Ok(f64::NAN);
@@ -34,16 +34,16 @@ impl Numbers {
                 return Ok(number);
             }
             if cell.contains(&b'.') {
-                self.fix(DecimalMark::Point)?;
+                self.set_mark(DecimalMark::Point)?;
             }
             return Ok(number);
         }
-        let number = with_point(text).ok_or(NotNumber::Text)?;
-        self.fix(DecimalMark::Comma)?;
+        let number = parse_decimal_comma(text).ok_or(NotNumber::Text)?;
+        self.set_mark(DecimalMark::Comma)?;
         Ok(number)
     }
 
-    fn fix(&mut self, mark: DecimalMark) -> Result<(), NotNumber> {
+    fn set_mark(&mut self, mark: DecimalMark) -> Result<(), NotNumber> {
         if *self.mark.get_or_insert(mark) == mark {
             Ok(())
         } else {
@@ -52,16 +52,16 @@ impl Numbers {
     }
 }
 
-/// A number with one decimal comma.
-fn with_point(text: &str) -> Option<f64> {
+/// Parses a number with one decimal comma.
+fn parse_decimal_comma(text: &str) -> Option<f64> {
     if text.len() > 64 || text.contains('.') || !text.contains(',') {
         return None;
     }
     text.replacen(',', ".", 1).parse().ok()
 }
 
-/// Whether a cell is a number with either decimal mark.
+/// True if a cell is a number with either decimal mark.
 pub(super) fn is_number(cell: &[u8]) -> bool {
     let text = std::str::from_utf8(cell.trim_ascii());
-    text.is_ok_and(|text| text.parse::<f64>().is_ok() || with_point(text).is_some())
+    text.is_ok_and(|text| text.parse::<f64>().is_ok() || parse_decimal_comma(text).is_some())
 }

@@ -1,36 +1,38 @@
-//! Rows of a text.
+//! Rows of a text file.
 
 use csv::ByteRecord;
 
-use super::super::error::RecordingError;
-use super::super::place::Place;
-use super::super::rows::Source;
 use super::number::{NotNumber, Numbers};
-use super::options::Separator;
-use super::{Lines, Text, decode};
+use super::{Lines, PendingRow, Text, decode};
+use crate::error::RecordingError;
+use crate::location::RowLocation;
+use crate::rows::Source;
+use crate::select;
+use crate::text_options::Separator;
 use dashpot_files::FileError;
 
-/// Numbers of the chosen columns, row by row.
+/// Numbers of the selected columns, row by row.
 pub(super) struct TextRows {
     lines: Lines,
     names: Vec<String>,
     columns: Vec<usize>,
     cells: usize,
-    /// One for all columns, or one each where what is no number is let pass.
+    /// One parser for all columns, or one per column if `lenient`.
     numbers: Vec<Numbers>,
     lenient: bool,
     record: ByteRecord,
-    /// Line of the record that was looked at before the rows are read, until it is taken.
+    /// Line of the record that was read with the header, until it is returned.
     pending_line: Option<u64>,
-    line_of_pending: Option<u64>,
+    /// Line of the current record if it was read with the header.
+    line_read_before: Option<u64>,
 }
 
 impl TextRows {
     pub(super) fn new(text: &mut Text, lines: Lines, indices: &[usize], lenient: bool) -> Self {
-        let name = |index: &usize| super::super::select::label(&text.found, *index);
+        let name = |index: &usize| select::label(&text.found, *index);
         let names = indices.iter().map(name).collect();
         let (record, pending_line) = match text.pending.take() {
-            Some((record, line)) => (record, Some(line)),
+            Some(PendingRow { record, line }) => (record, Some(line)),
             None => (ByteRecord::new(), None),
         };
         Self {
@@ -45,21 +47,21 @@ impl TextRows {
             lenient,
             record,
             pending_line,
-            line_of_pending: None,
+            line_read_before: None,
         }
     }
 
-    fn cell(&self, place: usize) -> &[u8] {
-        let column = self.columns[place];
+    fn cell(&self, index: usize) -> &[u8] {
+        let column = self.columns[index];
         let cell = match self.lines.separator {
             Separator::Spaces => self.record.iter().filter(|c| !c.is_empty()).nth(column),
             _ => self.record.get(column),
         };
-        // Trimming in the reader would cost as much again as all of its reading.
+        // Trimming in the CSV reader would double its cost.
         cell.unwrap_or_default().trim_ascii()
     }
 
-    /// Refuses a row with more or fewer cells than the header, but for a separator at its end.
+    /// Checks that the row has as many cells as the header. A separator at the end is allowed.
     fn check_length(&self) -> Result<(), FileError> {
         let cells = match self.lines.separator {
             Separator::Spaces => self.record.iter().filter(|c| !c.is_empty()).count(),
@@ -80,52 +82,52 @@ impl TextRows {
     }
 
     fn line(&self) -> u64 {
-        self.line_of_pending.unwrap_or_else(|| self.lines.line())
+        self.line_read_before.unwrap_or_else(|| self.lines.line())
     }
 
-    /// The cell's text, at most 40 bytes of it.
-    fn shown(&self, place: usize) -> String {
-        let cell = self.cell(place);
+    /// Returns the text of a cell for messages, cut to 40 bytes.
+    fn cell_text(&self, index: usize) -> String {
+        let cell = self.cell(index);
         decode::characters(&cell[..cell.len().min(40)]).into_owned()
     }
 }
 
 impl Source for TextRows {
     fn next(&mut self, values: &mut [f64]) -> Result<bool, FileError> {
-        self.line_of_pending = self.pending_line.take();
-        if self.line_of_pending.is_none() && !self.lines.read(&mut self.record)? {
+        self.line_read_before = self.pending_line.take();
+        if self.line_read_before.is_none() && !self.lines.read(&mut self.record)? {
             return Ok(false);
         }
         self.check_length()?;
-        for (place, value) in values.iter_mut().enumerate() {
-            let slot = if self.lenient { place } else { 0 };
-            let mut numbers = self.numbers[slot];
-            *value = match numbers.parse(self.cell(place)) {
+        for (index, value) in values.iter_mut().enumerate() {
+            let parser = if self.lenient { index } else { 0 };
+            let mut numbers = self.numbers[parser];
+            *value = match numbers.parse(self.cell(index)) {
                 Ok(number) => number,
                 Err(_) if self.lenient => f64::NAN,
-                Err(what) => {
-                    let cell = self.shown(place);
-                    let error = match what {
+                Err(reason) => {
+                    let cell = self.cell_text(index);
+                    let error = match reason {
                         NotNumber::Text => RecordingError::Number { cell },
                         NotNumber::OtherMark(mark) => RecordingError::Mark { cell, mark },
                     };
-                    let (path, name) = (&self.lines.path, &self.names[place]);
-                    return Err(self.place().error(path, name, error));
+                    let (path, name) = (&self.lines.path, &self.names[index]);
+                    return Err(self.location().error(path, name, error));
                 }
             };
-            self.numbers[slot] = numbers;
+            self.numbers[parser] = numbers;
         }
         Ok(true)
     }
 
-    fn missing(&self, place: usize) -> RecordingError {
+    fn missing(&self, index: usize) -> RecordingError {
         RecordingError::NotFinite {
-            cell: self.shown(place),
+            cell: self.cell_text(index),
         }
     }
 
-    fn place(&self) -> Place {
-        Place::Line(self.line())
+    fn location(&self) -> RowLocation {
+        RowLocation::Line(self.line())
     }
 
     fn position(&self) -> u64 {

@@ -1,20 +1,20 @@
-//! What separates the cells of a text, found in its first rows.
+//! Detects the separator of a text from its first rows.
 
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
 use super::number::is_number;
-use super::options::Separator;
+use crate::text_options::Separator;
 
-/// Rows looked at.
+/// Number of rows to inspect.
 const ROWS: usize = 8;
 
-/// The separator of the text that starts with `head`, which has whole lines only: of those that give every row as many cells as the
-/// first, the one by which most cells are numbers.
+/// Detects the separator of a text that starts with `head`, which must consist of whole lines. It returns the
+/// separator with the largest share of numbers, among those that split all rows into the same number of cells.
 pub(super) fn separator(head: &[u8]) -> Separator {
     let mut best: Option<(f64, Separator)> = None;
     for separator in Separator::ALL {
         if let Some(share) = share_of_numbers(head, separator)
-            && best.is_none_or(|(most, _)| share > most)
+            && best.is_none_or(|(largest, _)| share > largest)
         {
             best = Some((share, separator));
         }
@@ -22,7 +22,8 @@ pub(super) fn separator(head: &[u8]) -> Separator {
     best.map_or_else(|| most_in_first_row(head), |(_, separator)| separator)
 }
 
-/// The share of numbers among the cells of the rows after the first; `None` where the rows differ in length or have one cell.
+/// Returns the share of numbers among the cells after the first row; `None` if the rows differ in length or have only
+/// one cell.
 fn share_of_numbers(head: &[u8], separator: Separator) -> Option<f64> {
     let rows = rows(head, separator);
     let length = rows.first()?.len();
@@ -43,7 +44,8 @@ fn share_of_numbers(head: &[u8], separator: Separator) -> Option<f64> {
     Some(numbers as f64 / cells.len().max(1) as f64)
 }
 
-/// Where the rows do not fit: the first row still tells, and reading says what does not fit.
+/// Returns the separator with the most cells in the first row. Used if no separator fits all rows; reading then reports
+/// the row that does not fit.
 fn most_in_first_row(head: &[u8]) -> Separator {
     let cells = |separator| rows(head, separator).first().map_or(0, Vec::len);
     let mut best = (cells(Separator::Comma), Separator::Comma);
@@ -71,7 +73,7 @@ fn rows(head: &[u8], separator: Separator) -> Vec<Vec<Vec<u8>>> {
     rows
 }
 
-/// The cells of a record: several spaces separate as one does.
+/// Returns the cells of a record. Several spaces count as one separator.
 pub(super) fn cells(record: &ByteRecord, separator: Separator) -> impl Iterator<Item = &[u8]> {
     record
         .iter()

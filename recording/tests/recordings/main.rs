@@ -1,4 +1,4 @@
-//! Recordings as text.
+//! Tests of recordings in text files.
 
 mod header;
 mod text;

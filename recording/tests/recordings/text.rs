@@ -1,4 +1,4 @@
-//! Recordings of text in its variety: what is found in the file, what is asked for, what is refused.
+//! Variants of text recordings: detected properties, chosen options and errors.
 
 use std::io::{Cursor, Write};
 use std::path::Path;
@@ -9,9 +9,12 @@ use dashpot_recording::{
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-/// Channels by name and unit.
-fn channels(time: [&str; 2], displacement: [&str; 2], force: [&str; 2]) -> Channels {
-    let channel = |quantity: Quantity, [name, unit]: [&str; 2]| Channel {
+/// Name and unit of a channel; empty for the default.
+struct Choice(&'static str, &'static str);
+
+/// Selects channels by name and unit.
+fn channels(time: Choice, displacement: Choice, force: Choice) -> Channels {
+    let channel = |quantity: Quantity, Choice(name, unit): Choice| Channel {
         name: Some(name.to_owned()).filter(|name| !name.is_empty()),
         unit: quantity.unit(unit),
         reversed: false,
@@ -25,7 +28,7 @@ fn channels(time: [&str; 2], displacement: [&str; 2], force: [&str; 2]) -> Chann
 }
 
 fn german() -> Channels {
-    channels(["Zeit", ""], ["Weg", ""], ["Kraft", ""])
+    channels(Choice("Zeit", ""), Choice("Weg", ""), Choice("Kraft", ""))
 }
 
 fn measured(bytes: &[u8], channels: &Channels) -> Result<Vec<[f64; 3]>, String> {
@@ -38,10 +41,10 @@ fn measured(bytes: &[u8], channels: &Channels) -> Result<Vec<[f64; 3]>, String> 
 }
 
 fn error_of(text: &str, channels: &Channels) -> String {
-    measured(text.as_bytes(), channels).expect_err("refused")
+    measured(text.as_bytes(), channels).expect_err("an invalid file")
 }
 
-/// The rows that each of these files has.
+/// Rows of all valid files below: time (s), displacement (m) and force (N).
 const ROWS: [[f64; 3]; 3] = [
     [0.0, 0.0, 0.0],
     [1e-3, 1.5e-3, 1250.0],
@@ -49,10 +52,10 @@ const ROWS: [[f64; 3]; 3] = [
 ];
 
 #[test]
-fn separators_decimal_marks_and_units_are_found() {
+fn separators_decimal_marks_and_units_are_detected() {
     let texts = [
         "time_s,displacement_m,force_n\n0,0,0\n0.001,0.0015,1250\n0.002,-0.00025,-8e2\n",
-        // Other columns are passed over, in any order; a separator at the end of rows, too.
+        // Other columns, in any order, and a separator at the end of rows are ignored.
         "force_kn;note;displacement_mm;time_ms\r\n0;a;0;0;\r\n1.25;b,c;1.5;1;\r\n-0.8;;-0.25;2;\r\n",
         "# logger 7\ntime [ms]\tdisplacement [mm]\tforce [kN]\n0\t0\t0\n1,0\t1,5\t1,25\n2,0\t-0,25\t-0,8\n",
         "time;displacement;force\ns;mm;daN\n0;0;0\n1E-3;1.5;125\n2E-3;-.25;-80\n",
@@ -68,25 +71,29 @@ fn separators_decimal_marks_and_units_are_found() {
 }
 
 #[test]
-fn columns_are_chosen_by_name_and_number() {
+fn columns_are_chosen_by_name_or_number() {
     let text = "Zeit [ms];Weg [mm];Kraft [kN]\n0;0;0\n1;1,5;1,25\n2;-0,25;-0,8\n";
     let choices = [
         german(),
-        channels(["Zeit [ms]", ""], ["Weg [mm]", "mm"], ["3", ""]),
-        channels(["1", "ms"], ["2", ""], ["Kraft", "kN"]),
+        channels(
+            Choice("Zeit [ms]", ""),
+            Choice("Weg [mm]", "mm"),
+            Choice("3", ""),
+        ),
+        channels(Choice("1", "ms"), Choice("2", ""), Choice("Kraft", "kN")),
     ];
     for choice in choices {
         assert_eq!(measured(text.as_bytes(), &choice).as_deref(), Ok(&ROWS[..]));
     }
-    // Without a header there are only numbers.
+    // Without a header, columns can be chosen only by number.
     let (_, bare) = text.split_once('\n').unwrap();
-    let numbers = channels(["1", "ms"], ["2", "mm"], ["3", "kN"]);
+    let numbers = channels(Choice("1", "ms"), Choice("2", "mm"), Choice("3", "kN"));
     assert_eq!(
         measured(bare.as_bytes(), &numbers).as_deref(),
         Ok(&ROWS[..])
     );
-    // A unit that is asked for is that, whatever the file says.
-    let micro = channels(["Zeit", ""], ["Weg", "um"], ["Kraft", ""]);
+    // A chosen unit replaces the one stated in the file.
+    let micro = channels(Choice("Zeit", ""), Choice("Weg", "um"), Choice("Kraft", ""));
     let rows = measured(text.as_bytes(), &micro).unwrap();
     assert_eq!(rows[1][1], 1.5e-6);
 }
@@ -101,8 +108,9 @@ fn reversed_channels_change_their_sign() {
 }
 
 #[test]
-fn encodings_and_gzip_are_found() {
-    let text = "Zeit [\u{b5}s];Weg [\u{b5}m];Kraft [kN];Temperatur [\u{b0}C]\n0;0;0;20\n1000;1500;1,25;20\n2000;-250;-0,8;20\n";
+fn encodings_and_gzip_are_detected() {
+    let text = "Zeit [\u{b5}s];Weg [\u{b5}m];Kraft [kN];Temperatur [\u{b0}C]\n\
+        0;0;0;20\n1000;1500;1,25;20\n2000;-250;-0,8;20\n";
     let utf_16 = |bytes: fn(u16) -> [u8; 2], mark: &str| -> Vec<u8> {
         let text = format!("{mark}{text}");
         text.encode_utf16().flat_map(bytes).collect()
@@ -112,7 +120,7 @@ fn encodings_and_gzip_are_found() {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::default());
     gzip.write_all(&utf_16(u16::to_le_bytes, "\u{feff}"))
         .unwrap();
-    // Two members, as `cat a.gz b.gz` makes them.
+    // Two members, as `cat a.gz b.gz` creates.
     let (first, second) = text.split_at(50);
     let members = [first, second].map(|part| {
         let mut gzip = GzEncoder::new(Vec::new(), Compression::default());
@@ -143,14 +151,14 @@ fn damaged_compression_is_reported() {
         .map(|i| format!("{i},{}\n", i * 7919 % 1000))
         .collect();
     write!(gzip, "time_s,displacement_m\n{rows}").unwrap();
-    let whole = gzip.finish().unwrap();
-    let mut wrong_sum = whole.clone();
-    let sum = wrong_sum.len() - 6;
-    wrong_sum[sum] ^= 1;
+    let complete = gzip.finish().unwrap();
+    let mut wrong_checksum = complete.clone();
+    let index = wrong_checksum.len() - 6;
+    wrong_checksum[index] ^= 1;
     for bytes in [
-        &whole[..whole.len() / 2],
-        &whole[..whole.len() - 4],
-        &wrong_sum,
+        &complete[..complete.len() / 2],
+        &complete[..complete.len() - 4],
+        &wrong_checksum,
     ] {
         let source = Box::new(Cursor::new(bytes.to_vec()));
         let read = Recording::read(Path::new("run7.csv.gz"), source)
@@ -162,37 +170,40 @@ fn damaged_compression_is_reported() {
 }
 
 #[test]
-fn what_may_be_several_things_is_asked_for() {
+fn ambiguous_properties_are_errors() {
     let none = Channels::default();
     let cases = [
         (
             "time,displacement_m,force_n\n0,0,0\n",
-            "the file does not tell the unit of time",
+            "the file does not state the unit of time",
         ),
         (
             "time_s,displacement [furlong],force_n\n0,0,0\n",
-            "`furlong`, which the file says is the unit of displacement, is not one of displacement known here: m, cm, mm, um, in",
+            "the unknown unit `furlong` for displacement; known units of displacement: m, cm, mm, um, in",
         ),
         (
             "time_s;displacement_m;force_n\ns;mm;N\n0;0;0\n",
-            "column displacement_m has the unit `mm`, which is not that of its name",
+            "column displacement_m has the unit `mm`, but its name ends with another unit",
         ),
         (
             "time_s,displacement [m],displacement [mm],force_n\n0,0,0,0\n",
-            "`displacement [m]`, `displacement [mm]` may be meant",
+            "displacement: several channels match: `displacement [m]`, `displacement [mm]`",
         ),
         (
             "time_s,x,force_n\n0,0,0\n",
-            "column displacement_m is missing; there are `time_s`, `x`, `force_n`",
+            "column displacement_m is missing; the file has `time_s`, `x`, `force_n`",
         ),
         (
             "0.5,1,2\n0.6,1,2\n",
             "no header says which column is the time",
         ),
-        ("0,1,2\n1,2,3\n", "`0 1 2` may be names of columns or a row"),
+        (
+            "0,1,2\n1,2,3\n",
+            "`0 1 2` could be the header or the first row",
+        ),
         (
             "time_s;displacement_m;force_n\n0,1;0.2;0\n",
-            "run7.csv:2: column displacement_m: `0.2` has a decimal point, the numbers before it have another mark",
+            "run7.csv:2: column displacement_m: `0.2` has a decimal point, unlike the numbers before it",
         ),
         (
             "time_s;displacement_m;force_n\n0;1.234,5;0\n",
@@ -203,7 +214,11 @@ fn what_may_be_several_things_is_asked_for() {
         let error = error_of(text, &none);
         assert!(error.contains(expected), "`{error}` lacks `{expected}`");
     }
-    let same = channels(["", ""], ["2", "m"], ["displacement_m", "N"]);
+    let same = channels(
+        Choice("", ""),
+        Choice("2", "m"),
+        Choice("displacement_m", "N"),
+    );
     let error = error_of("time_s,displacement_m\n0,0\n", &same);
     assert!(
         error.contains("displacement and force: both are column"),
@@ -212,20 +227,20 @@ fn what_may_be_several_things_is_asked_for() {
 }
 
 #[test]
-fn what_is_asked_for_holds() {
-    let mut asked = channels(["1", "s"], ["2", "m"], ["3", "N"]);
-    asked.text.header = Some(false);
-    let rows = measured(b"0,1,2\n1,2,3\n", &asked);
+fn chosen_options_replace_detected_properties() {
+    let mut chosen = channels(Choice("1", "s"), Choice("2", "m"), Choice("3", "N"));
+    chosen.text.header = Some(false);
+    let rows = measured(b"0,1,2\n1,2,3\n", &chosen);
     assert_eq!(rows, Ok(vec![[0.0, 1.0, 2.0], [1.0, 2.0, 3.0]]));
-    asked.text.header = Some(true);
-    // Columns without names have numbers from 0 where pandas wrote them.
-    let error = error_of("0,1,2\n1,2,3\n", &asked);
+    chosen.text.header = Some(true);
+    // pandas gives columns without names numbers from 0 as names.
+    let error = error_of("0,1,2\n1,2,3\n", &chosen);
     let expected = "time: `1` is the name of column #2 and the number of another; write #2 or #1";
     assert!(error.contains(expected), "{error}");
-    let mut asked = channels(["#1", "s"], ["#2", "m"], ["#3", "N"]);
-    asked.text.header = Some(true);
+    let mut chosen = channels(Choice("#1", "s"), Choice("#2", "m"), Choice("#3", "N"));
+    chosen.text.header = Some(true);
     assert_eq!(
-        measured(b"0,1,2\n1,2,3\n", &asked),
+        measured(b"0,1,2\n1,2,3\n", &chosen),
         Ok(vec![[1.0, 2.0, 3.0]])
     );
 
@@ -244,7 +259,7 @@ fn what_is_asked_for_holds() {
 }
 
 #[test]
-fn rows_that_lack_a_value_are_refused_or_left_out() {
+fn rows_with_missing_values_are_errors_or_omitted() {
     let text = "time_s,displacement_m,force_n\n0,0,0\n1,,5\n2,nan,5\n3,0,5\n";
     let error = error_of(text, &Channels::default());
     let expected = "run7.csv:3: column displacement_m: `` is not a finite number";
@@ -261,7 +276,7 @@ fn rows_that_lack_a_value_are_refused_or_left_out() {
         left_out,
         serde_json::json!({ "rows": 2, "first": { "line": 3 } })
     );
-    // A word is no missing value.
+    // A word is not a missing value.
     let error = error_of(&text.replace("nan", "off"), &skipping);
     assert!(
         error.starts_with("run7.csv:4: column displacement_m: `off`"),

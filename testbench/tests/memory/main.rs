@@ -10,7 +10,7 @@ use dashpot_files::FileError;
 use dashpot_files::damper;
 use dashpot_recording::Recording;
 use dashpot_recording::tick_grid::TickGrid;
-use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_testbench::replay::replay;
 
 const STEP_S: f64 = 1e-3;
@@ -22,7 +22,11 @@ const MANY: usize = 2 * FEW;
 /// Bytes per row of time and displacement.
 const ROW: usize = 16;
 
-const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
+const COLUMNS: [Column; 3] = [
+    Column::new("time_s", "s"),
+    Column::new("displacement_m", "m"),
+    Column::new("force_n", "N"),
+];
 
 const MIB: usize = 1 << 20;
 
@@ -58,10 +62,10 @@ fn peak_of(run: impl FnOnce()) -> usize {
     PEAK.load(Ordering::Relaxed) - before
 }
 
-fn recording(folder: &Path, form: Form, rows: usize) -> PathBuf {
+fn recording(folder: &Path, form: FileFormat, rows: usize) -> PathBuf {
     let path = folder.join("recording");
     let mut file = std::fs::File::create(&path).unwrap();
-    let mut written = Written::new(&path, &mut file, form, &COLUMNS[..2]).unwrap();
+    let mut written = RowWriter::new(&path, &mut file, form, &COLUMNS[..2]).unwrap();
     for row in 0..rows {
         let time_s = row as f64 / 1e3;
         let values = [time_s, 1e-2 * (8.8 * time_s).sin()];
@@ -72,14 +76,14 @@ fn recording(folder: &Path, form: Form, rows: usize) -> PathBuf {
 }
 
 /// Replays as the command does, but writes no file.
-fn replay_file(path: &Path, form: Form, rows: usize) {
+fn replay_file(path: &Path, form: FileFormat, rows: usize) {
     let damper: Damper<f32> = damper::load("in-service", &[])
         .unwrap()
         .build(STEP_S)
         .unwrap();
     let mut ticks = TickGrid::new(Recording::open(path).unwrap(), STEP_S).unwrap();
     let mut sink = io::sink();
-    let mut written = Written::new(path, &mut sink, form, &COLUMNS).unwrap();
+    let mut written = RowWriter::new(path, &mut sink, form, &COLUMNS).unwrap();
     let summary = replay(&damper, &mut ticks, None, |tick, force, _| {
         let values = [tick.time_s, tick.displacement_m, f64::from(force)];
         written.row(&values, values)
@@ -93,9 +97,9 @@ fn replay_file(path: &Path, form: Form, rows: usize) {
 #[test]
 fn a_long_recording_takes_no_more_memory_than_a_short_one() {
     for (form, max) in [
-        (Form::Text, MIB),
-        (Form::Parquet, 8 * MIB),
-        (Form::Mdf4, 16 * MIB),
+        (FileFormat::Text, MIB),
+        (FileFormat::Parquet, 8 * MIB),
+        (FileFormat::Mdf4, 16 * MIB),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let [few, many] = [FEW, MANY].map(|rows| {

@@ -20,6 +20,7 @@ use crate::commands::recording::MeasurementArguments;
 use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::step_size::StepSize;
 use dashpot_files::{damper, input};
+use dashpot_host_link::HealthSample;
 use dashpot_recording::tick_grid::MeasuredGrid;
 use dashpot_recording::{Gaps, Measurement};
 use dashpot_testbench::health::{doubts_in_words, in_words, whole_in_words};
@@ -171,9 +172,12 @@ fn feed(
         .map(|every_s| (every_s / step_s).round().max(1.0) as u64);
     let length = health.input.as_deref().map_or(0, input::length);
     let bar = progress::bar(length, "feed");
-    let mut batch: Vec<(f32, f32)> = Vec::with_capacity(MAX_MEASURED);
+    let mut batch = Vec::with_capacity(MAX_MEASURED);
     while let Some(tick) = ticks.next_tick()? {
-        batch.push((tick.displacement_m as f32, tick.force_n as f32));
+        batch.push(HealthSample {
+            displacement_m: tick.displacement_m as f32,
+            force_n: tick.force_n as f32,
+        });
         report.fed += 1;
         let is_due = every.is_some_and(|every| report.fed.is_multiple_of(every));
         if is_due || batch.len() == MAX_MEASURED {

@@ -63,7 +63,7 @@ impl History {
         // Drawn on a logarithmic scale, which has no zero.
         let round_trip_ns = record.round_trip_ns.max(1);
         self.round_trip_ns.record(tick, round_trip_ns as f64);
-        if record.events.iter().any(|event| event.is_made()) {
+        if record.events.iter().any(|event| event.is_injected()) {
             self.faults_made.record(tick, 1.0);
         }
         if record.events.contains(&Event::Recovery) {

@@ -226,7 +226,7 @@ fn drive(
         step_us: step.step_us(),
         report,
         gaps: ticks.recording().gaps(),
-        injected_faults: arguments.faults.map(|_| session.link().faults_made()),
+        injected_faults: arguments.faults.map(|_| session.link().injected_faults()),
         seed: arguments.faults.map(|_| arguments.seed),
         files: arguments
             .files()

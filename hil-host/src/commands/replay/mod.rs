@@ -24,13 +24,17 @@ use dashpot_files::input;
 use dashpot_files::output::{self, cannot_write, write_whole, write_whole_if};
 use dashpot_realtime::pacing::Pacer;
 use dashpot_recording::tick_grid::TickGrid;
-use dashpot_recording::written::{ColumnName, Form, Written};
+use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_recording::{Gaps, Recording};
 use dashpot_testbench::replay::{Summary, replay};
 use health::{HealthArguments, HealthReport};
 
 /// Output columns.
-const COLUMNS: [ColumnName; 3] = [("time_s", "s"), ("displacement_m", "m"), ("force_n", "N")];
+const COLUMNS: [Column; 3] = [
+    Column::new("time_s", "s"),
+    Column::new("displacement_m", "m"),
+    Column::new("force_n", "N"),
+];
 
 /// Compute the force of a damper over a recorded motion.
 #[derive(Debug, Clone, clap::Args)]
@@ -189,9 +193,9 @@ fn write<T: Compiled + Serialize>(
         Recording::open_with(&arguments.input, &arguments.recording.channels())?,
         step_s,
     )?;
-    let form = Form::of(&arguments.output).map_err(Failure::wrong_use)?;
+    let form = FileFormat::from_path(&arguments.output).map_err(Failure::wrong_use)?;
     let summary = write_whole::<_, Failure>(&arguments.output, |file| {
-        let mut rows = Written::new(&arguments.output, file, form, &COLUMNS)?;
+        let mut rows = RowWriter::new(&arguments.output, file, form, &COLUMNS)?;
         let mut number = 0_u32;
         let summary = replay(&damper, &mut ticks, pacer, |tick, force, ticks| {
             number = number.wrapping_add(1);

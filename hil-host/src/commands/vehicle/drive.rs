@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use dashpot_realtime::handover::Giver;
+use dashpot_realtime::handover::Sender;
 use dashpot_realtime::pacing::{Clock, Pacer};
 use dashpot_vehicle_run::{Ending, Run, TickRecord, VehicleRunError};
 
@@ -49,7 +49,7 @@ pub fn drive<C: Clock>(
     run: &mut Run,
     exchange: &mut impl Exchange,
     mut pacer: Option<&mut Pacer<C>>,
-    mut records: Giver<TickRecord>,
+    mut records: Sender<TickRecord>,
     is_unwanted: impl Fn() -> bool,
 ) -> Result<Driven, VehicleRunError> {
     let mut driven = Driven {
@@ -70,7 +70,7 @@ pub fn drive<C: Clock>(
         let ended = stepped.or_else(|| exchange.after(run));
         // A thread that ended has met an error, which it reports.
         let is_read = records
-            .give(|record| record.copy(run.time_s(), run.state()))
+            .send(|record| record.copy(run.time_s(), run.state()))
             .is_ok();
         if let Some(ending) = ended {
             driven.ending = ending;

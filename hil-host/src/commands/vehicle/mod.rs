@@ -24,7 +24,7 @@ use super::{Format, RealtimeArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::Case;
 use dashpot_files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
-use dashpot_realtime::handover::{Giver, handover};
+use dashpot_realtime::handover::{Sender, handover};
 use dashpot_realtime::options::RealtimeOptions;
 use dashpot_realtime::pacing::{Pacer, PacingReport};
 #[cfg(feature = "parquet")]
@@ -235,7 +235,7 @@ fn follow(
             let taker = taker;
             let mut written = Ok(());
             while written.is_ok()
-                && taker.take(|record| {
+                && taker.receive(|record| {
                     ticks += 1;
                     let time_s = super::nearest_nanosecond(record.time_s);
                     row.clear();
@@ -273,7 +273,7 @@ fn step_through(
     run: &mut Run,
     exchange: Option<&mut Lines>,
     realtime: Option<RealtimeOptions>,
-    records: Giver<TickRecord>,
+    records: Sender<TickRecord>,
 ) -> Outcome<(Driven, Option<PacingReport>)> {
     let mut pacer = match realtime {
         Some(options) => Some(Pacer::new(case.step_s, &options)?),

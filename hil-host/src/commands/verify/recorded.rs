@@ -56,8 +56,8 @@ pub(super) fn run(arguments: &VerifyArguments, input: &Path) -> Outcome<()> {
     let mut rows = Vec::new();
     for step in steps {
         let step_s = step.step_s();
-        let ticks =
-            TickGrid::new(Recording::again(&path, Rc::clone(&samples)), step_s)?.read_all()?;
+        let ticks = TickGrid::new(Recording::from_samples(&path, Rc::clone(&samples)), step_s)?
+            .read_all()?;
         let displacements_m: Vec<f64> = ticks.iter().map(|tick| tick.displacement_m).collect();
         let on_ticks = reference_forces(&parameters, step_s, &displacements_m)?;
         let on_recording = reference_forces_on_recording(&parameters, step_s, &samples, &ticks)?;

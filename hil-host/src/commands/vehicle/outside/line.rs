@@ -162,10 +162,14 @@ fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
 /// Reports an unusable target with the option `--outside`.
 fn refused(name: &str, error: &SessionError) -> Failure {
     match error {
-        SessionError::Places { .. } => Failure::wrong_use(format!("--outside {name}: {error}")),
-        SessionError::Link(LinkError::Emulator(EmulatorError::NoImage(_))) => Failure::new(
-            format!("--outside {name}: {error}, or name one with qemu:IMAGE"),
-        ),
+        SessionError::TooManyDampers { .. } => {
+            Failure::wrong_use(format!("--outside {name}: {error}"))
+        }
+        SessionError::Link(LinkError::Emulator(EmulatorError::NoImage(_))) => {
+            Failure::new(format!(
+                "--outside {name}: {error}; build it with `cargo xtask firmware`, or name one with qemu:IMAGE"
+            ))
+        }
         _ => Failure::new(format!("--outside {name}: {}", in_words(error))),
     }
 }

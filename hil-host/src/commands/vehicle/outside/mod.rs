@@ -77,7 +77,7 @@ impl OutsideArguments {
         let channels = self.recording.channels();
         for (choice, damper) in self.choices.iter().zip(&dampers) {
             if let Source::File(path) = &choice.source {
-                let needed_s = [case.step_s, last_s];
+                let needed_s = case.step_s..=last_s;
                 let history =
                     ForceHistory::open_with(path, &channels, needed_s).map_err(|error| {
                         let reason = Failure::from(error);

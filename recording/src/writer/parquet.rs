@@ -1,4 +1,4 @@
-//! Rows as Parquet: a column of float64 each, their units and their SHA-256 in the file's metadata.
+//! Writes rows as Parquet: one float64 column per quantity, with units and SHA-256 checksums in the metadata.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -12,22 +12,22 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 
-use super::ColumnName;
-use crate::columns::Bytes;
+use super::Column;
+use crate::columns::SharedBuffer;
 use crate::parquet::UNITS;
 use crate::sums::{self, Sum};
 use dashpot_files::FileError;
 use dashpot_files::output::cannot_write;
 
-/// Rows of a row group.
+/// Rows per row group.
 const ROWS: usize = 1 << 16;
 
-/// A file of Parquet that is being written.
+/// A Parquet file being written.
 pub struct Rows<'a> {
     path: &'a Path,
     file: &'a mut dyn Write,
-    bytes: Bytes,
-    writer: SerializedFileWriter<Bytes>,
+    bytes: SharedBuffer,
+    writer: SerializedFileWriter<SharedBuffer>,
     columns: Vec<Vec<f64>>,
     sums: Vec<(&'static str, Sum)>,
 }
@@ -36,9 +36,9 @@ impl<'a> Rows<'a> {
     pub(super) fn new(
         path: &'a Path,
         file: &'a mut dyn Write,
-        columns: &[ColumnName],
+        columns: &[Column],
     ) -> Result<Self, FileError> {
-        let bytes = Bytes::default();
+        let bytes = SharedBuffer::default();
         let writer = start(bytes.clone(), columns).map_err(|error| failed(path, error))?;
         Ok(Self {
             path,
@@ -47,7 +47,7 @@ impl<'a> Rows<'a> {
             writer,
             sums: columns
                 .iter()
-                .map(|(name, _)| (*name, Sum::default()))
+                .map(|column| (column.name, Sum::default()))
                 .collect(),
             columns: vec![Vec::with_capacity(ROWS); columns.len()],
         })
@@ -63,22 +63,23 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// A row group of the rows that there are.
+    /// Writes the buffered rows as a row group.
     fn flush(&mut self) -> Result<(), FileError> {
-        self.add().map_err(|error| failed(self.path, error))?;
-        let taken = self.bytes.take_to(self.file);
-        taken.map_err(|error| cannot_write(self.path, error))
+        self.write_group()
+            .map_err(|error| failed(self.path, error))?;
+        let flushed = self.bytes.flush_to(self.file);
+        flushed.map_err(|error| cannot_write(self.path, error))
     }
 
-    fn add(&mut self) -> Result<(), ParquetError> {
+    fn write_group(&mut self) -> Result<(), ParquetError> {
         let mut group = self.writer.next_row_group()?;
         for (column, (_, sum)) in self.columns.iter_mut().zip(&mut self.sums) {
             sum.add(column);
-            if let Some(mut place) = group.next_column()? {
-                place
+            if let Some(mut writer) = group.next_column()? {
+                writer
                     .typed::<DoubleType>()
                     .write_batch(column, None, None)?;
-                place.close()?;
+                writer.close()?;
             }
             column.clear();
         }
@@ -94,19 +95,19 @@ impl<'a> Rows<'a> {
         let sums = self.sums.iter().map(|(name, sum)| (*name, sum));
         self.writer.append_key_value_metadata(sums::metadata(sums));
         self.writer.close().map_err(|error| failed(path, error))?;
-        let taken = self.bytes.take_to(self.file);
-        taken.map_err(|error| cannot_write(path, error))
+        let flushed = self.bytes.flush_to(self.file);
+        flushed.map_err(|error| cannot_write(path, error))
     }
 }
 
 fn start(
-    bytes: Bytes,
-    columns: &[ColumnName],
-) -> Result<SerializedFileWriter<Bytes>, ParquetError> {
-    let fields = columns.iter().map(|(name, _)| {
-        let column = Type::primitive_type_builder(name, Physical::DOUBLE)
+    bytes: SharedBuffer,
+    columns: &[Column],
+) -> Result<SerializedFileWriter<SharedBuffer>, ParquetError> {
+    let fields = columns.iter().map(|column| {
+        let field = Type::primitive_type_builder(column.name, Physical::DOUBLE)
             .with_repetition(Repetition::REQUIRED);
-        Ok(Arc::new(column.build()?))
+        Ok(Arc::new(field.build()?))
     });
     let fields = fields.collect::<Result<_, ParquetError>>()?;
     let schema = Type::group_type_builder("table")
@@ -114,12 +115,12 @@ fn start(
         .build()?;
     let units: serde_json::Map<String, serde_json::Value> = columns
         .iter()
-        .map(|(name, unit)| ((*name).into(), (*unit).into()))
+        .map(|column| (column.name.into(), column.unit.into()))
         .collect();
     let units = serde_json::Value::Object(units).to_string();
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
-        // Hardly a number is there twice.
+        // Repeated numbers are rare.
         .set_dictionary_enabled(false)
         .set_key_value_metadata(Some(vec![KeyValue::new(UNITS.into(), units)]));
     SerializedFileWriter::new(bytes, Arc::new(schema), Arc::new(properties.build()))

@@ -1,7 +1,8 @@
-//! Rows as MDF4: one group whose master is the time.
+//! Writes rows as MDF4: one group with the time as its master channel.
 //!
-//! The library writes what it holds in memory. It is given one row; the file is what it makes of that, with the rows behind it and their
-//! number in the two places that tell it. The number comes before the rows, which are in a temporary file until it is known.
+//! The library writes only data that fit into memory. So it writes a file with one row, whose data are then replaced by
+//! all rows, and the row count is set in the two fields that contain it. Because the count precedes the rows, they are
+//! kept in a temporary file until it is known.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Seek, Write};
@@ -9,24 +10,26 @@ use std::path::Path;
 
 use falcon_mdf::Mf4Writer;
 
-use super::ColumnName;
+use super::Column;
 use dashpot_files::FileError;
 use dashpot_files::output::cannot_write;
 
-/// Bytes of rows that go to or come from the temporary file at once.
+/// Buffer size for the temporary file in bytes.
 const PART: usize = 1 << 16;
 
-/// Bytes of a number in a row.
+/// Size of a number in bytes.
 const NUMBER: usize = 8;
 
-/// A block of data has its length behind its mark, and its rows behind its header.
+/// Offset of the length in a data block.
 const LENGTH: usize = 8;
+
+/// Size of the header of a data block, which precedes the rows.
 const DATA_HEADER: usize = 24;
 
-/// A block of a channel group has its number of rows behind its header, six links and the number of its record.
+/// Offset of the number of rows in a channel group block: after the header, six links and the record number.
 const CYCLE_COUNT: usize = 24 + 6 * 8 + 8;
 
-/// A file of MDF4 that is being written.
+/// An MDF4 file being written.
 pub struct Rows<'a> {
     path: &'a Path,
     file: &'a mut dyn Write,
@@ -40,13 +43,13 @@ impl<'a> Rows<'a> {
     pub(super) fn new(
         path: &'a Path,
         file: &'a mut dyn Write,
-        columns: &[ColumnName],
+        columns: &[Column],
     ) -> Result<Self, FileError> {
         let failed = |error: io::Error| cannot_write(path, error);
         Ok(Self {
             path,
             file,
-            head: of_one_row(columns).map_err(failed)?,
+            head: one_row_file(columns).map_err(failed)?,
             rows: BufWriter::with_capacity(PART, tempfile::tempfile().map_err(failed)?),
             width: columns.len(),
             count: 0,
@@ -71,9 +74,9 @@ impl<'a> Rows<'a> {
         let row_bytes = self.width * NUMBER;
         let data = self.head.len().checked_sub(row_bytes + DATA_HEADER);
         let data = data.filter(|data| self.head[*data..].starts_with(b"##DT"));
-        let data = data.ok_or_else(|| unexpected("its data are not at its end"))?;
+        let data = data.ok_or_else(|| unexpected("the data block is not last"))?;
         let group = self.head.windows(4).position(|bytes| bytes == b"##CG");
-        let group = group.ok_or_else(|| unexpected("it has no channel group"))?;
+        let group = group.ok_or_else(|| unexpected("there is no channel group"))?;
         let length = DATA_HEADER as u64 + self.count * row_bytes as u64;
         set(&mut self.head, data + LENGTH, length)?;
         set(&mut self.head, group + CYCLE_COUNT, self.count)?;
@@ -85,14 +88,14 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// A file of one row of zeros.
-fn of_one_row(columns: &[ColumnName]) -> io::Result<Vec<u8>> {
-    // No start of the recording is known: the epoch, so that the same rows make the same file.
+/// Creates a file with one row of zeros.
+fn one_row_file(columns: &[Column]) -> io::Result<Vec<u8>> {
+    // The start time is unknown. The epoch makes files reproducible.
     let mut writer = Mf4Writer::with_start_time_ns(0);
     let group = writer.add_group(&[0.0]).map_err(io::Error::other)?;
-    for (name, unit) in columns.iter().skip(1) {
+    for column in columns.iter().skip(1) {
         group
-            .add_channel(name, unit, &[0.0])
+            .add_channel(column.name, column.unit, &[0.0])
             .map_err(io::Error::other)?;
     }
     let mut bytes = Vec::new();
@@ -101,14 +104,14 @@ fn of_one_row(columns: &[ColumnName]) -> io::Result<Vec<u8>> {
 }
 
 fn set(bytes: &mut [u8], at: usize, number: u64) -> io::Result<()> {
-    let place = bytes.get_mut(at..at + NUMBER);
-    let place = place.ok_or_else(|| unexpected("it is too short"))?;
-    place.copy_from_slice(&number.to_le_bytes());
+    let slot = bytes.get_mut(at..at + NUMBER);
+    let slot = slot.ok_or_else(|| unexpected("the file is too short"))?;
+    slot.copy_from_slice(&number.to_le_bytes());
     Ok(())
 }
 
-fn unexpected(what: &str) -> io::Error {
+fn unexpected(reason: &str) -> io::Error {
     io::Error::other(format!(
-        "the library wrote another MDF4 than it did: {what}"
+        "the MDF4 library wrote an unexpected layout: {reason}"
     ))
 }

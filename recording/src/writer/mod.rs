@@ -1,4 +1,4 @@
-//! Rows that were computed, as text, Parquet or MDF4.
+//! Writes computed rows as text, Parquet or MDF4.
 
 #[cfg(feature = "mdf")]
 mod mdf;
@@ -14,12 +14,25 @@ use dashpot_files::FileError;
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::cannot_write_rows;
 
-/// Name and unit of a column; the unit is that which the end of the name tells.
-pub type ColumnName = (&'static str, &'static str);
-
-/// In what form rows are written.
+/// Name and unit of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub struct Column {
+    /// Name, which should end with the unit, such as `force_n`.
+    pub name: &'static str,
+    /// Unit, such as `N`.
+    pub unit: &'static str,
+}
+
+impl Column {
+    /// Creates a column with a name and a unit.
+    pub const fn new(name: &'static str, unit: &'static str) -> Self {
+        Self { name, unit }
+    }
+}
+
+/// Output file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFormat {
     /// CSV.
     Text,
     /// Apache Parquet.
@@ -30,8 +43,8 @@ pub enum Form {
     Mdf4,
 }
 
-/// A file that rows are written to one by one, in bounded memory.
-pub enum Written<'a> {
+/// Writes rows one by one to a file, in bounded memory.
+pub enum RowWriter<'a> {
     /// CSV.
     Text(&'a Path, Box<csv::Writer<&'a mut dyn Write>>),
     /// Parquet.
@@ -42,12 +55,12 @@ pub enum Written<'a> {
     Mdf4(Box<mdf::Rows<'a>>),
 }
 
-impl Form {
-    /// That of a file by its extension: `.parquet`, `.mf4`, else CSV; that of standard output is CSV.
+impl FileFormat {
+    /// Returns the format for the extension of `path`: `.parquet`, `.mf4`, otherwise CSV. Standard output is CSV.
     ///
     /// # Errors
-    /// This build does not write it, in words for a person.
-    pub fn of(path: &Path) -> Result<Self, String> {
+    /// This build cannot write the format; the error is the message.
+    pub fn from_path(path: &Path) -> Result<Self, String> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
             _ if is_standard_stream(path) => Ok(Self::Text),
@@ -67,44 +80,45 @@ impl Form {
 #[cfg(not(all(feature = "mdf", feature = "parquet")))]
 fn without(path: &Path, feature: &str) -> String {
     format!(
-        "{}: this build does not write it: build it with the feature `{feature}`, or name a file .csv",
+        "{}: this build cannot write this format because it lacks the feature `{feature}`; allowed: .csv",
         path.display()
     )
 }
 
-impl<'a> Written<'a> {
-    /// Starts a file of `form`, called `path` in errors, with the columns, the first of which is the time.
+impl<'a> RowWriter<'a> {
+    /// Starts a file with the given format and columns. The first column is the time; errors name the file `path`.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub fn new(
         path: &'a Path,
         file: &'a mut dyn Write,
-        form: Form,
-        columns: &[ColumnName],
+        format: FileFormat,
+        columns: &[Column],
     ) -> Result<Self, FileError> {
-        match form {
+        match format {
             #[cfg(feature = "parquet")]
-            Form::Parquet => Ok(Self::Parquet(Box::new(parquet::Rows::new(
+            FileFormat::Parquet => Ok(Self::Parquet(Box::new(parquet::Rows::new(
                 path, file, columns,
             )?))),
             #[cfg(feature = "mdf")]
-            Form::Mdf4 => Ok(Self::Mdf4(Box::new(mdf::Rows::new(path, file, columns)?))),
-            Form::Text => {
+            FileFormat::Mdf4 => Ok(Self::Mdf4(Box::new(mdf::Rows::new(path, file, columns)?))),
+            FileFormat::Text => {
                 let mut rows = csv::Writer::from_writer(file);
-                rows.write_record(columns.iter().map(|(name, _)| name))
+                rows.write_record(columns.iter().map(|column| column.name))
                     .map_err(|error| cannot_write_rows(path, error))?;
                 Ok(Self::Text(path, Box::new(rows)))
             }
         }
     }
 
-    /// Adds a row: `values` are its numbers, of which text has those of `text`, which may be of single precision and shorter.
+    /// Writes a row. Binary formats contain `values`; text files contain `text`, whose numbers may be in single
+    /// precision and therefore shorter.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The row cannot be written.
     pub fn row(&mut self, values: &[f64], text: impl Serialize) -> Result<(), FileError> {
-        // Values are for the other forms.
+        // Only binary formats use `values`.
         #[cfg(not(any(feature = "parquet", feature = "mdf")))]
         let _ = values;
         match self {
@@ -118,10 +132,10 @@ impl<'a> Written<'a> {
         }
     }
 
-    /// Ends the file.
+    /// Finishes the file.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The file cannot be written.
     pub fn finish(self) -> Result<(), FileError> {
         match self {
             Self::Text(path, mut rows) => rows

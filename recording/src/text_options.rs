@@ -1,23 +1,23 @@
-//! How text is read, where it does not tell.
+//! Options for reading text files.
 
 use encoding_rs::Encoding;
 
-/// How the text of a recording is read; what is not given is found in the text.
+/// Options for reading text files; options that are `None` are detected.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TextOptions {
-    /// What separates cells.
+    /// Separator of the cells.
     pub separator: Option<Separator>,
-    /// The mark before the decimals.
+    /// Decimal mark.
     pub decimal_mark: Option<DecimalMark>,
-    /// Whether the first line has the names of the columns.
+    /// True if the first line contains the column names.
     pub header: Option<bool>,
-    /// How characters are written as bytes.
+    /// Character encoding.
     pub encoding: Option<&'static Encoding>,
-    /// Lines before the header or the first row, beside those that start with `#`.
+    /// Number of lines to skip before the header or the first row. Lines that start with `#` are always skipped.
     pub skip_lines: u64,
 }
 
-/// What separates the cells of a row.
+/// Separator of the cells of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Separator {
     /// `,`
@@ -32,7 +32,7 @@ pub enum Separator {
     Bar,
 }
 
-/// The mark before the decimals of a number.
+/// Decimal mark of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DecimalMark {
     /// `0.5`
@@ -42,8 +42,8 @@ pub enum DecimalMark {
 }
 
 impl Separator {
-    /// All, in the order in which they are preferred where two fit.
-    pub(super) const ALL: [Self; 5] = [
+    /// All separators, in order of preference if several fit.
+    pub(crate) const ALL: [Self; 5] = [
         Self::Tab,
         Self::Semicolon,
         Self::Comma,
@@ -51,8 +51,8 @@ impl Separator {
         Self::Spaces,
     ];
 
-    /// Its byte.
-    pub(super) fn byte(self) -> u8 {
+    /// Returns the separator as a byte.
+    pub(crate) fn byte(self) -> u8 {
         match self {
             Self::Comma => b',',
             Self::Semicolon => b';',
@@ -62,7 +62,7 @@ impl Separator {
         }
     }
 
-    /// Its name in a message.
+    /// Name for messages.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Comma => "commas",
