@@ -12,7 +12,7 @@ pub fn threads() -> usize {
 }
 
 /// Runs `work` on the items with a pool of threads, starting in order, and passes each result with its item's index to
-/// `on_result` on the calling thread as soon as it is complete.
+/// `on_result` on the calling thread when it completes.
 ///
 /// After `on_result` returns an error, no further item is started, and the closure that `work` receives,
 /// `is_cancelled`, returns true.

@@ -117,8 +117,8 @@ fn about(case: &CoupledCase) -> Markup {
         }
         p {
             "A force that is set at time t acts at the end of the internal step that starts at t, and stays until \
-             another is set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond the \
-             model; "
+             another is set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond \
+             the model; "
             code { "ending" }
             " gives the reason."
         }
