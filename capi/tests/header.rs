@@ -132,7 +132,8 @@ fn the_header_is_that_of_the_sources() {
         .position(|(a, b)| a != b);
     assert!(
         checked_in == generated,
-        "{} differs from the sources at line {}: DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test header",
+        "{} differs from the sources at line {}: DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test \
+         header",
         file.display(),
         differs.map_or("of the shorter end".to_owned(), |line| (line + 1)
             .to_string())

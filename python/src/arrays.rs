@@ -35,7 +35,8 @@ pub fn write<'py, T: Element, D: numpy::ndarray::Dimension>(
     match array.try_readwrite() {
         Ok(array) if !is_shared => Ok(array),
         _ => refuse(format!(
-            "{name}: it shares memory with an input array or with an array that another call uses; allowed: separate memory"
+            "{name}: it shares memory with an input array or with an array that another call uses; allowed: separate \
+             memory"
         )),
     }
 }
@@ -72,7 +73,8 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
     let masked = py.import("numpy.ma")?.getattr("MaskedArray")?;
     if array.is_instance(&masked)? {
         return refuse(format!(
-            "{name}: a masked array, allowed: {allowed}; use {name}.filled(numpy.nan), at which the step holds its last \
+            "{name}: a masked array, allowed: {allowed}; use {name}.filled(numpy.nan), at which the step holds its \
+             last \
              displacement"
         ));
     }

@@ -139,7 +139,8 @@ impl Bank {
                 || other.step_s.to_bits() != first.step_s.to_bits()
             {
                 return refuse(format!(
-                    "damper {number}: its step or precision is not that of damper 0, allowed: one step and one precision"
+                    "damper {number}: its step or precision is not that of damper 0, allowed: one step and one \
+                     precision"
                 ));
             }
         }

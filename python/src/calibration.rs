@@ -25,7 +25,8 @@ type Samples<'py> = [Bound<'py, PyAny>; 3];
 /// Result of a calibration. `dashpot.calibrate` returns it.
 ///
 /// >>> import dashpot
-/// >>> tests = [{"amplitude_m": 0.025, "frequency_hz": hz, "max_extension_force_n": n} for hz, n in ((0.05, 942.3), (0.1, 1883.4))]
+/// >>> tests = [{"amplitude_m": 0.025, "frequency_hz": hz, "max_extension_force_n": n} for hz, n in ((0.05, 942.3),
+/// (0.1, 1883.4))]
 /// >>> damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0})
 /// >>> found = dashpot.calibrate(damper, vary=["reduced.damping_n_s_per_m"], indices=tests)
 /// >>> least, greatest = found.intervals["reduced.damping_n_s_per_m"]
@@ -176,8 +177,8 @@ impl Calibrated {
 /// True
 #[pyfunction]
 #[pyo3(signature = (
-    damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None, step_s=0.00025, hold=None,
-    temperature_uncertainty_k=5.0, density_uncertainty_kg_per_m3=0.0, max_misfit_percent=20.0
+    damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None,
+    step_s=0.00025, hold=None, temperature_uncertainty_k=5.0, density_uncertainty_kg_per_m3=0.0, max_misfit_percent=20.0
 ))]
 #[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
 pub fn calibrate(

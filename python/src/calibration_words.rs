@@ -43,7 +43,8 @@ fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
     let tried = "no sign, unit, bound or preset that was tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
-            "{what}\n  {tried}: the law of this damper lacks an effect that they show; to get the nearest fit anyway, {}",
+            "{what}\n  {tried}: the law of this damper lacks an effect that they show; to get the nearest fit anyway, \
+             {}",
             said.join(", or ")
         ),
         Finding::AtBound { .. } => format!(
@@ -147,7 +148,8 @@ pub fn warning(warning: &Warning) -> String {
                 "density_uncertainty_kg_per_m3"
             };
             format!(
-                "{key} moves by {shift_percent:.2} % when {assumed} is {value} +- {uncertainty}, more than the noise of the tests; they \
+                "{key} moves by {shift_percent:.2} % when {assumed} is {value} +- {uncertainty}, more than the noise \
+                 of the tests; they \
                  cannot distinguish the two. The interval includes this; {argument} sets how well you know {assumed}"
             )
         }

@@ -88,8 +88,9 @@ impl Contact {
 /// 0.18
 #[pyfunction]
 #[pyo3(signature = (
-    wheel=None, rail=None, *, gauge_m=None, gauge_depth_m=None, back_to_back_m=None, back_to_datum_m=None, wheel_radius_m=None,
-    inclination=None, smoothing_m=None, wheel_format=None, rail_format=None, wheel_mirror=None, rail_mirror=None
+    wheel=None, rail=None, *, gauge_m=None, gauge_depth_m=None, back_to_back_m=None, back_to_datum_m=None,
+    wheel_radius_m=None, inclination=None, smoothing_m=None,
+    wheel_format=None, rail_format=None, wheel_mirror=None, rail_mirror=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
 pub fn contact(

@@ -125,7 +125,8 @@ fn reached(found: &Errors, corners: &[(String, f64)]) -> String {
 /// The measured table of docs/numerics.md.
 fn document_part(found: &Found) -> String {
     let mut text = String::from(
-        "| damper | excitation | 1 kHz f64 | 1 kHz f32 | 10 kHz f64 | 10 kHz f32 | corners |\n|---|---|---|---|---|---|---|\n",
+        "| damper | excitation | 1 kHz f64 | 1 kHz f32 | 10 kHz f64 | 10 kHz f32 | corners \
+         |\n|---|---|---|---|---|---|---|\n",
     );
     for case in cases() {
         let [[slow, slow_single], [fast, fast_single]] = found[&case].nrmse;

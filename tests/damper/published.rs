@@ -118,7 +118,8 @@ fn deflections(page: &mut String, title: &str, file: &str, valve: &Valve) {
         page,
         "## {title}\n\nEdge deflection [mm]. *Theory*: the frictionless stack of Table 1 under uniform pressure. \
          *Preset*: the\ncompliance {compliance:.3e} m/Pa and Ce = {factor} that `paper` takes from this table.\n\n\
-         | P [MPa] | uniform, published | uniform, FEA published | uniform, theory | theory/published | uniform, preset \
+         | P [MPa] | uniform, published | uniform, FEA published | uniform, theory | theory/published | uniform, \
+         preset \
          | preset/published | real, FEA published | real, preset | preset/published | Ce published | Ce preset |\n\
          |---|---|---|---|---|---|---|---|---|---|---|---|\n"
     )
@@ -157,11 +158,16 @@ fn deflections(page: &mut String, title: &str, file: &str, valve: &Valve) {
 
 fn first_erratum(page: &mut String, valves: &dashpot_core::parameters::Valves) {
     *page += "## Erratum 1: Tables 2 to 4 do not follow from Table 1\n\n\
-        Edge compliance under uniform pressure [mm/MPa]: the paper's theory with its Table 1, compared with the printed values of\n\
-        Tables 2 to 4. The theory agrees with Roark's case 2l (`tests/damper/disc.rs`), so the tables must be based on other shims,\n\
-        another load or another unit; neither sliding nor bonded discs reproduce them. The preset uses the printed compliances\n\
-        because they lead to damper forces of the right size; `edge_compliance_m_per_pa` is a parameter for that reason.\n\n\
-        | valve | sliding discs | bonded discs | printed | sliding/printed | bonded/printed |\n|---|---|---|---|---|---|\n";
+        Edge compliance under uniform pressure [mm/MPa]: the paper's theory with its Table 1, compared with the \
+        printed values of\n\
+        Tables 2 to 4. The theory agrees with Roark's case 2l (`tests/damper/disc.rs`), so the tables must be based \
+        on other shims,\n\
+        another load or another unit; neither sliding nor bonded discs reproduce them. The preset uses the printed \
+        compliances\n\
+        because they lead to damper forces of the right size; `edge_compliance_m_per_pa` is a parameter for that \
+        reason.\n\n\
+        | valve | sliding discs | bonded discs | printed | sliding/printed | bonded/printed \
+        |\n|---|---|---|---|---|---|\n";
     // Ratios of the model page, to its digits.
     for (name, valve, stated) in [
         ("piston extension", &valves.piston_extension, 33.0),
@@ -203,10 +209,14 @@ fn table_5(page: &mut String) {
     };
     let indices = settled_cycle(&damper("paper", &[]), motion, 1e-4);
     *page += "## Table 5: nominal characteristic\n\n\
-        The motion is +-24.875 mm at 0.64 Hz (0.1 m/s); ours is the preset `paper`, f64, 10 kHz, the fifth cycle. The damping\n\
-        coefficient is the mean of the two maximum forces over the maximum velocity; the paper does not define it, and its two\n\
-        columns fit no definition we tried to better than 0.2 and 1 %. The asymmetry rate is `(F_ext - F_comp)/(F_ext + F_comp)`.\n\n\
-        | index | unit | published simulation | published test | published error | ours | ours/test |\n|---|---|---|---|---|---|---|\n";
+        The motion is +-24.875 mm at 0.64 Hz (0.1 m/s); ours is the preset `paper`, f64, 10 kHz, the fifth cycle. The \
+        damping\n\
+        coefficient is the mean of the two maximum forces over the maximum velocity; the paper does not define it, \
+        and its two\n\
+        columns fit no definition we tried to better than 0.2 and 1 %. The asymmetry rate is `(F_ext - F_comp)/(F_ext \
+        + F_comp)`.\n\n\
+        | index | unit | published simulation | published test | published error | ours | ours/test \
+        |\n|---|---|---|---|---|---|---|\n";
     for row in rows("table5_nominal_characteristic.csv") {
         let ours = index(&row[0], &indices);
         writeln!(
@@ -234,9 +244,12 @@ fn table_5(page: &mut String) {
     write!(
         page,
         "\n## Erratum 2: Eq. 31 with Tables 2 to 4 does not reproduce Table 5\n\n\
-         The force in compression, where two valves act on the larger piston area, is {:.0} % above the test; the force in\n\
-         extension is {:.0} % below it. The energy factor `E/(pi F x0)` is {:.3} in the published simulation, {:.3} in the test\n\
-         and {factor:.3} here. A factor above 1 requires a digressive curve, but Eq. 31 with orifice and shims alone is\n\
+         The force in compression, where two valves act on the larger piston area, is {:.0} % above the test; the \
+         force in\n\
+         extension is {:.0} % below it. The energy factor `E/(pi F x0)` is {:.3} in the published simulation, {:.3} \
+         in the test\n\
+         and {factor:.3} here. A factor above 1 requires a digressive curve, but Eq. 31 with orifice and shims alone \
+         is\n\
          progressive over this range. At 0.3 m/s Eq. 31 gives 36 kN; the axis of the paper's Fig. 9 ends at 25 kN.\n\
          No value of the preset is tuned to hide this.\n",
         100.0 * (indices.max_compression_force_n / number(&rows[2][3]) - 1.0),
@@ -256,7 +269,8 @@ fn every_published_number_is_compared() {
     let mut page = String::from(
         "# Validation: comparison with the published numbers\n\n\
          `tests/damper/published.rs` generates this page from `data/published/` and fails if the page differs\n\
-         (`DASHPOT_BLESS=1 cargo test -p dashpot --test damper published` writes it). See `data/published/README.md` for the source.\n\n",
+         (`DASHPOT_BLESS=1 cargo test -p dashpot --test damper published` writes it). See `data/published/README.md` \
+         for the source.\n\n",
     );
     table_1(&mut page, valves);
     let tables = [

@@ -109,7 +109,8 @@ fn reported(runs: &[Run]) -> String {
 #[test]
 fn intervals_contain_the_truth_or_a_bit_says_that_they_may_not() {
     let mut table = String::from(
-        "| fault | runs | bits at the end, and in how many runs | trusted at the end | largest error of these, sd | right or in doubt after, s |\n\
+        "| fault | runs | bits at the end, and in how many runs | trusted at the end | largest error of these, sd | \
+         right or in doubt after, s |\n\
          |---|---|---|---|---|---|\n",
     );
     let (mut trusted, mut near) = (0, 0);

@@ -305,7 +305,8 @@ fn compare_documents(measured: &[(&Column, Figures)]) {
                 found.map_or(f64::NAN, |(_, value)| *value)
             };
             let line = format!(
-                "On a Cortex-M7 a step takes {} instructions ({version}), every step the same, {} bytes of stack and {} \
+                "On a Cortex-M7 a step takes {} instructions ({version}), every step the same, {} bytes of stack and \
+                 {} \
                  bytes of state:\n",
                 figure("physical_most_instructions"),
                 figure("stack_bytes"),

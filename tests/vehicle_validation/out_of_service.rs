@@ -237,7 +237,8 @@ fn table(wear: &Wear<'_>, factor: f64, label: &str) -> String {
         "unloading_greatest",
     ];
     let mut text = format!(
-        "**{}**\n\n| {label} | vertical | middle | lateral | Y/Q, rms | lateral force, rms | Y/Q over Nadal | over Prud'homme | unloading |\n|---|---|---|---|---|---|---|---|---|\n",
+        "**{}**\n\n| {label} | vertical | middle | lateral | Y/Q, rms | lateral force, rms | Y/Q over Nadal | over \
+         Prud'homme | unloading |\n|---|---|---|---|---|---|---|---|---|\n",
         wear.sweep.title
     );
     for (point, x) in abscissas(wear.sweep).iter().enumerate() {
@@ -260,7 +261,8 @@ fn table(wear: &Wear<'_>, factor: f64, label: &str) -> String {
 
 fn hunting_table(kept: &Kept) -> String {
     let mut text = String::from(
-        "Maximum lateral displacement of a wheelset in the last 3 s of 18 s, mm, by speed and by clearance or effective stiffness of the
+        "Maximum lateral displacement of a wheelset in the last 3 s of 18 s, mm, by speed and by clearance or \
+         effective stiffness of the
 lateral dampers.\n\n",
     );
     for (name, factor, label) in [

@@ -73,7 +73,8 @@ impl fmt::Display for Warning {
             } => write!(
                 f,
                 "{wheelset}, {side} wheel: load up to {:.0} kN, {:.1} times that at standstill, at {time_s:.3} s, \
-                 {distance_m:.1} m along the track, and over {WARN_LOAD_RATIO:.0} times in {}: outside the validity of the contact model",
+                 {distance_m:.1} m along the track, and over {WARN_LOAD_RATIO:.0} times in {}: outside the validity \
+                 of the contact model",
                 1e-3 * load_n,
                 load_n / load_static_n,
                 counted(*ticks, "tick")

@@ -10,7 +10,8 @@ use crate::tools::{AARCH64_GCC, QEMU_AARCH64};
 /// Folder of the C library in Debian's packages.
 const LIBRARIES: &str = "/usr/aarch64-linux-gnu";
 
-/// Returns `cargo <command> --target aarch64-unknown-linux-gnu`, to which the caller adds arguments. Cargo runs programs
+/// Returns `cargo <command> --target aarch64-unknown-linux-gnu`, to which the caller adds arguments. Cargo runs
+/// programs
 /// in the emulator.
 pub fn cargo(command: &str) -> Command {
     let mut cargo = Command::new("cargo");

@@ -13,7 +13,8 @@ pub(crate) const PIECE: usize = 13;
 
 macro_rules! words {
     ($float:ident, $word:ident) => {
-        #[doc = concat!("Words are the bits of each `", stringify!($float), "` as `", stringify!($word), "`, revisions zero-extended.")]
+        #[doc = concat!("Words are the bits of each `", stringify!($float), "` as `", stringify!($word), "`, \
+         revisions zero-extended.")]
         impl Damper<$float> {
             /// Number of words of a damper.
             pub const WORDS: usize = WORDS;
@@ -27,7 +28,8 @@ macro_rules! words {
             /// ```
             /// use dashpot_core::Damper;
             #[doc = concat!("static DAMPER: Damper<", stringify!($float), "> =")]
-            #[doc = concat!("    Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
+            #[doc = concat!("    Damper::<", stringify!($float), ">::from_words(&[0; \
+             Damper::<", stringify!($float), ">::WORDS]);")]
             /// assert_eq!(DAMPER.revision(), 0); // all zero: no damper was built
             /// assert_eq!(DAMPER.step(&mut DAMPER.at_rest(0.0), 1e-3), 0.0);
             /// ```

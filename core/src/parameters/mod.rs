@@ -178,7 +178,8 @@ parameters! {
     pub struct Limits, LimitsRanges {
         /// Largest force magnitude (N); at this force the damper yields.
         force_n: f64 = 50e3, 1 to 1e7
-            => "1 to 1e7 N, above twice seal.friction_n, at most half of oil.column.bulk_modulus_pa times the area under pressure";
+            => "1 to 1e7 N, above twice seal.friction_n, at most half of oil.column.bulk_modulus_pa times the area \
+             under pressure";
         /// Largest credible rate of the displacement input (m/s); a faster input is followed at this rate and flagged.
         rate_m_per_s: f64 = 2, 1e-3 to 100 "m/s";
         /// Largest credible displacement from zero in either direction (m): half the stroke plus the offset of the

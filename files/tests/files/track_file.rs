@@ -240,7 +240,8 @@ fn errors_have_file_line_and_name() {
         ),
         (
             format!(
-                "{STRAIGHT}\n[[defect]]\nkind = \"cosine-dip\"\nrails = \"both\"\nstart_m = 1\nlength_m = 1\ndepth_m = 1\n"
+                "{STRAIGHT}\n[[defect]]\nkind = \"cosine-dip\"\nrails = \"both\"\nstart_m = 1\nlength_m = 1\ndepth_m \
+                 = 1\n"
             ),
             "line.toml:7: defect 1: depth_m 1, allowed: -0.2 to 0.2",
         ),

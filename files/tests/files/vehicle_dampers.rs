@@ -110,7 +110,8 @@ fn unknown_dampers_are_refused() {
 #[test]
 fn damper_files_are_relative_to_the_vehicle_file() {
     let folder = tempfile::tempdir().unwrap();
-    let worn = "[reduced]\ndamping_n_s_per_m = 5e4\nsaturation_velocity_m_per_s = 0.1\n[mount]\nstiffness_n_per_m = 3e6\n";
+    let worn = "[reduced]\ndamping_n_s_per_m = 5e4\nsaturation_velocity_m_per_s = 0.1\n[mount]\nstiffness_n_per_m = \
+     3e6\n";
     fs::write(folder.path().join("worn.toml"), worn).unwrap();
     let text = include_str!("../../../data/vehicles/locomotive.toml");
     let text = text.replace("\"reduced-lateral\"", "\"worn.toml\"");

@@ -105,7 +105,8 @@ fn measure(watch: &Watch<'_>, printer: &mut Printer) {
     }
     let _ = writeln!(
         printer,
-        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {min}, \"most\": {max}, \"sum\": {sum}, \"c_most\": {c_max}, \
+        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {min}, \"most\": {max}, \"sum\": {sum}, \"c_most\": \
+         {c_max}, \
          \"digest\": \"{:016x}\", \"model_bytes\": {}, \"health_bytes\": {}}}",
         digest.value(),
         size_of::<HealthModel>(),

@@ -109,7 +109,8 @@ fn main() -> ! {
     let _ = writeln!(
         printer,
         "{{\"requests\": {REQUESTS}, \"accepted\": {accepted}, \"clock_hz\": {CLOCK_HZ}, \"clock_ticks\": {total}, \
-         \"most_clock_ticks\": {most}, \"limited_clock_ticks\": {limited}, \"bytes_in\": {bytes_in}, \"bytes_out\": {bytes_out}, \
+         \"most_clock_ticks\": {most}, \"limited_clock_ticks\": {limited}, \"bytes_in\": {bytes_in}, \"bytes_out\": \
+         {bytes_out}, \
          \"health_accepted\": {}, \"health_slice\": {}, \"health_measure\": {}, \"health_reading\": {}, \
          \"device_bytes\": [{}, {}, {}, {}], \"watching_device_bytes\": [{}, {}, {}, {}]}}",
         health.accepted,

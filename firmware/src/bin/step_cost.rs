@@ -304,7 +304,8 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
         printer,
         "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"known\": {known}, \"least\": {}, \"most\": {}, \
          \"sum\": {}, \"digest\": \"{:016x}\", \"first\": {first}, \"held\": {held}, \
-         \"limited\": {limited}, \"jumped\": {jumped}, \"swapped\": {swapped}, \"load_slice\": {load_slice}, \"stack_bytes\": {}, \"damper_bytes\": {}, \
+         \"limited\": {limited}, \"jumped\": {jumped}, \"swapped\": {swapped}, \"load_slice\": {load_slice}, \
+         \"stack_bytes\": {}, \"damper_bytes\": {}, \
          \"state_bytes\": {}, \"c_damper_init\": {}, \"c_step\": {}, \"c_step_bank\": {}, \
          \"c_set_clearance\": {}, \"c_check_slice\": {}}}",
         cost.least,

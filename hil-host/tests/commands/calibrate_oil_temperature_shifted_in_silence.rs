@@ -78,7 +78,8 @@ fn the_interval_includes_the_temperature_and_a_wrong_one_is_reported() {
     let line: Vec<&str> = line.iter().map(String::as_str).collect();
     let text = text_of(&dashpot(&line, folder).success());
     for words in [
-        "assumed: oil.temperature_c 20 +- 5 (95 %, --temperature-uncertainty-k), which shifts orifice.discharge_coefficient by",
+        "assumed: oil.temperature_c 20 +- 5 (95 %, --temperature-uncertainty-k), which shifts \
+         orifice.discharge_coefficient by",
         "the recordings fit better with oil.temperature_c 25 than with 20",
     ] {
         assert!(text.contains(words), "{text}");

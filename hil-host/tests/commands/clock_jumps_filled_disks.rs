@@ -46,7 +46,8 @@ fn a_jump_is_refused_before_it_is_filled() {
         // A single jump when the clock is set to the time of day: 100 million ticks.
         (
             &[1e5, 1e5 + 1e-3],
-            "run.csv:12: column time_s: time jumps from 0.009 s to 100000 s: 99999991 ticks without a sample, allowed: 10000000",
+            "run.csv:12: column time_s: time jumps from 0.009 s to 100000 s: 99999991 ticks without a sample, \
+             allowed: 10000000",
         ),
         (
             &[1.7e9, 1.7e9 + 1e-3],

@@ -37,7 +37,8 @@ fn garbage_is_reported_with_its_line_and_a_remedy() {
             error.contains("one/rows.csv.partial:6: "),
             "{name}: {error}"
         );
-        let remedy = "delete line 6 of this file and repeat the command to run its case again, or start over with --anew";
+        let remedy = "delete line 6 of this file and repeat the command to run its case again, or start over with \
+         --anew";
         assert!(error.contains(remedy), "{name}: {error}");
         assert_eq!(fs::read(&partial).unwrap(), bytes, "nothing is changed");
         // The recovery that the message names.

@@ -203,7 +203,8 @@ fn errors_name_the_problem_its_location_and_the_allowed_values() {
         (
             &["--vehicle", "locomotiv"],
             2,
-            "vehicle `locomotiv`: no such vehicle or file; give a TOML file or a vehicle: locomotive, coach; did you mean `locomotive`?",
+            "vehicle `locomotiv`: no such vehicle or file; give a TOML file or a vehicle: locomotive, coach; did you \
+             mean `locomotive`?",
         ),
         (
             &["--set", "bodi.mass_kg=3"],

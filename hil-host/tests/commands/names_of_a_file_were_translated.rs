@@ -30,7 +30,8 @@ const CASES: [Case; 13] = [
     (
         "time_s,we`g,--force\n0,1,2\n1,2,3\n",
         &[],
-        "run.csv: column displacement_m is missing; the file has `time_s`, `we`g`, `--force`; choose one with --displacement NAME or its number\n",
+        "run.csv: column displacement_m is missing; the file has `time_s`, `we`g`, `--force`; choose one with \
+         --displacement NAME or its number\n",
         &["--displacement", "we`g", "--displacement-unit", "mm"],
     ),
     (
@@ -42,7 +43,8 @@ const CASES: [Case; 13] = [
     (
         "--time NAME,--force`\n0,1\n1,2\n",
         &["--displacement=--force`", "--displacement-unit", "m"],
-        "run.csv: column time_s is missing; the file has `--time NAME`, `--force``; choose one with --time NAME or its number\n",
+        "run.csv: column time_s is missing; the file has `--time NAME`, `--force``; choose one with --time NAME or \
+         its number\n",
         &[
             "--displacement=2",
             "--displacement-unit=m",
@@ -53,7 +55,8 @@ const CASES: [Case; 13] = [
     (
         "0.5,1\n1,2\n",
         &[],
-        "run.csv: no header says which column is the time; choose one of 1 to 2 with --time, and its unit with --time-unit\n",
+        "run.csv: no header says which column is the time; choose one of 1 to 2 with --time, and its unit with \
+         --time-unit\n",
         &[
             "--time=1",
             "--time-unit=s",
@@ -64,7 +67,8 @@ const CASES: [Case; 13] = [
     (
         "time_s,displacement [m],displacement [mm]\n0,0,0\n1,0,0\n",
         &[],
-        "run.csv: displacement: several channels match: `displacement [m]`, `displacement [mm]`; choose one with --displacement NAME or its number\n",
+        "run.csv: displacement: several channels match: `displacement [m]`, `displacement [mm]`; choose one with \
+         --displacement NAME or its number\n",
         &["--displacement", "displacement [mm]"],
     ),
     (
@@ -76,7 +80,8 @@ const CASES: [Case; 13] = [
     (
         "time_s;displacement_m\ns;mm\n0;0\n1;0\n",
         &[],
-        "run.csv: column displacement_m has the unit `mm`, but its name ends with another unit; give it with --displacement-unit: m, cm, mm, um, in\n",
+        "run.csv: column displacement_m has the unit `mm`, but its name ends with another unit; give it with \
+         --displacement-unit: m, cm, mm, um, in\n",
         &["--displacement-unit", "mm"],
     ),
     (
@@ -99,20 +104,23 @@ const CASES: [Case; 13] = [
     (
         "time_s;displacement_m\n0,5;0.25\n1,5;0.5\n",
         &[],
-        "run.csv:2: column displacement_m: `0.25` has a decimal point, unlike the numbers before it or the chosen decimal mark; \
+        "run.csv:2: column displacement_m: `0.25` has a decimal point, unlike the numbers before it or the chosen \
+         decimal mark; \
          use --decimal-mark point or --decimal-mark comma\n",
         &[],
     ),
     (
         "time_s,displacement_m\n0,0\n1,\n2,0\n",
         &[],
-        "run.csv:3: column displacement_m: `` is not a finite number; use --skip-invalid to skip rows with a missing value\n",
+        "run.csv:3: column displacement_m: `` is not a finite number; use --skip-invalid to skip rows with a missing \
+         value\n",
         &["--skip-invalid"],
     ),
     (
         "time_s,displacement_m\n0,0\n1,0\n",
         &["--time", "displacement_m", "--time-unit", "s"],
-        "run.csv: time and displacement: both are column displacement_m; choose one with --displacement NAME or its number\n",
+        "run.csv: time and displacement: both are column displacement_m; choose one with --displacement NAME or its \
+         number\n",
         &[
             "--time",
             "displacement_m",
@@ -125,7 +133,8 @@ const CASES: [Case; 13] = [
     (
         "time_s,displacement_m\n0,0\n1,0\n",
         &["--group", "fast"],
-        "run.csv: group `fast` is missing or ambiguous; groups (by number or name): none in this file; choose one with --group\n",
+        "run.csv: group `fast` is missing or ambiguous; groups (by number or name): none in this file; choose one \
+         with --group\n",
         &[],
     ),
     (
@@ -164,6 +173,7 @@ fn the_list_of_channels_gives_advice() {
     std::fs::write(folder.path().join("run.csv"), "t`,--force\n0,1\n1,2\n").unwrap();
     let ended = dashpot(&["channels", "run.csv"], folder.path()).success();
     let text = crate::common::text_of(&ended);
-    let expected = "no time: column time_s is missing; the file has `t``, `--force`; choose one with --time NAME or its number";
+    let expected = "no time: column time_s is missing; the file has `t``, `--force`; choose one with --time NAME or \
+     its number";
     assert!(text.contains(expected), "{text}");
 }

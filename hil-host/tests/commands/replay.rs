@@ -36,7 +36,8 @@ fn replay_of(bytes: &[u8], more: &[&str]) -> (Assert, Option<String>) {
 fn a_ramp_ends_at_damping_times_velocity() {
     // 10 mm/s over a clearance of 2a = 1 mm: C v = 1200 N once the springs are stretched.
     let (output, written) = replay_of(
-        b"\xef\xbb\xbf# a logger's comment\r\nname,displacement_m,time_s\r\na,0.0,10.0\r\nb,0.005,10.5\r\nc,0.01,11.0\r\n",
+        b"\xef\xbb\xbf# a logger's \
+         comment\r\nname,displacement_m,time_s\r\na,0.0,10.0\r\nb,0.005,10.5\r\nc,0.01,11.0\r\n",
         &["--scalar", "f64", "--format", "json"],
     );
     let output = output.success();

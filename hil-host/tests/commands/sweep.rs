@@ -29,7 +29,8 @@ name = "worn"
 track = "straight"
 speed_km_h = 120
 duration_s = 0.5
-vary = [{ parameter = "worn_damper", values = ["none", "rear vertical damper 4"], set = ["mount.stiffness_n_per_m=1e5"] }]
+vary = [{ parameter = "worn_damper", values = ["none", "rear vertical damper \
+ 4"], set = ["mount.stiffness_n_per_m=1e5"] }]
 
 [[figure]]
 title = "Ride"
@@ -551,7 +552,8 @@ fn errors_are_reported_before_anything_runs() {
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
-            "indices = { sweeps = [\"clearance\"], observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\"] }",
+            "indices = { sweeps = [\"clearance\"], observed = [\"body_vertical_rms_m_per_s2\", \
+             \"derailment_greatest\"] }",
             "several indices of a sweep with two axes, allowed: one",
         ),
         (
@@ -566,12 +568,14 @@ fn errors_are_reported_before_anything_runs() {
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
-            "response = { sweep = \"worn\", values = [\"none\"], damper = \"front_vertical_damper 1\", amplitude_m = 1e-3 }",
+            "response = { sweep = \"worn\", values = [\"none\"], damper = \"front_vertical_damper 1\", amplitude_m = \
+             1e-3 }",
             "no damper `front_vertical_damper 1`; did you mean `front vertical damper 1`?",
         ),
         (
             "indices = { sweeps = [\"clearance\", \"worn\"], observed = [\"body_vertical_rms_m_per_s2\"] }",
-            "response = { sweep = \"worn\", values = [\"none\"], damper = \"front vertical damper 1\", amplitude_m = 9 }",
+            "response = { sweep = \"worn\", values = [\"none\"], damper = \"front vertical damper 1\", amplitude_m = \
+             9 }",
             "amplitude_m 9, allowed: above 0 and at most 1",
         ),
     ] {

@@ -186,7 +186,8 @@ fn a_fault_changes_a_damper_during_the_run() {
     let folder = tempdir().unwrap();
     let case = |fault: &str| {
         format!(
-            "name = \"fault\"\nvehicle = \"locomotive\"\ntrack = \"straight\"\nspeed_km_h = 100\nduration_s = 4\nstart_m = -15\n{fault}"
+            "name = \"fault\"\nvehicle = \"locomotive\"\ntrack = \"straight\"\nspeed_km_h = 100\nduration_s = \
+             4\nstart_m = -15\n{fault}"
         )
     };
     let lost = "[[fault]]\ntime_s = 3\ndamper = \"front lateral damper 1\"\nset = [\"mount.clearance_m=0.1\"]\n";

@@ -77,7 +77,8 @@ fn a_load_far_beyond_the_model_ends_the_run_with_time_and_place() {
 fn a_row_of_a_study_has_the_ending() {
     let folder = tempdir().unwrap();
     track(10e-3, folder.path());
-    let study = "name = \"dip\"\nobserved = [\"derailment_rms\", \"wheel_load_over_static\", \"wheel_lift_longest_s\"]\n\
+    let study = "name = \"dip\"\nobserved = [\"derailment_rms\", \"wheel_load_over_static\", \
+     \"wheel_lift_longest_s\"]\n\
                  [[sweep]]\nname = \"dip\"\ntrack = \"dip.toml\"\nspeed_km_h = 120\nduration_s = 1\n\
                  vary = [{ parameter = \"speed_km_h\", values = [20, 120] }]\n";
     fs::write(folder.path().join("study.toml"), study).unwrap();

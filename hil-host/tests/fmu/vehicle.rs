@@ -161,7 +161,8 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
-    let text = "name = \"too fast\"\nvehicle = \"locomotive\"\ntrack = \"curve-r200\"\nspeed_km_h = 200\nduration_s = 5.0003\n";
+    let text = "name = \"too fast\"\nvehicle = \"locomotive\"\ntrack = \"curve-r200\"\nspeed_km_h = 200\nduration_s = \
+     5.0003\n";
     fs::write(folder.path().join("fast.toml"), text).unwrap();
     let mut outputs = Vec::new();
     for fmi in ["2", "3"] {

@@ -178,7 +178,8 @@ fn a_target_whose_step_does_not_divide_the_cases_is_refused() {
         vehicle(&[&options[..], &[step_us]].concat(), folder.path())
             .code(2)
             .stderr(contains(format!(
-                "the step of the target is 1000 us, that of the case {step_us} us; allowed: --step-us 1000 or a whole multiple"
+                "the step of the target is 1000 us, that of the case {step_us} us; allowed: --step-us 1000 or a whole \
+                 multiple"
             )));
     }
 }

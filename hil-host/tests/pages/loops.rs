@@ -4,7 +4,8 @@ use crate::browser::Browser;
 use crate::shown::DEMONSTRATION;
 
 /// The first values shown by the two panels of loops of a ride, plots three and four.
-const VALUES: &str = "[3, 4].map(plot => document.querySelectorAll('.panel')[plot].querySelector('.value').textContent)";
+const VALUES: &str = "[3, 4].map(plot => \
+ document.querySelectorAll('.panel')[plot].querySelector('.value').textContent)";
 
 fn check(width: u32) {
     let Some(browser) = Browser::start("the cursor of loops") else {
@@ -25,7 +26,8 @@ fn check(width: u32) {
         forces[1] < -8.0 && (forces[0] - forces[1]).abs() < 0.4,
         "{width}: {values}"
     );
-    let others = "[0, 1, 2].map(plot => document.querySelectorAll('.panel')[plot].querySelector('.value').textContent).join('')";
+    let others = "[0, 1, 2].map(plot => \
+     document.querySelectorAll('.panel')[plot].querySelector('.value').textContent).join('')";
     assert_eq!(browser.find(&format!("return {others}")), "");
 }
 

@@ -87,7 +87,8 @@ fn the_commands_warn() {
         .collect();
     let text = format!("time_s,displacement_m,force_n\n{rows}0.2,0.0012,1");
     std::fs::write(folder.path().join("run.csv"), text).unwrap();
-    let warning = "warning: the last line, line 202, has no line end: the file may have been cut off inside its last number";
+    let warning = "warning: the last line, line 202, has no line end: the file may have been cut off inside its last \
+     number";
     for arguments in [
         &["replay", "--input", "run.csv", "--output", "force.csv"][..],
         &["verify", "--input", "run.csv"],

@@ -285,7 +285,8 @@ mod tests {
         }
     }
 
-    /// The usual shifts do not change a cyclic permutation, so without exceptional shifts the iteration never terminates.
+    /// The usual shifts do not change a cyclic permutation, so without exceptional shifts the iteration never
+    /// terminates.
     #[test]
     fn the_eigenvalues_of_a_cyclic_permutation_are_the_roots_of_unity() {
         for size in [3, 4, 5, 8, 13] {

@@ -200,7 +200,8 @@ fn corrections_of_the_ride_index_change_at_their_edges() {
     }
 }
 
-/// By Parseval's theorem the integral is the variance, also for a signal at half the rate, whose line has no mirror image.
+/// By Parseval's theorem the integral is the variance, also for a signal at half the rate, whose line has no mirror
+/// image.
 #[test]
 fn the_line_at_half_the_rate_counts_once() {
     let alternating: Vec<f64> = (0..4000)

@@ -111,7 +111,8 @@ fn errors_of_files_state_line_column_and_bounds() {
         ),
         (
             with_header("distance_m,vertical_m,lateral_m,level_m,gauge_m"),
-            ":1: column \"level_m\", allowed: distance_m, vertical, lateral, cross_level, gauge, each of the four with _m or _mm",
+            ":1: column \"level_m\", allowed: distance_m, vertical, lateral, cross_level, gauge, each of the four \
+             with _m or _mm",
         ),
         (
             good.replace(',', ";"),

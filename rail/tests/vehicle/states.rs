@@ -230,7 +230,8 @@ fn supported_rails_sink_by_force_over_stiffness() {
     assert_eq!(unused, 0.0);
 }
 
-/// An accelerometer on a body at rest in a canted curve measures `v^2/R cos - g sin` toward the inside and `g (1 - cos) - v^2/R sin`.
+/// An accelerometer on a body at rest in a canted curve measures `v^2/R cos - g sin` toward the inside and `g (1 - cos)
+/// - v^2/R sin`.
 #[test]
 fn cant_and_curvature_accelerate_a_body() {
     const RADIUS_M: f64 = 400.0;

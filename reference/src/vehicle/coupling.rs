@@ -49,7 +49,8 @@ fn minus(a: Vector, b: Vector) -> Vector {
 }
 
 impl Coupling {
-    /// Builds an element without a standing force; `number` is the index of a damper or stop. `None` if its law is unknown.
+    /// Builds an element without a standing force; `number` is the index of a damper or stop. `None` if its law is
+    /// unknown.
     pub(super) fn new(
         vehicle: &VehicleParameters,
         element: &Element,

@@ -14,7 +14,8 @@ const END: &str = "<!-- exact: end -->";
 fn measured() -> String {
     let mut text = format!(
         "\nPlace of contact from 0.5 to 6 mm: {:.2} mm RMS from exact theory.\n\n\
-         | shift, mm | place, mm: exact | here | angle, mrad: exact | here | steering, kN: exact | here | lateral, kN: exact | here |\n\
+         | shift, mm | place, mm: exact | here | angle, mrad: exact | here | steering, kN: exact | here | lateral, \
+         kN: exact | here |\n\
          |---|---|---|---|---|---|---|---|---|\n",
         position_error_mm()
     );

@@ -193,7 +193,8 @@ fn errors_have_file_line_and_name() {
         assert!(message.contains(expected), "{message}\nexpected {expected}");
     }
     let message = SheetParameters::load("exampel").unwrap_err().to_string();
-    let expected = "sheet `exampel`: no such sheet or file; give a TOML file or a sheet: example; did you mean `example`?";
+    let expected = "sheet `exampel`: no such sheet or file; give a TOML file or a sheet: example; did you mean \
+     `example`?";
     assert_eq!(message, expected);
 }
 

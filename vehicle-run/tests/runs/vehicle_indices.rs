@@ -252,7 +252,8 @@ fn ride_is_computed_at_the_points_of_the_vehicle_file() {
 fn a_curve_has_the_acceleration_that_cant_does_not_balance() {
     let folder = tempdir().unwrap();
     let track = "name = \"curve\"\n[[part]]\nkind = \"straight\"\nlength_m = 20\n[[part]]\n\
-                 kind = \"transition\"\nlength_m = 50\n[[part]]\nkind = \"circular\"\nlength_m = 400\nradius_m = 300\ncant_m = 0.12\n";
+                 kind = \"transition\"\nlength_m = 50\n[[part]]\nkind = \"circular\"\nlength_m = 400\nradius_m = \
+                 300\ncant_m = 0.12\n";
     let file = folder.path().join("curve.toml");
     fs::write(&file, track).unwrap();
     let mut options = CaseOptions::new("locomotive", file.to_str().unwrap(), 70.0);

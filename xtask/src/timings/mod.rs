@@ -3,6 +3,7 @@
 mod bounds;
 mod chain;
 mod report;
+mod step;
 mod unit;
 mod wrapper;
 
@@ -74,11 +75,15 @@ pub fn timings(build: Build) -> Outcome {
 /// Builds the command with [`timings`], then runs its demonstration: README's first command.
 ///
 /// # Errors
-/// The build or the demonstration fails, this is not Linux, or the command takes more than its bound.
+/// The build or the demonstration fails, this is not Linux, or the build or a step takes more than its bound.
 pub fn build_and_demonstrate() -> Outcome {
     timings(Build::Command)?;
     let program = target_folder().join("release/dashpot");
-    output_of(Command::new(&program), &program.to_string_lossy()).map(drop)
+    output_of(Command::new(&program), &program.to_string_lossy())?;
+    if cfg!(target_arch = "x86_64") {
+        step::check(&program)?;
+    }
+    Ok(())
 }
 
 fn target_folder() -> PathBuf {

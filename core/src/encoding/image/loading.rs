@@ -73,7 +73,8 @@ macro_rules! loading {
             /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
             #[doc = concat!("let built: Damper<", stringify!($float), "> = parameters.build(1e-3)?;")]
             /// let image = built.to_image();
-            #[doc = concat!("let mut damper = Damper::<", stringify!($float), ">::from_words(&[0; Damper::<", stringify!($float), ">::WORDS]);")]
+            #[doc = concat!("let mut damper = Damper::<", stringify!($float), ">::from_words(&[0; \
+             Damper::<", stringify!($float), ">::WORDS]);")]
             /// let mut loading = Loading::START;
             /// while !damper.load_slice(&image, &mut loading).unwrap() {
             ///     // a tick can run here

@@ -181,7 +181,8 @@ fn ride_figures(ride: &Ride) -> Result<Markup, DrawError> {
 /// Draws the settled loops of a damper.
 fn bench_figure(bench: &Bench) -> Result<Markup, DrawError> {
     let caption = html! {
-        "Settled loops of a synthetic harmonic motion at " (LOOP_FREQUENCY_HZ) " Hz for several amplitudes: computed force over \
+        "Settled loops of a synthetic harmonic motion at " (LOOP_FREQUENCY_HZ) " Hz for several amplitudes: computed \
+         force over \
          displacement (first) and velocity (second)."
     };
     Ok(html! {

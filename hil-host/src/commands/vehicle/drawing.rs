@@ -1,6 +1,6 @@
 //! Side view of the vehicle with labelled axles, bodies and dampers.
 
-use dashpot_rail::vehicle::{Body, Element, Law, VehicleParameters};
+use dashpot_rail::vehicle::{Body, Direction, Element, Law, VehicleParameters};
 use maud::{Markup, html};
 
 /// Pixels per metre.
@@ -107,7 +107,10 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
             }
             @for element in parameters.dampers() {
                 @let [at, _, height] = element.ends[1].at_m;
-                @let is_vertical = matches!(&element.law, Law::Damper { direction, .. } if *direction == dashpot_rail::vehicle::Direction::Vertical);
+                @let is_vertical = matches!(
+                    &element.law,
+                    Law::Damper { direction: Direction::Vertical, .. }
+                );
                 @if is_vertical {
                     line x1=(px(sheet.x(at))) x2=(px(sheet.x(at))) y1=(px(sheet.y(height - 0.05)))
                         y2=(px(sheet.y(height + 0.55))) stroke="#1565c0" stroke-width="6" {}

@@ -40,8 +40,10 @@ pub struct Driven {
     pub waits: u64,
 }
 
-/// Takes the ticks of `run`, at those of `pacer` where there is one, and hands a record of each to another thread. A tick allocates
-/// nothing and calls nothing of the system but for what `exchange` and the clocks do, and all of it is within the work that the pacer times.
+/// Takes the ticks of `run`, at those of `pacer` where there is one, and hands a record of each to another thread. A
+/// tick allocates
+/// nothing and calls nothing of the system but for what `exchange` and the clocks do, and all of it is within the work
+/// that the pacer times.
 ///
 /// # Errors
 /// As [`Exchange::before`] and [`Run::step`].
