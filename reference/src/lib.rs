@@ -1,7 +1,4 @@
-//! Independent solutions that the fixed steps and the creep laws are checked against, to a stated tolerance.
-//!
-//! A reference shares only the parameters with the code that it checks; a [`vehicle`] also shares the contact.
-//! [`kalker_book`] computes the tables that the recommended creep law reads.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

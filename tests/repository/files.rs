@@ -51,7 +51,12 @@ fn lines_inside_strings(text: &str) -> BTreeSet<usize> {
     let (mut inside, mut line, mut at) = (BTreeSet::new(), 1, 0);
     while at < bytes.len() {
         let rest = &bytes[at..];
-        let hashes = |from: usize| rest[from..].iter().take_while(|byte| **byte == b'#').count();
+        let hashes = |from: usize| {
+            rest[from..]
+                .iter()
+                .take_while(|byte| **byte == b'#')
+                .count()
+        };
         let is_start_of_word = at == 0 || !bytes[at - 1].is_ascii_alphanumeric();
         let (skipped, is_string) = if rest.starts_with(b"//") {
             (length_to(rest, b"\n"), false)
@@ -59,7 +64,10 @@ fn lines_inside_strings(text: &str) -> BTreeSet<usize> {
             let hashes = hashes(1);
             let end = format!("\"{}", "#".repeat(hashes));
             let start = hashes + 2;
-            (start + length_to(&rest[start..], end.as_bytes()) + end.len(), true)
+            (
+                start + length_to(&rest[start..], end.as_bytes()) + end.len(),
+                true,
+            )
         } else if rest[0] == b'"' {
             let mut end = 1;
             while end < rest.len() && rest[end] != b'"' {
@@ -93,7 +101,8 @@ fn length_to(bytes: &[u8], end: &[u8]) -> usize {
 
 #[test]
 fn lines_inside_strings_are_found() {
-    let text = "let a = \"x\ny\";\n// \"\nlet b = r#\"\"\n\"#;\nlet c = '\"';\nlet d = \"p \\\nq\";\n";
+    let text =
+        "let a = \"x\ny\";\n// \"\nlet b = r#\"\"\n\"#;\nlet c = '\"';\nlet d = \"p \\\nq\";\n";
     assert_eq!(lines_inside_strings(text), BTreeSet::from([2, 5]));
 }
 

@@ -22,21 +22,6 @@ pub struct Figure {
     pub shares: Option<&'static str>,
 }
 
-/// Returns a linear panel whose curves fill the width. Curves with a name appear in the legend.
-pub fn panel(x: &str, y: &str, curves: Vec<Curve>) -> Panel {
-    Panel {
-        title: String::new(),
-        x_label: x.into(),
-        y_label: y.into(),
-        legend: None,
-        sides: false,
-        x_scale: Scale::Linear,
-        scale: Scale::Linear,
-        keeps_to_values: false,
-        curves,
-    }
-}
-
 /// Data of a panel for the page's script.
 #[derive(Serialize)]
 struct Plot {

@@ -6,7 +6,8 @@ mod figure;
 mod policy;
 mod series;
 
-pub use figure::{Figure, panel};
+pub use crate::plot::sheet::panel;
+pub use figure::Figure;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::DrawError;

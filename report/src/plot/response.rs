@@ -3,8 +3,8 @@
 use plotters::style::RGBColor;
 
 use super::curves::Curve;
+use super::sheet::panel;
 use super::sheet::{Panel, Scale};
-use crate::page::panel;
 use dashpot_testbench::response::Response;
 
 /// Minimum loss angle (degrees) for showing damping on a logarithmic scale; below it the damper is practically a

@@ -42,6 +42,21 @@ pub struct Panel {
     pub curves: Vec<Curve>,
 }
 
+/// Returns a linear panel whose curves fill the width. Curves with a name appear in the legend.
+pub fn panel(x: &str, y: &str, curves: Vec<Curve>) -> Panel {
+    Panel {
+        title: String::new(),
+        x_label: x.into(),
+        y_label: y.into(),
+        legend: None,
+        sides: false,
+        x_scale: Scale::Linear,
+        scale: Scale::Linear,
+        keeps_to_values: false,
+        curves,
+    }
+}
+
 impl Panel {
     /// Returns the ranges of the horizontal and the vertical axis.
     pub fn ranges(&self) -> [Range<f64>; 2] {

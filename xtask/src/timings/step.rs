@@ -46,8 +46,8 @@ fn judge(instructions: u64) -> Outcome {
         return Ok(());
     }
     Err(format!(
-        "a step of the command takes {instructions} instructions, 1 to {MAX_INSTRUCTIONS} are allowed: keep the step in \
-         an optimised crate (testbench/src/compiled.rs and the release profile in Cargo.toml)"
+        "a step of the command takes {instructions} instructions, 1 to {MAX_INSTRUCTIONS} are allowed: keep the step \
+         in an optimised crate (testbench/src/compiled.rs and the release profile in Cargo.toml)"
     ))
 }
 

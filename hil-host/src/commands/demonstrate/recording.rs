@@ -7,7 +7,7 @@ use dashpot_recording::tick_grid::TickGrid;
 use dashpot_recording::{Recording, Sample};
 
 const NAME: &str = "data/excitations/ride_made.csv";
-const RIDE: &[u8] = include_bytes!("../../../../data/excitations/ride_made.csv");
+const RIDE: &[u8] = include_bytes!("../../../data/excitations/ride_made.csv");
 
 fn open() -> Result<Recording, FileError> {
     Recording::read(Path::new(NAME), Box::new(RIDE))
