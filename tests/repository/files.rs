@@ -118,6 +118,14 @@ fn no_line_is_too_long() {
     let mut long = Vec::new();
     for file in files {
         let text = read(&file);
+        // A generated file has the lines of its generator.
+        if text
+            .lines()
+            .take(10)
+            .any(|line| line.ends_with("do not edit."))
+        {
+            continue;
+        }
         let inside = lines_inside_strings(&text);
         for (number, line) in (1..).zip(text.lines()) {
             let columns = line.chars().count();

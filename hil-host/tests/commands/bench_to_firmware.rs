@@ -339,7 +339,7 @@ fn wrong_use_says_what_is_allowed() {
                 "mount.clearance_m=2e-3:1e-3",
             ],
             2,
-            "the lower bound first",
+            "the smaller first",
         ),
         (
             &[

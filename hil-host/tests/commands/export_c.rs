@@ -109,7 +109,7 @@ fn source_and_header_are_both_written_or_neither() {
 
     export(&["--output", "y.h"], folder)
         .code(2)
-        .stderr(contains("--output y.h: the header"));
+        .stderr(contains("--output y.h: this is the name of the header"));
     assert_eq!(files_in(folder), ["x.c", "x.h"]);
 }
 

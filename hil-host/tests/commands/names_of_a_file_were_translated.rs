@@ -74,7 +74,8 @@ const CASES: [Case; 13] = [
     (
         "time_s,displacement [furlong]\n0,0\n1,0\n",
         &[],
-        "is not one of displacement known here: m, cm, mm, um, in; --displacement-unit overrides it\n",
+        "run.csv: the file states the unknown unit `furlong` for displacement; known units of displacement: m, cm, \
+         mm, um, in; --displacement-unit overrides it\n",
         &["--displacement-unit", "m"],
     ),
     (

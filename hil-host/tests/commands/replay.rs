@@ -224,7 +224,7 @@ fn held_and_limited_input_is_reported() {
     for part in [
         "input held at 1 tick:",
         "input rate-limited at 1 tick:",
-        "limits.rate_m_per_s = 2,",
+        "limits.rate_m_per_s = 2\n",
         "first at 5.001 s",
     ] {
         assert!(text.contains(part), "`{text}` lacks `{part}`");

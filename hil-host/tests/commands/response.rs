@@ -130,9 +130,10 @@ fn figures_13b_and_18b_are_those_of_the_vehicles_dampers() {
             amplitude_m,
         ];
         let words = options.join(" ");
+        let help = help.replace("\\ ", "");
         assert!(
             help.contains(&format!("dashpot response {words} --page fig1")),
-            "{words}"
+            "{words}: {help}"
         );
         let csv = [&options[..], &["--points", "3", "--output", "-"]].concat();
         let rows = rows(&text_of(&response(&csv, folder.path()).success()));
@@ -226,7 +227,7 @@ fn wrong_options_are_reported_and_leave_no_file() {
         ),
         (
             &["--swept", "--octaves-per-minute", "1e-6"],
-            "steps, allowed: 2e9",
+            "steps, allowed: at most 2e9",
         ),
         (&["--over", "mount.clearance_m"], "allowed: KEY=VALUE,VALUE"),
         (

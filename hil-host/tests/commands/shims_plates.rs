@@ -133,7 +133,7 @@ fn text_lists_area_factor_stress_and_the_validity_of_theory() {
     let output = plates(&["--no-plots"]).success();
     let text = text_of(&output);
     for part in [
-        "on 6 round bosses at 22.500 mm",
+        "on 6 round bosses at radius 22.500 mm",
         "(assumed kind, fitted to Ce)",
         "Ce 0.8265 from the mean edge lift",
         "deg from the centre of a boss, discs 4, 5, 6, 7 of the file",
@@ -240,7 +240,7 @@ fn a_valve_without_shims_has_no_plate() {
         .code(2)
         .stdout("")
         .stderr(contains(
-            "--valve: valves.foot_compression has no shims_m, allowed:",
+            "--valve: valves.foot_compression has no shims_m; allowed:",
         ));
     assert_eq!(files_in(folder.path()), [""; 0]);
 }

@@ -461,7 +461,7 @@ fn errors_are_reported_before_anything_runs() {
     assert!(shards(&["--shards", "2"]).contains("--shard"));
     assert!(
         shards(&["--shard", "2", "--shards", "2"])
-            .contains("--shard 2, allowed: 0 to 1 with --shards 2")
+            .contains("--shard 2: allowed with --shards 2: 0 to 1")
     );
     for (from, to, expected) in [
         (

@@ -58,7 +58,7 @@ fn an_nrmse_above_the_limit_fails_and_the_table_is_for_people() {
     for part in [
         "largest errors over a fixed set of motions",
         "wrong sign N",
-        "Promised",
+        "Guaranteed",
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }

@@ -77,7 +77,7 @@ fn recording_formats() {
         wrong_use(&VERIFY, &options, part);
     }
     failed(&REPLAY, &["--time", "x"], "column x is missing");
-    failed(&REPLAY, &["--group", "1"], "no group `1`");
+    failed(&REPLAY, &["--group", "1"], "group `1` is missing");
 }
 
 #[test]
@@ -350,7 +350,7 @@ fn export() {
     wrong_use(
         &EXPORT,
         &["--lang", "c", "--name", "INT32_MAX"],
-        "allowed: not NULL",
+        "allowed: names other than NULL",
     );
     wrong_use(
         &EXPORT,
