@@ -56,7 +56,7 @@ const BUGS: [(&str, &str, &str); 14] = [
     ),
     (
         "lines of recordings that end in CRLF were counted twice",
-        "hil-host/tests/library/recording_header.rs",
+        "recording/tests/recordings/header.rs",
         "lines_are_counted_as_an_editor_does",
     ),
     (

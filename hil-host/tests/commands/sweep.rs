@@ -29,8 +29,7 @@ name = "worn"
 track = "straight"
 speed_km_h = 120
 duration_s = 0.5
-vary = [{ parameter = "worn_damper", values = ["none", "rear vertical damper \
- 4"], set = ["mount.stiffness_n_per_m=1e5"] }]
+vary = [{ parameter = "worn_damper", values = ["none", "rear vertical damper 4"], set = ["mount.stiffness_n_per_m=1e5"] }]
 
 [[figure]]
 title = "Ride"

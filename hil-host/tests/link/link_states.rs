@@ -69,7 +69,7 @@ fn states_of_other_dampers_are_refused_before_they_are_sent() {
     rig.write("two.toml", &text[..two]);
     let error = rig.error(&["restore", "--input", "two.toml"], 1);
     assert!(
-        error.contains("two.toml: 2 states, the target has 3 places"),
+        error.contains("two.toml: 2 states, but the target has 3 slots"),
         "{error}"
     );
 }
@@ -108,7 +108,7 @@ fn an_invalid_file_is_reported_with_its_location() {
         (
             "tick = 80",
             "tick = -1",
-            "x.toml: TOML parse error at line 3",
+            "x.toml: TOML parse error at line 2",
         ),
         ("tick = 80", "tock = 80", "unknown field `tock`"),
         (

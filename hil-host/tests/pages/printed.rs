@@ -9,8 +9,7 @@ use crate::shown::SHEET;
 const WIDTH: u32 = 687;
 
 const MEASURE: &str = r#"
-    const right = Math.max(...[...document.querySelectorAll("table, figure, \
-     .tiles")].map(e => e.getBoundingClientRect().right));
+    const right = Math.max(...[...document.querySelectorAll("table, figure, .tiles")].map(e => e.getBoundingClientRect().right));
     const scrolls = [...document.querySelectorAll(".wide")].filter(e => getComputedStyle(e).overflowX !== "visible").length;
     const lines = cell => { const range = document.createRange(); range.selectNodeContents(cell);
         return new Set([...range.getClientRects()].map(r => Math.round(r.top / 4))).size; };
