@@ -25,8 +25,8 @@ type Samples<'py> = [Bound<'py, PyAny>; 3];
 /// Result of a calibration. `dashpot.calibrate` returns it.
 ///
 /// >>> import dashpot
-/// >>> tests = [{"amplitude_m": 0.025, "frequency_hz": hz, "max_extension_force_n": n} for hz, n in ((0.05, 942.3),
-/// (0.1, 1883.4))]
+/// >>> points = [(0.05, 942.3), (0.1, 1883.4)]
+/// >>> tests = [{"amplitude_m": 0.025, "frequency_hz": hz, "max_extension_force_n": n} for hz, n in points]
 /// >>> damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0})
 /// >>> found = dashpot.calibrate(damper, vary=["reduced.damping_n_s_per_m"], indices=tests)
 /// >>> least, greatest = found.intervals["reduced.damping_n_s_per_m"]

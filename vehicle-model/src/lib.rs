@@ -242,7 +242,11 @@ unsafe fn put_text(text: &str, to: *mut c_char, bytes: usize) {
     if to.is_null() || bytes == 0 {
         return;
     }
-    let text = &text.as_bytes()[..text.floor_char_boundary(bytes - 1)];
+    let mut end = text.len().min(bytes - 1);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let text = &text.as_bytes()[..end];
     for (index, byte) in text.iter().chain(&[0]).enumerate() {
         // SAFETY: the index is less than `bytes`.
         unsafe { to.add(index).write(*byte as c_char) };

@@ -78,8 +78,8 @@ fn texts_are_not_signals() {
     let error = rows(&samples().join("unsorted.mf4"), &channels).expect_err("texts");
     let error = error.to_string();
     assert!(
-        error.contains("force: channel Notiz holds"),
-        "no word of what it holds: {error}"
+        error.contains("force: channel Notiz contains"),
+        "the type is not reported: {error}"
     );
 }
 

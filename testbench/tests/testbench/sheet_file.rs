@@ -137,7 +137,7 @@ fn errors_have_file_line_and_name() {
         ),
         (
             with("velocity_m_per_s = 1"),
-            "sheet.toml:3: test `one`: allowed: two of",
+            "sheet.toml:3: test `one`: give exactly two of",
         ),
         (with("temprature_c = 1"), "did you mean `temperature_c`?"),
         (

@@ -38,20 +38,20 @@ impl Crate {
     pub fn read(root: &std::path::Path) -> Self {
         let mut modules = Self::default();
         let folder = root.parent().expect("a folder");
-        modules.add_file(root.to_owned(), &folder.to_owned(), Vec::new());
+        modules.add_file(root.to_owned(), folder, Vec::new());
         modules
     }
 
-    fn add_file(&mut self, file: PathBuf, folder: &PathBuf, module: Module) {
+    fn add_file(&mut self, file: PathBuf, folder: &std::path::Path, module: Module) {
         let text =
             fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
         self.add(contents(&tokens(&text)), folder, module);
     }
 
     /// Adds a module, with those in the files and in the text below it.
-    fn add(&mut self, mut contents: Contents, folder: &PathBuf, module: Module) {
+    fn add(&mut self, mut contents: Contents, folder: &std::path::Path, module: Module) {
         for name in &contents.files {
-            let inner = [&module[..], &[name.clone()]].concat();
+            let inner = [&module[..], std::slice::from_ref(name)].concat();
             let own_folder = folder.join(name);
             let in_folder = own_folder.join("mod.rs");
             let file = if in_folder.exists() {
