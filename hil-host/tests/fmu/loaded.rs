@@ -77,7 +77,7 @@ fn an_unsuitable_image_is_refused_with_the_reason() {
         (exported(&["--step-us", "500"]), "for a different step"),
         (
             exported(&["--scalar", "f64"]),
-            "allowed: export --lang bin --scalar f32",
+            "allowed: one exported in f32",
         ),
     ];
     for (content, expected) in cases {

@@ -50,7 +50,7 @@ fn invalid_calls_report_the_allowed_values_and_change_nothing() {
             "no log category logEvents",
             "no variable of this type has the value reference 77",
             "after an error: 3",
-            "value reference 3 is an output, and cannot be set",
+            "value reference 3 is an output and cannot be set",
             "allowed: times within 4.5e+09 s of 0\na start that no step can be told from: 3",
             "a start at NaN: 1\nstatus 1\n",
             "logStatusError: a step to 0.02 s, beyond the stop time of 0.01 s\nbeyond the end: 3",

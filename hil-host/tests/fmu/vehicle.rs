@@ -257,7 +257,7 @@ fn invalid_vehicle_exports_are_refused() {
         (
             1,
             "--fmi 3 --case straight-180 @ --library none.a",
-            "none.a: no library of vehicles there; allowed: --library FILE",
+            "none.a: vehicle library not found; give it with --library FILE",
         ),
         (
             2,

@@ -1,4 +1,4 @@
-//! The ticks of a run, in real time or as fast as they go: the thread that steps does nothing else.
+//! Stepping loop of a run, in real time or as fast as possible. Its thread does nothing else.
 
 use std::time::{Duration, Instant};
 
@@ -6,18 +6,18 @@ use dashpot_realtime::handover::Sender;
 use dashpot_realtime::pacing::{Clock, Pacer};
 use dashpot_vehicle_run::{Ending, Run, TickRecord, VehicleRunError};
 
-/// What a tick exchanges with dampers outside the vehicle.
+/// Exchange of a tick with external dampers.
 pub trait Exchange {
-    /// Sets forces that act at the end of the tick to come.
+    /// Sets the forces that act at the end of the next tick.
     ///
     /// # Errors
     /// A force that is not finite.
     fn before(&mut self, run: &mut Run) -> Result<(), VehicleRunError>;
-    /// Sends what the tick has moved and sets the forces that come back; how the run ended, where a damper is lost.
+    /// Sends the displacements of the tick and sets the returned forces. Returns an ending if a damper is lost.
     fn after(&mut self, run: &mut Run) -> Option<Ending>;
 }
 
-/// All dampers are inside.
+/// No external dampers.
 impl Exchange for () {
     fn before(&mut self, _: &mut Run) -> Result<(), VehicleRunError> {
         Ok(())
@@ -27,26 +27,26 @@ impl Exchange for () {
     }
 }
 
-/// What became of a run.
+/// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Driven {
-    /// How it ended.
+    /// Ending of the run.
     pub ending: Ending,
-    /// Ticks taken.
+    /// Number of ticks.
     pub ticks: u64,
-    /// Time that the steps of the vehicle took, without exchange and report.
+    /// Time spent in the steps of the vehicle, without exchange and reporting.
     pub stepping: Duration,
-    /// Ticks that waited for a free record, because the thread that reads them had fallen behind.
+    /// Number of ticks that waited for a free record because the reading thread had fallen behind.
     pub waits: u64,
 }
 
-/// Takes the ticks of `run`, at those of `pacer` where there is one, and hands a record of each to another thread. A
-/// tick allocates
-/// nothing and calls nothing of the system but for what `exchange` and the clocks do, and all of it is within the work
-/// that the pacer times.
+/// Steps `run` to its end, paced if there is a `pacer`, and sends a record of each tick to another thread.
+///
+/// A tick allocates nothing and makes no system calls except those of `exchange` and the clocks. All of it is within the
+/// work that the pacer times.
 ///
 /// # Errors
-/// As [`Exchange::before`] and [`Run::step`].
+/// Errors from [`Exchange::before`] and [`Run::step`].
 pub fn drive<C: Clock>(
     run: &mut Run,
     exchange: &mut impl Exchange,
@@ -70,7 +70,7 @@ pub fn drive<C: Clock>(
         driven.stepping += started.elapsed();
         driven.ticks += 1;
         let ended = stepped.or_else(|| exchange.after(run));
-        // A thread that ended has met an error, which it reports.
+        // A reading thread that has ended reports its own error.
         let is_read = records
             .send(|record| record.copy(run.time_s(), run.state()))
             .is_ok();
