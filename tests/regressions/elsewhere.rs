@@ -57,7 +57,7 @@ const BUGS: [(&str, &str, &str); 14] = [
     (
         "lines of recordings that end in CRLF were counted twice",
         "recording/tests/recordings/header.rs",
-        "lines_are_counted_as_an_editor_does",
+        "line_numbers_match_those_of_an_editor",
     ),
     (
         "the displacement of a tick at a sample depended on earlier samples",

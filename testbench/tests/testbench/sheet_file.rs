@@ -166,7 +166,7 @@ fn errors_have_file_line_and_name() {
         ),
         (
             limit("clause = \"5\""),
-            "sheet.toml:7: test `one`: max_extension_force_n: allowed: `least`, `most` or both",
+            "sheet.toml:7: test `one`: max_extension_force_n: give `least`, `most` or both",
         ),
         (
             limit("least = 2\nmost = 1"),

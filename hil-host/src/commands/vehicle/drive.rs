@@ -42,8 +42,8 @@ pub struct Driven {
 
 /// Steps `run` to its end, paced if there is a `pacer`, and sends a record of each tick to another thread.
 ///
-/// A tick allocates nothing and makes no system calls except those of `exchange` and the clocks. All of it is within the
-/// work that the pacer times.
+/// A tick allocates nothing and makes no system calls except those of `exchange` and the clocks. All of it is within
+/// the work that the pacer times.
 ///
 /// # Errors
 /// Errors from [`Exchange::before`] and [`Run::step`].
