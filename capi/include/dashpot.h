@@ -730,7 +730,9 @@ uint32_t dashpot_version(void);
  * @param damper_size  `sizeof(dashpot_damper)`
  * @param state_size   `sizeof(dashpot_state)`
  */
-dashpot_error dashpot_check_header(uint32_t version, size_t damper_size, size_t state_size);
+dashpot_error dashpot_check_header(uint32_t version,
+                                   size_t damper_size,
+                                   size_t state_size);
 
 #ifdef __cplusplus
 }  // extern "C"
