@@ -1,4 +1,4 @@
-//! Bench tests of which only the indices are known, read from a table.
+//! Bench tests known only by their indices, read from a table.
 
 use std::io;
 use std::path::Path;

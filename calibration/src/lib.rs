@@ -84,7 +84,7 @@ pub struct Calibration {
     pub varied: Vec<Varied>,
     /// Recorded loops.
     pub loops: Vec<LoopTest>,
-    /// Tests of which only the indices are known.
+    /// Tests known only by their indices.
     pub indices: Vec<IndexTest>,
     /// Step of the model (s).
     pub step_s: f64,

@@ -6,6 +6,7 @@ pub mod case;
 pub mod damper;
 mod error;
 pub mod harmonic;
+mod hexadecimal;
 pub mod input;
 mod lines;
 mod nanosecond;
@@ -23,7 +24,8 @@ pub mod track;
 pub mod vehicle;
 
 pub use error::FileError;
+pub use hexadecimal::hexadecimal;
 pub use nanosecond::nearest_nanosecond;
 pub use overrides::did_you_mean;
-pub use scalar::{Scalar, UnknownScalar};
+pub use scalar::Scalar;
 pub use shipped::UnknownName;

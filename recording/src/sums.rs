@@ -30,8 +30,7 @@ impl Sum {
 
     /// Returns the checksum of all numbers, hexadecimal.
     pub(crate) fn text(&self) -> String {
-        let bytes = self.0.clone().finalize();
-        bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+        dashpot_files::hexadecimal(&self.0.clone().finalize())
     }
 }
 

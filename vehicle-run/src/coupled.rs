@@ -31,8 +31,7 @@ impl CoupledCase {
 
     /// SHA-256 of the content of [`Self::FILE`], in hexadecimal. The library of an FMU rejects any other case.
     pub fn digest(content: &[u8]) -> String {
-        let digest = Sha256::digest(content);
-        digest.iter().map(|byte| format!("{byte:02x}")).collect()
+        dashpot_files::hexadecimal(&Sha256::digest(content))
     }
 
     /// Selects the dampers outside of a case by name.

@@ -198,7 +198,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         }
     }
 
-    /// Takes a byte. At the end of a frame, returns its message or its error. Repeated zeros are no frames.
+    /// Takes a byte. At the end of a frame, returns its message or its error. Ignores repeated zeros.
     pub fn push(&mut self, byte: u8) -> Option<Result<Message<'_>, FrameError>> {
         self.take(byte).then(|| self.message())
     }

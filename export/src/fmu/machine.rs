@@ -244,7 +244,7 @@ fn mach_o(bytes: &[u8]) -> Option<Machine> {
 }
 
 /// Reads a universal Mach-O file and returns the slice for this machine, or else the first one. The header is
-/// big-endian: magic number, number of slices, and five words per slice, the third of which is the offset.
+/// big-endian: magic number, number of slices, and five words per slice. The third word is the offset.
 fn universal(bytes: &[u8]) -> Option<Machine> {
     let big_endian = |at| word(bytes, at).map(u32::swap_bytes);
     if big_endian(0)? != 0xcafe_babe {

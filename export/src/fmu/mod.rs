@@ -102,10 +102,6 @@ fn check(identifier: &str) -> Result<(), ExportError> {
     name::check_c(&identifier.to_ascii_uppercase())
 }
 
-fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// Hash of an FMU's content, in the form of a UUID.
 fn token_of<'a>(
     identifier: &str,
@@ -119,7 +115,7 @@ fn token_of<'a>(
     for part in parts {
         hash.update(part);
     }
-    let hash = hexadecimal(&hash.finalize());
+    let hash = dashpot_files::hexadecimal(&hash.finalize());
     let parts = [
         &hash[..8],
         &hash[8..12],

@@ -75,11 +75,6 @@ impl Digest {
 
     /// Returns the first 16 hexadecimal digits.
     pub fn hexadecimal(self) -> String {
-        let bytes = self.0.finalize();
-        bytes
-            .iter()
-            .take(8)
-            .map(|byte| format!("{byte:02x}"))
-            .collect()
+        dashpot_files::hexadecimal(&self.0.finalize()[..8])
     }
 }
