@@ -171,7 +171,7 @@ pub enum CalibrationError {
         reason: String,
     },
     /// No search converged.
-    #[error("no search converged; reason at the start: {0}")]
+    #[error("no search converged; error at the starting values: {0}")]
     NoFit(String),
     /// The search for intervals kept finding better fits.
     #[error(
@@ -210,7 +210,7 @@ fn undetermined(parameters: &[(String, Determined)]) -> String {
                     "\n  {key}: its effect is too small compared with the scatter of the forces"
                 )
             }
-            (true, false) => format!("\n  {key}: only together with `{partners}`"),
+            (true, false) => format!("\n  {key}: only in combination with `{partners}`"),
         };
     }
     text

@@ -85,7 +85,7 @@ impl Model<'_> {
         self.fit_within(coordinates, free, TOLERANCE, 20)
     }
 
-    /// Runs a coarse fit of all parameters from the start, to compare causes: tolerance 1e-3, few steps.
+    /// Runs a coarse fit of all parameters from the start, to compare causes: with a tolerance of 1e-3 and few steps.
     pub(super) fn quick_fit(&self) -> Option<Fit> {
         let start = self
             .varied
@@ -130,7 +130,8 @@ impl Model<'_> {
         })
     }
 
-    /// Fits from the start and from `starts - 1` random points about it, in order of rising sum of squares.
+    /// Fits from the start and from `starts - 1` random points about it; returns the fits in order of rising sum of
+    /// squares.
     ///
     /// The result is reproducible. Calls `ended` after each fit.
     pub(super) fn fits(&self, starts: usize, ended: &(dyn Fn() + Sync)) -> Vec<Fit> {

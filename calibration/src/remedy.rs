@@ -34,7 +34,7 @@ pub enum Remedy {
     Leave(String),
     /// Give a prior for a parameter.
     Know(String),
-    /// Give no prior for a parameter.
+    /// Remove the prior of a parameter.
     Forget(String),
     /// Hold a rig parameter.
     Hold(String),
@@ -49,7 +49,7 @@ pub enum Remedy {
     },
     /// Search from this number of starting points.
     Starts(u16),
-    /// Allow this misfit: residual over rms force (1).
+    /// Allow this misfit: the residual divided by the rms force (1).
     AllowMisfit(f64),
 }
 

@@ -14,7 +14,7 @@ const fn number(digits: &str) -> u32 {
     }
 }
 
-/// Returns the version of the library: 10000 major + 100 minor + patch. `DASHPOT_VERSION` is that of the header.
+/// Returns the version of the library: 10000 major + 100 minor + patch. `DASHPOT_VERSION` is the version of the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn dashpot_version() -> u32 {
     10_000 * MAJOR + 100 * MINOR + PATCH

@@ -64,7 +64,7 @@ impl Characteristic {
 
     /// Iterates over the corners of the law and their forces (N), positive in extension and negative in compression.
     ///
-    /// The order is that of the kinds, not of the forces. Seal friction and clearance are not included.
+    /// They are ordered by kind, not by force. Seal friction and clearance are not included.
     ///
     /// ```
     /// use dashpot_core::characteristic::{Characteristic, Corner};

@@ -36,9 +36,9 @@ pub struct Damper<T> {
     pub(crate) table_revision: u32,
     /// CRC-32 of the table in memory.
     pub(crate) table_check: u32,
-    /// Puts the `f32` table at an offset of 64 bytes, from which one instruction reaches each part of it.
+    /// Moves the `f32` table to an offset of 64 bytes, where one instruction can address each part of it.
     pub(crate) padding: [u32; 2],
-    /// Results of an implicit stage over its reach beyond the offset.
+    /// Results of an implicit stage as functions of its reach beyond the offset.
     pub(crate) table: Table<T>,
 }
 
@@ -60,7 +60,7 @@ impl<T: Real> Damper<T> {
     ///
     /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected, counted and latched
     /// as [`Status::INPUT_HELD`]. The state then starts at an end of the range. From there the first good displacement
-    /// is too far to catch up with, so the damper restarts at it without force.
+    /// is too far away to catch up with, so the damper restarts there without force.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
         if self.is_displacement(displacement) {
             let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
@@ -110,15 +110,16 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// For each bin of the reach, the index of the piece at its lower border in extension and in compression. The
-    /// pieces of compression follow those of extension.
+    /// Bins of the reach: for each bin, the index of the piece at its lower border, in extension and in compression.
+    /// The pieces of compression follow those of extension.
     ///
     /// A step in another language needs these bins and [`Damper::to_words`].
     pub fn bins(&self) -> &[[u8; 2]] {
         &self.table.bins
     }
 
-    /// Sets the clearance 2a (m) while the damper runs: a few dozen operations; the table does not change.
+    /// Sets the clearance 2a (m) while the damper runs. This takes a few dozen operations and does not change the
+    /// table.
     ///
     /// # Errors
     /// A clearance outside 0 to [`MAX_CLEARANCE_M`]; the damper is unchanged.
@@ -154,7 +155,8 @@ impl<T: Real> Damper<T> {
     /// True if the numbers of a state could result from a step of this damper.
     pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
         let k = &self.scalars;
-        // Rounding to the grid of positions may exceed the range by less than a thousandth of it.
+        // Rounding to the grid of positions can put a displacement beyond the range by less than a thousandth of the
+        // range.
         let max = T::from_f64(1.001) * k.max_displacement();
         state.displacement.abs() <= max
             && state.potential.is_finite()
@@ -180,7 +182,7 @@ mod tests {
         let built: Damper<f64> = crate::example::reduced_vertical().build(1e-3).unwrap();
         assert!(built.is_finite());
         let words = built.to_words();
-        // The revisions are the two after the scalars.
+        // The two words after the scalars are the revisions.
         for word in (0..words.len()).filter(|word| !(SCALARS..SCALARS + 2).contains(word)) {
             for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 let mut damaged = words;

@@ -12,12 +12,13 @@ pub(crate) const MAX_BOUND_M: f64 = 1.45;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Scalars<T> {
-    /// Largest credible move of the input in a step (m), stored with doubled bits.
+    /// Largest credible move of the input in a step (m), stored with doubled bits (see
+    /// [`doubled_bits`](crate::real::Scalar)).
     pub(crate) move_bound: T,
-    /// Number (m) whose addition and subtraction rounds a travel to the grid of positions. Sums of such travels are
+    /// Adding and then subtracting this number (m) rounds a travel to the grid of positions. Sums of such travels are
     /// exact, so a piston at rest in its clearance does not drift.
     pub(crate) position_rounder: T,
-    /// Number (m) whose addition and subtraction rounds a stretch far below the grid to zero.
+    /// Adding and then subtracting this number (m) rounds a stretch far below the grid to zero.
     pub(crate) rest_rounder: T,
     /// Step (s).
     pub(crate) step_s: T,
@@ -34,7 +35,7 @@ pub struct Scalars<T> {
     pub(crate) held: T,
     /// Largest displacement from zero (m), stored with doubled bits.
     pub(crate) displacement_bound: T,
-    /// Largest stretch after a step (m), for which the next step stays within the table; stored with doubled bits.
+    /// Largest stretch after a step (m), from which the next step stays within the table; stored with doubled bits.
     pub(crate) stretch_bound: T,
 }
 
@@ -56,8 +57,8 @@ impl<T: Real> Scalars<T> {
 
     /// Computes [`Scalars::stretch_bound`] from the other constants.
     ///
-    /// From a stretch `u` beyond the offset the stages reach at most `sqrt(2) u` plus 1.12 moves, which must be in the
-    /// table. The stretch also cannot exceed the length of the range of displacement.
+    /// From a stretch of `u` beyond the offset, the stages reach at most `sqrt(2) u` plus 1.12 times the largest move.
+    /// This reach must lie within the table. The stretch also cannot exceed the length of the range of displacement.
     pub(crate) fn computed_stretch_bound(&self) -> T {
         let max_reach = self.max_reach_beyond_offset() - T::from_f64(1.12) * self.max_move();
         let in_table = self.offset + T::from_f64(0.7) * max_reach;

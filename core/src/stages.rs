@@ -19,7 +19,7 @@ pub(crate) struct Stages<'a, T, V, const L: usize> {
 
 /// A solved stage.
 pub(crate) struct Stage<'a, T, V, const L: usize> {
-    /// Flow times the step (m).
+    /// Flow `v_h` times the step (m).
     pub(crate) flow: V,
     pieces: [&'a Piece<T>; L],
     z: V,
@@ -42,7 +42,7 @@ impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
         }
     }
 
-    /// Solves the stage whose stretch and gamma times its flow sum to `reach` (m).
+    /// Solves the stage whose stretch plus gamma times its flow is `reach` (m).
     #[inline(always)]
     pub(crate) fn solve(&self, reach: V) -> Stage<'a, T, V, L> {
         // Every compiler needs one instruction to compare with a constant, but up to eight to compare with a variable.
@@ -67,7 +67,7 @@ impl<T: Real, V: Lanes<T, L>, const L: usize> Stage<'_, T, V, L> {
         cubic(self.pieces.map(|piece| piece.potential), self.z)
     }
 
-    /// Force over stretch beyond the clearance (N/m).
+    /// Ratio of the force to the stretch beyond the clearance (N/m).
     #[inline(always)]
     pub(crate) fn stiffness(&self) -> V {
         cubic(self.pieces.map(|piece| piece.stiffness), self.z)

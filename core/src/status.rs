@@ -1,4 +1,4 @@
-//! Status bits that the step latches. It never returns errors.
+//! Status bits that the step latches. The step never returns errors.
 
 bitflags::bitflags! {
     /// Latched status bits of one damper.

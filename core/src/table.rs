@@ -1,15 +1,16 @@
 //! Piecewise cubics in the reach of a stage, found and evaluated in constant time.
 //!
 //! The knots are at the corners of the law, with more between them where the law is curved, so they are not equally
-//! spaced. Bins find the piece of a reach. The exponent and the leading bits of the fraction of the reach select a bin,
-//! with 128 bins for each doubling. A bin contains the index of the piece at its lower border. At most
-//! [`KNOTS_PER_BIN`] knots lie within a bin, so this number of comparisons finds the piece.
+//! spaced. The reach of a stage is its stretch plus gamma times its flow. Bins find the piece that contains a reach.
+//! The exponent and the leading bits of the fraction of the reach select a bin, with 128 bins for each doubling. A bin
+//! contains the index of the piece at its lower border. At most [`KNOTS_PER_BIN`] knots lie within a bin, so this
+//! number of comparisons finds the piece.
 
 use crate::bins::{BINS, bin_shift};
 use crate::checksum;
 use crate::math::Lanes;
 
-/// Number of pieces of a side.
+/// Number of pieces per side (extension or compression).
 pub(crate) const PIECES: usize = 64;
 
 /// Largest number of knots within a bin.
@@ -32,7 +33,7 @@ const _: () = {
     );
 };
 
-/// Number of slices in which the bins are set.
+/// Number of slices in which the bins are computed.
 pub(crate) const INDEX_SLICES: usize = 2 * BINS / BINS_PER_SLICE;
 const BINS_PER_SLICE: usize = 64;
 
@@ -47,11 +48,11 @@ const BINS_PER_ROW: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Piece<T> {
-    /// Flow times the step (m), with the sign of the stretch.
+    /// Flow `v_h` times the step (m). It has the sign of the stretch.
     pub(crate) flow: [T; 4],
     /// Flow potential times the step (m^2), positive.
     pub(crate) potential: [T; 4],
-    /// Force over stretch beyond the clearance (N/m).
+    /// Ratio of the force to the stretch beyond the clearance (N/m).
     pub(crate) stiffness: [T; 4],
     /// Start of the piece (m).
     pub(crate) knot: T,
@@ -61,7 +62,7 @@ pub(crate) struct Piece<T> {
 }
 
 impl<T> Piece<T> {
-    /// Iterates over the numbers of a build, in order of declaration.
+    /// Iterates over the numbers that a build computes, in order of declaration.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = &T> {
         let coefficients = self
             .flow
@@ -228,8 +229,8 @@ pub(crate) fn locate<T: Copy, V: Lanes<T, L>, const L: usize>(
     (pieces, reach - knot)
 }
 
-/// Evaluates `c0 + c1 z + c2 z^2 + c3 z^3` of each lane in pairs, with a shorter chain than Horner's rule for one more
-/// product.
+/// Evaluates `c0 + c1 z + c2 z^2 + c3 z^3` of each lane in two pairs of terms. Compared with Horner's rule, the chain
+/// of operations is shorter at the cost of one more product.
 #[inline(always)]
 pub(crate) fn cubic<T: Copy, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 4]; L], z: V) -> V {
     let [c0, c1, c2, c3] = V::transpose(coefficients);

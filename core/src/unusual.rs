@@ -13,7 +13,7 @@ const CATCH_UP_S: f64 = 0.01;
 /// Smallest decrease of the force in a step as a fraction of the force limit (1): that of the shortest step.
 const MIN_FALL: f64 = 1e-4;
 
-/// Makes the state valid for the damper and returns the travel (m) towards a displacement (m).
+/// Makes the state valid for the damper and returns the travel (m) of this step towards the displacement (m).
 ///
 /// - An impossible state restarts at rest; a state of another damper is adopted.
 /// - A displacement that is not finite or out of range is held.

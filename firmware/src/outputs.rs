@@ -30,7 +30,7 @@ fn packet(forces_n: &[f32; DAMPERS]) -> [u8; BYTES] {
 pub struct SerialOutputs {
     uart: Uart,
     packet: [u8; BYTES],
-    /// Number of bytes of the packet still to send, at its end.
+    /// Number of bytes at the end of the packet that are not sent yet.
     unsent: usize,
     waiting: Option<[f32; DAMPERS]>,
 }

@@ -1,4 +1,4 @@
-//! Receives any bytes on the link. They are refused or answered, and the next frame after a zero is read.
+//! Receives any bytes on the link. The device refuses or answers them, and the next frame after a zero byte is read.
 //!
 //! Mutated frames never have a correct CRC-32, so the same bytes are sent again with a corrected CRC-32.
 #![no_main]

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::error::{Outcome, refuse};
 
-/// Borrows a Python array for reading; errors call it `name`.
+/// Borrows a Python array for reading; errors call the array `name`.
 pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,
@@ -21,7 +21,7 @@ pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
     }
 }
 
-/// Borrows a Python array for writing while `input` is borrowed for reading; errors call it `name`.
+/// Borrows a Python array for writing while `input` is borrowed for reading; errors call the array `name`.
 pub fn write<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,

@@ -27,7 +27,8 @@ pub struct Receiver<R> {
 #[error("the thread that reads the records has ended")]
 pub struct ReaderEnded;
 
-/// Creates a sender and a receiver. `records` are the preallocated records; the receiver may fall behind by this many.
+/// Creates a sender and a receiver. `records` are the preallocated records; the receiver may fall behind by as many
+/// records.
 ///
 /// ```
 /// use dashpot_realtime::handover::handover;

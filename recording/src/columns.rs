@@ -29,7 +29,7 @@ enum Column {
 /// always text, because a hexadecimal digest may consist of digits only.
 ///
 /// # Errors
-/// A file cannot be read or written.
+/// Returns an error if a file cannot be read or written.
 pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let unwritable = |error: ParquetError| cannot_write(to, io::Error::other(error));
@@ -87,7 +87,7 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     })
 }
 
-/// Returns for each column if all its cells are numbers or empty, with at least one number.
+/// Returns for each column whether all its cells are numbers or empty and at least one is a number.
 fn numbers(from: &Path, texts: &[&str]) -> Result<Vec<bool>, FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;

@@ -15,7 +15,7 @@ use super::unit::Quantity;
 use crate::remedy::Remedy;
 use dashpot_files::{FileError, input};
 
-/// Channels of a group read at a time; a group may have thousands of channels.
+/// Number of channels of a group that are read at a time; a group may have thousands of channels.
 const CHANNELS: usize = 32;
 
 /// Overview of a file.
@@ -25,7 +25,7 @@ pub struct Overview {
     pub channels: Vec<ChannelOverview>,
     /// Time channels: one per group, or a single one.
     pub times: Vec<TimeOverview>,
-    /// Number of the last line of a text if it has no line end: it may be cut off inside its last number.
+    /// Number of the last line if the text does not end with a line end. The last number of this line may be cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
 }
@@ -39,7 +39,7 @@ pub struct ChannelOverview {
     pub name: String,
     /// Unit as stated in the file.
     pub unit: Option<String>,
-    /// Number of its group, from 1; `None` if the file has no groups.
+    /// Number of the channel's group, from 1; `None` if the file has no groups.
     pub group: Option<usize>,
     /// Type of the values in the file.
     pub kind: String,
@@ -112,7 +112,7 @@ struct RegularIntervals {
 /// Reads the whole file at `path` (`-` for standard input) and returns its overview.
 ///
 /// # Errors
-/// The file is unreadable, damaged or in an unsupported format.
+/// Returns an error if the file is unreadable, damaged or in an unsupported format.
 pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError> {
     let mut opened = open(Origin::Path(path), channels)?;
     let found = opened.found().to_vec();
@@ -173,7 +173,8 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
     Ok(overview)
 }
 
-/// Returns the number, such as `#2`, of the channel with a unit of time if the group has exactly one.
+/// Returns the number, such as `#2`, of the only channel of the group that has a unit of time; `None` if there are none
+/// or several.
 fn only_time_channel(found: &[ChannelInfo], group: usize) -> Option<String> {
     let is_time = |found: &ChannelInfo| match &found.unit {
         Some(unit) => Quantity::Time.unit(unit).is_some(),

@@ -11,9 +11,9 @@ pub(super) struct ChannelInfo {
     pub(super) name: String,
     /// Name as written in the file, possibly with the unit.
     pub(super) whole: String,
-    /// Unit stated in the file, apart from an ending of the name such as `_mm`.
+    /// Unit stated in the file; an ending of the name such as `_mm` does not count.
     pub(super) unit: Option<String>,
-    /// Index of its group, from 0.
+    /// Index of the channel's group, from 0.
     pub(super) group: usize,
     /// True if the channel contains the times of its group.
     pub(super) is_master: bool,
@@ -57,7 +57,8 @@ impl SelectedChannel {
 /// Selects the channels of `quantities` from those `found` in `groups`. The first quantity is the time.
 ///
 /// # Errors
-/// A channel is missing or ambiguous, its unit is unknown, or the time is in a different group than the values.
+/// Returns an error if a channel is missing or ambiguous, if its unit is unknown, or if the time is in a different
+/// group from the values.
 pub(super) fn select<const N: usize>(
     found: &[ChannelInfo],
     groups: &[String],
@@ -72,7 +73,7 @@ pub(super) fn select<const N: usize>(
     select_in(found, groups, wanted, channels, quantities)
 }
 
-/// As [`select`], but with the index of the group, if it is known.
+/// Same as [`select`], but with the index of the group if it is known.
 pub(super) fn select_in<const N: usize>(
     found: &[ChannelInfo],
     groups: &[String],

@@ -1,6 +1,7 @@
-//! `cargo xtask mutants`: changes the code that must not break, bit by bit, and lists the changes that no test notices.
+//! `cargo xtask mutants`: makes small changes to the code that must not break, one at a time, and lists the changes
+//! that no test notices.
 //!
-//! Survivors that were judged harmless are listed in `.cargo/mutants.toml`, each with its reason.
+//! `.cargo/mutants.toml` lists the surviving changes that were judged harmless, each with its reason.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,14 +9,14 @@ use std::path::PathBuf;
 use crate::run::{Outcome, cargo, repository};
 use crate::tools::CARGO_MUTANTS;
 
-/// Code that is changed, and the tests that must notice.
+/// Code that is changed, and the tests that must notice the changes.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Area {
     /// Name on the command line.
     pub name: &'static str,
     /// Package of the code.
     pub package: &'static str,
-    /// Paths from the repository's folder; `*` matches a name and `**` any folders.
+    /// Paths relative to the repository's folder; `*` matches a name and `**` any folders.
     pub files: &'static [&'static str],
     /// Packages whose tests are run.
     pub tested: &'static [&'static str],
@@ -89,10 +90,12 @@ pub const AREAS: [Area; 6] = [
     },
 ];
 
-/// Runs the areas of these names, or all if there are none. Takes hours; results are in `target/mutants/NAME`.
+/// Runs the areas with these names, or all areas without names.
+///
+/// This takes hours. The results are in `target/mutants/NAME`.
 ///
 /// # Errors
-/// An area is unknown, cargo-mutants does not install, or a change survived.
+/// An area is unknown, cargo-mutants cannot be installed, or a change survived.
 pub fn mutants(names: &[&str]) -> Outcome {
     let areas = select(names)?;
     CARGO_MUTANTS.install()?;
@@ -113,7 +116,7 @@ pub fn mutants(names: &[&str]) -> Outcome {
     }
 }
 
-/// Returns the areas of these names, or all if there are none.
+/// Returns the areas with these names, or all areas without names.
 ///
 /// # Errors
 /// A name is unknown.

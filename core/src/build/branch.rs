@@ -67,7 +67,7 @@ impl Branch<'_> {
         self.friction() * self.mount_compliance
     }
 
-    /// Force over deflection (N/m); at zero deflection its limit.
+    /// Ratio of force to deflection (N/m); at zero deflection, the limit of this ratio.
     pub(crate) fn secant_stiffness(&self, force: f64, deflection: f64) -> f64 {
         if deflection > 0.0 {
             force / deflection

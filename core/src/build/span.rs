@@ -15,9 +15,9 @@ const LOW_FLOW: f64 = 1e-4;
 pub(super) struct Sample {
     /// Reach beyond the held stretch, counted from the first knot (m).
     pub(super) reach: f64,
-    /// Flow times the step (m).
+    /// Flow `v_h` times the step (m).
     pub(super) flow: f64,
-    /// Force over stretch (N/m).
+    /// Ratio of force to stretch (N/m).
     pub(super) stiffness: f64,
 }
 
@@ -26,8 +26,8 @@ pub(super) struct Stage<'a> {
     pub(super) branch: &'a Branch<'a>,
     pub(super) step_s: f64,
     pub(super) first_knot: f64,
-    /// Smallest flow times the step (m) to which errors are related: at higher forces, errors below the flow at low
-    /// force hardly matter.
+    /// Flow at low force times the step (m), which is added to the scale of relative errors: at higher forces, errors
+    /// below it hardly matter.
     floor: f64,
 }
 
@@ -56,15 +56,16 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Samples of a span: the nodes of its cubics, with a check between each two nodes.
+/// Number of samples of a span: four nodes of its cubics, and a check point between each two nodes.
 const SAMPLES: usize = 7;
 const NODES: [usize; 4] = [0, 2, 4, 6];
 const CHECKS: [usize; 3] = [1, 3, 5];
 
 /// The part of a branch between two knots.
 ///
-/// Its forces are `F = corner + (width t)^2`, where `corner` is the force of the preceding corner. Some paths open with
-/// the root of the force, as the orifice does at zero; all quantities are smooth in t even there.
+/// Its forces are `F = corner + (width t)^2`, where `corner` is the force of the preceding corner. The flow of some
+/// paths starts with the square root of the force, as that of the orifice does at zero force; all quantities are smooth
+/// in t even there.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     corner: f64,
@@ -175,7 +176,8 @@ impl Span {
         self.misfit = 0.0;
         for sample in CHECKS.map(|check| self.samples[check]) {
             let error = |cubic, value: f64| (fit::value(cubic, sample.reach - knot) - value).abs();
-            // A closed branch holds its stretch for seconds, so 1e-5 of the stretch counts as flow.
+            // A closed branch has almost no flow and holds its stretch for seconds, so the scale includes 1e-5 of the
+            // reach.
             let scale = sample.flow + stage.floor + 1e-5 * sample.reach;
             let misfit = (error(flow, sample.flow) / scale)
                 .max(error(stiffness, sample.stiffness) / sample.stiffness);

@@ -12,15 +12,17 @@ use super::watch::Watch;
 
 /// Variance of an unknown position (m^2).
 const UNKNOWN: f32 = 1.0;
-/// Squared innovation over its variance above which a measurement is an outlier (1).
+/// Squared innovation divided by its variance, above which a measurement is an outlier (1).
 const OUTLIER: f32 = 900.0;
-/// Forgetting after an outlier, in usual blocks (1), so that the estimate soon follows a change.
+/// Forgetting after an outlier, as a multiple of that of a usual block (1). It lets the estimate follow a change
+/// quickly.
 const OUTLIER_SURPRISE: f32 = 25.0;
 /// Largest number of consecutive outliers. One more restarts the estimate.
 const MAX_OUTLIERS: u16 = 12;
-/// Smallest information of a block, relative to its forgetting, at which anything is forgotten (1).
+/// Smallest ratio of the information in a block to its forgetting at which the filter forgets anything (1).
 const MIN_INFORMATION_SHARE: f32 = 0.25;
-/// Squared excess of a force in contact over the threshold, relative to the variance of the force zero (1).
+/// Squared excess of the force over the contact threshold at which contact is certain, relative to the variance of the
+/// force offset (1).
 const SURE_CONTACT: f32 = 9.0;
 
 /// Health estimate of one damper: plain data that changes at each tick, saved and restored by copying.
@@ -45,7 +47,7 @@ pub struct Health {
     rejected: u32,
 }
 
-/// Next stage of the work on the last block. A number, so that any bits are valid.
+/// Next stage of the work on the last block. The stage is a plain number because any bits of a number are valid.
 mod stage {
     pub(super) const DONE: u32 = 0;
     pub(super) const PREDICT: u32 = 1;
@@ -60,7 +62,7 @@ mod stage {
 }
 
 impl Health {
-    /// Not an estimate yet: all bits are zero.
+    /// Placeholder before an estimate starts: all bits are zero.
     pub(crate) const EMPTY: Self = Self {
         gathered: Gathered::EMPTY,
         mark: 0,
@@ -179,7 +181,7 @@ impl Health {
         self.gathered.begin(model);
     }
 
-    /// Moves the position over the block. Computes the measurement if both ends were in contact.
+    /// Advances the position by the travel of the block. Computes the measurement if both ends were in contact.
     #[inline(always)]
     fn predict(&mut self, model: &HealthModel) {
         let block = &self.block;
@@ -290,11 +292,11 @@ impl Health {
         let [_, flow, compliance, half, lag, zero, friction] = self.filter.state;
         let scale = self.watch.scale();
         let sd = |row| libm::sqrtf(self.filter.variance(row) * scale);
-        // A compliance near zero would be an unbounded stiffness.
+        // A compliance near zero would give an unbounded stiffness.
         let min = 1e-3 * model.start[1];
         let bounded = if compliance > min { compliance } else { min };
         let stiffness = 1.0 / bounded;
-        // A negative flow factor means a reversed sign of a sensor: no damper drives its piston.
+        // A negative flow factor means that the sign of a sensor is reversed: no damper drives its piston.
         let mut status = self.status;
         if flow <= 0.0 {
             status |= HealthStatus::MISFIT;

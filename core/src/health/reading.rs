@@ -64,7 +64,7 @@ pub struct Estimate {
 #[non_exhaustive]
 #[repr(C)]
 pub struct HealthReading {
-    /// Flow over nominal flow at the same force (1). Its inverse is the damping factor.
+    /// Ratio of the flow to the nominal flow at the same force (1). Its inverse is the damping factor.
     pub flow_factor: Estimate,
     /// Effective stiffness Ke of the mount without the nominal oil column (N/m).
     pub stiffness_n_per_m: Estimate,
@@ -87,7 +87,7 @@ pub struct HealthReading {
 }
 
 impl HealthStatus {
-    /// Bits for which the intervals may not contain the true values.
+    /// Bits that warn that the intervals may not contain the true values.
     pub const DOUBTS: Self = Self::NO_FORCE
         .union(Self::LATE)
         .union(Self::SEVERAL_CHANGED)
@@ -100,8 +100,8 @@ impl HealthReading {
         !self.status.intersects(HealthStatus::DOUBTS)
     }
 
-    /// Damping force over the nominal force at the same velocity (1), assuming a linear law: the inverse of the flow
-    /// factor.
+    /// Ratio of the damping force to the nominal force at the same velocity (1), assuming a linear law: the inverse of
+    /// the flow factor.
     pub fn damping_factor(&self) -> Estimate {
         let value = 1.0 / self.flow_factor.value;
         Estimate {

@@ -1,4 +1,4 @@
-//! Frames on the wire: COBS of message and CRC-32 (ISO-HDLC, little-endian), ended by a zero byte.
+//! Frames on the wire: a message and its CRC-32 (ISO-HDLC, little-endian), encoded with COBS and ended by a zero byte.
 
 use cobs::{DecodeResult, DecoderState};
 use heapless::Vec;
@@ -30,9 +30,9 @@ const fn frame_bytes(message_bytes: usize) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameError {
-    /// A zero byte inside a COBS block.
+    /// The frame has a zero byte inside a COBS block.
     Framing,
-    /// Longer than the reader's buffer.
+    /// The frame is longer than the reader's buffer.
     TooLong,
     /// The CRC-32 is missing or does not match the message.
     Check,
@@ -86,7 +86,7 @@ impl<const BYTES: usize> Frame<BYTES> {
         }
     }
 
-    /// Encodes `message`. If it does not fit, the frame is empty and the result false.
+    /// Encodes `message`. If it does not fit, the frame is empty and the result is false.
     pub fn write(&mut self, message: &impl Serialize) -> bool {
         self.length = self.encode(message).unwrap_or(0);
         self.length > 0
@@ -168,7 +168,7 @@ impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
 /// assert_eq!(messages, 1);
 /// ```
 #[derive(Debug)]
-#[repr(C)] // starts with the fields that every byte needs, within reach of one instruction
+#[repr(C)] // the fields that every byte needs come first, where one instruction can address them
 pub struct FrameReader<const BYTES: usize> {
     /// Number of bytes of the message so far.
     length: usize,
@@ -192,7 +192,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
             length: 0,
             register: 0,
             cobs: DecoderState::Idle,
-            // Has zero bits; the first byte replaces it.
+            // All bits of this error are zero. The first byte of a frame replaces it.
             error: Some(FrameError::Framing),
             message: [0; BYTES],
         }
@@ -203,7 +203,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         self.take(byte).then(|| self.message())
     }
 
-    /// Takes a byte. True at the end of a frame.
+    /// Takes a byte. Returns true at the end of a frame.
     #[inline(always)]
     pub(crate) fn take(&mut self, byte: u8) -> bool {
         let starts = matches!(self.cobs, DecoderState::Idle);

@@ -37,7 +37,8 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// Checks the next slice of constants and the next state. Returns the number of newly damaged ones.
+    /// Checks the next slice of constants and the next state. Returns the number of dampers and states that it newly
+    /// found damaged.
     pub(crate) fn check(&mut self, loaded: &mut Loaded<N>) -> u32 {
         let mut found = 0;
         let damper = self.next_constants;
@@ -49,7 +50,7 @@ impl<const N: usize> Guard<N> {
         } else if self.check.is_at_start() {
             keep(&mut self.of_sound_constants_n, damper, self.at_start_n);
         }
-        // A state also latches damage of the constants.
+        // The state of a damper also latches damage to its constants.
         let damper = self.next_state;
         if !loaded.check_state(damper) {
             if self.constants & bit(damper) == 0 {
@@ -94,7 +95,7 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// Records a newly loaded damper. If the old one was damaged, its state is damaged too.
+    /// Records a newly loaded damper. If the old one was damaged, its state counts as damaged too.
     pub(crate) fn loaded(&mut self, damper: u8) {
         if damper == self.next_constants {
             self.check = Check::START;
@@ -138,7 +139,7 @@ fn bit(damper: u8) -> u16 {
     1 << (damper % u16::BITS as u8)
 }
 
-/// Marks a damper. True if it was not marked before.
+/// Marks a damper. Returns true if it was not marked before.
 fn mark(dampers: &mut u16, damper: u8) -> bool {
     let new = *dampers & bit(damper) == 0;
     *dampers |= bit(damper);

@@ -1,6 +1,6 @@
 //! Requests of a host and responses of a device, encoded with postcard.
 //!
-//! The fields of requests and responses are part of the protocol; a new field is a new [version](super::PROTOCOL).
+//! The fields of requests and responses are part of the protocol; a new field needs a new [version](super::PROTOCOL).
 
 use serde::{Deserialize, Serialize};
 
@@ -170,7 +170,7 @@ pub enum Response<'a> {
     Status {
         /// Latched [`Status`](crate::Status) bits of each damper.
         status: PerDamper<u16>,
-        /// Number of ticks of each damper with a held or limited displacement, up to 65535.
+        /// Number of ticks of each damper with a held or limited displacement or a restart, up to 65535.
         rejected_inputs: PerDamper<u16>,
     },
     /// The request was refused and nothing changed.

@@ -8,7 +8,7 @@ use crate::state::DamperState;
 use crate::status::Status;
 
 /// Number of ticks kept for [`Request::Telemetry`](super::Request::Telemetry). A power of two: the ring stays in order
-/// as the count of ticks wraps.
+/// when the count of ticks wraps.
 pub const KEPT_TICKS: usize = 64;
 
 /// One tick of the bank.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Condition for a lost link, and the output from then on.
+/// Condition at which the link counts as lost, and the output from then on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LossOfLink {
     /// Number of ticks without new displacements before the link is lost, at least 1.
@@ -12,7 +12,7 @@ pub struct LossOfLink {
 }
 
 impl Default for LossOfLink {
-    /// Loss after 100 ticks, then to zero in 100 ticks: 0.1 s each at 1 kHz.
+    /// The link is lost after 100 ticks, and the output then falls to zero in 100 ticks: 0.1 s each at 1 kHz.
     fn default() -> Self {
         Self {
             after_ticks: 100,
@@ -43,12 +43,12 @@ pub(crate) struct Watch<const N: usize> {
     silent_ticks: u32,
     /// Number of ticks with safe outputs so far.
     safe_ticks: u32,
-    /// Output before the safe output (N); for damaged dampers, output before the damage.
+    /// Last output before the safe output (N); for damaged dampers, the output before the damage.
     last_good: [f32; N],
 }
 
 impl<const N: usize> Watch<N> {
-    /// Not configured: all bits are zero.
+    /// A watch before its configuration: all bits are zero.
     pub(crate) const fn new() -> Self {
         Self {
             configuration: LossOfLink {
@@ -61,7 +61,7 @@ impl<const N: usize> Watch<N> {
         }
     }
 
-    /// Sets the configuration. Ticks that were silent so far never lose the link immediately.
+    /// Sets the configuration. The silent ticks so far never cause the loss of the link immediately.
     pub(crate) fn configure(&mut self, configuration: LossOfLink) {
         self.silent_ticks = self.silent_ticks.min(configuration.after_ticks);
         self.configuration = configuration;
@@ -72,7 +72,7 @@ impl<const N: usize> Watch<N> {
         self.silent_ticks = 0;
     }
 
-    /// Starts again as the free-running tick starts or stops.
+    /// Starts again when the free-running tick starts or stops.
     pub(crate) fn restart(&mut self) {
         self.alive();
         self.safe_ticks = 0;

@@ -82,7 +82,7 @@ const SHIPPED: Shipped = Shipped {
 /// Parses the damper in `text`; error messages call it `name`.
 ///
 /// # Errors
-/// Same as [`load`].
+/// Same errors as [`load`].
 pub fn parse(
     name: &str,
     text: &str,
@@ -198,7 +198,7 @@ impl DamperFile {
                 oil: Some(hydraulics.oil),
                 ..empty
             },
-            // An unknown kind of damper: reading the file back reports the missing tables.
+            // Unknown kind of damper: reading the text back reports the missing tables.
             _ => empty,
         }
     }

@@ -33,12 +33,12 @@ pub enum Index {
 pub struct DisplayUnit {
     /// Symbol of the unit.
     pub symbol: &'static str,
-    /// Size of the unit in units of the index's key, such as 1000 for kN.
+    /// One display unit, in the unit of the index's key, such as 1000 for kN.
     pub size: f64,
 }
 
 impl Index {
-    /// All indices, in the order of a sheet.
+    /// All indices, in the order in which a sheet lists them.
     pub const ALL: [Self; 9] = [
         Self::MaxExtensionForceN,
         Self::MaxCompressionForceN,

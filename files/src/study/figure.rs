@@ -27,7 +27,8 @@ pub enum FigureContent {
         sweeps: Vec<String>,
         /// Observed indices.
         observed: Vec<String>,
-        /// Factor of each index, so that all share one axis that starts at zero; empty to show them unscaled.
+        /// Factor by which each index is multiplied, so that all share one axis that starts at zero; empty for unscaled
+        /// indices.
         factors: Vec<f64>,
     },
     /// Damper forces over time, displacement and velocity, for the first case of a sweep with its first seed.
@@ -41,7 +42,7 @@ pub enum FigureContent {
     Signal {
         /// Name of the sweep.
         sweep: String,
-        /// Values of its first axis.
+        /// Values of the sweep's first axis to draw.
         values: Vec<Value>,
         /// Name of the signal, as in a history file.
         signal: String,
@@ -50,11 +51,11 @@ pub enum FigureContent {
     Response {
         /// Name of the sweep.
         sweep: String,
-        /// Values of its first axis.
+        /// Values of the sweep's first axis to draw.
         values: Vec<Value>,
         /// Name of the damper.
         damper: String,
-        /// Amplitude of its displacement, m.
+        /// Amplitude of the damper's displacement, m.
         amplitude_m: f64,
     },
 }
@@ -131,7 +132,7 @@ impl FigureTable {
     /// Converts the table to a figure.
     ///
     /// # Errors
-    /// Returns a description of the problem.
+    /// Returns an error message that describes the problem.
     pub fn figure(self) -> Result<Figure, String> {
         let read = |values: Vec<toml::Value>| -> Result<Vec<Value>, String> {
             if values.is_empty() {

@@ -7,11 +7,11 @@ use super::dampers::find_dampers;
 use super::error::VehicleFileError;
 use crate::{damper, overrides};
 
-/// Override `dampers.table.key=value`, split after the dampers.
+/// Override `dampers.table.key=value`, split after `dampers`.
 pub(super) struct DamperOverride<'a> {
     /// Direction or name of the dampers.
     dampers: &'a str,
-    /// Override `table.key=value` of each of them.
+    /// Override `table.key=value` to apply to each of them.
     change: &'a str,
 }
 

@@ -153,7 +153,7 @@ impl From<DirectionName> for Direction {
     }
 }
 
-/// Name that attaches an end to the track.
+/// Name that attaches an element's end to the track.
 const TRACK: &str = "track";
 
 fn end(on: &str, at_m: [f64; 3]) -> End {

@@ -75,7 +75,7 @@ const SPEEDS_KM_H: std::ops::RangeInclusive<f64> = 1.0..=700.0;
 const MAX_SEARCH_KM_H: f64 = 500.0;
 const SEARCH_STEP_KM_H: f64 = 10.0;
 
-/// Modes above this frequency belong to wheel and rail and are not listed, Hz.
+/// Modes above this frequency (Hz) are those of wheel and rail and are not listed.
 const MAX_MODE_HZ: f64 = 50.0;
 
 #[derive(Serialize)]

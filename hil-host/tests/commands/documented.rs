@@ -1,4 +1,5 @@
-//! The command accepts every command line in the documents and in `--help`; those of pages about other tools are run.
+//! The command accepts every command line in the documents and in `--help`; the command lines of pages about other
+//! tools are run.
 
 use std::path::{Path, PathBuf};
 use std::{fs, iter};

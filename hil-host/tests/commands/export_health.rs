@@ -102,7 +102,7 @@ fn the_model_is_the_desks_in_every_language() {
 #[test]
 fn the_array_compiles() {
     use xtask::tools::{GCC, have};
-    if !have(&[GCC], "an exported model of health, compiled") {
+    if !have(&[GCC], "an exported health model, compiled") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

@@ -23,7 +23,7 @@ fn a_vehicle_that_tips_over_is_reported_as_overturned() {
         let (error, report) = ended(&["--case", "curve-r200", "--speed-km-h", speed_km_h]);
         assert!(
             error.contains("overturned to the left at ")
-                && error.contains("wheels of the other side carry no load"),
+                && error.contains("wheels on the other side carry no load"),
             "{speed_km_h} km/h: {error}"
         );
         let ending = &report["ending"];

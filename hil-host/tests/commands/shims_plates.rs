@@ -25,7 +25,8 @@ fn near(value: &Value, expected: f64, fraction: f64) {
     );
 }
 
-/// Ce of Tables 2 to 4, edge compliance from disc theory (mm/MPa) and cubed thickness of the packs of Table 1.
+/// The expected values are Ce from Tables 2 to 4, and the edge compliance (m/Pa) of the packs of Table 1, from disc
+/// theory with their cubed thickness.
 #[test]
 fn the_papers_valves_have_areas_fitted_to_their_factors() {
     let report = report(&[]);
@@ -42,7 +43,7 @@ fn the_papers_valves_have_areas_fitted_to_their_factors() {
         assert_eq!(valve["pressure_area"]["kind"], kind);
         assert_eq!(valve["pressure_area_is_given"], false);
     }
-    // Sectors over the whole width have the Ce of their share of the circumference.
+    // For sectors over the whole width, Ce equals their share of the circumference.
     let fits = |valve: usize, kind: &str| -> Vec<Value> {
         let all = valves[valve]["fits"].as_array().unwrap().iter();
         all.filter(|fit| fit["kind"] == kind).cloned().collect()

@@ -45,7 +45,7 @@ fn the_emulator_ends_with_the_command() {
     std::fs::write(at("in.csv"), "time_s,displacement_m\n0,0\n1,0\n").unwrap();
     make_pipe(&at("alive"));
     make_pipe(&at("wait"));
-    // Opened for reading and writing, so that opening does not wait for the other end.
+    // Open the pipe for reading and writing, so that opening does not wait for the other end.
     let mut wait = File::options()
         .read(true)
         .write(true)
@@ -64,7 +64,7 @@ fn the_emulator_ends_with_the_command() {
     assert_eq!(&reported, b"started\n");
     terminate(&mut command);
     wait.write_all(b"\n").unwrap();
-    // Ends when all writers have closed the pipe.
+    // The read ends when all writers have closed the pipe.
     let mut rest = String::new();
     alive.read_to_string(&mut rest).unwrap();
     assert_eq!(rest, "");

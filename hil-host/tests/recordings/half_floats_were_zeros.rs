@@ -51,7 +51,8 @@ fn half_floats_of_another_program_are_read() {
     }
 }
 
-/// Every finite half-precision number against its definition: 2^(e - 25) times 1024 + f, or 2^-24 times f if e is 0.
+/// Compares every finite half-precision number with its definition: 2^(e - 25) times 1024 + f, or 2^-24 times f if e is
+/// 0.
 #[test]
 fn every_half_has_its_value() {
     let folder = tempfile::tempdir().unwrap();

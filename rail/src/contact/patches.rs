@@ -56,7 +56,7 @@ pub struct Patch {
 const SEPARATION: f64 = 4.0;
 /// Interpenetration assigned to a zone that is nowhere over the rail, m: far out of contact.
 const ABSENT_M: f64 = -0.05;
-/// Weights below `exp` of this are neglected.
+/// Points whose weight is below `exp(MIN_EXPONENT)` are neglected.
 const MIN_EXPONENT: f64 = -20.0;
 
 impl TurnedWheel<'_> {
@@ -214,7 +214,7 @@ struct Summit {
 }
 
 impl Patch {
-    /// A patch whose quantities all have one value, carrying the whole load.
+    /// A patch that carries the whole load and has `value` in every other quantity.
     fn uniform(value: f64) -> Self {
         Self {
             interpenetration_m: value,

@@ -16,7 +16,8 @@ use super::loaded_contact::LoadedContact;
 ///
 /// **Not for contacts with spin** (flange, large contact angles). If the spin `phi sqrt(ab)` is half the sliding
 /// creepage, the RMS error of the force is 8 % of the friction limit over the grid of docs/contact.md, at most 20 %. If
-/// it is twice that creepage, the error is 14 % (45 %). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// it is twice that creepage, the RMS error is 14 % and the maximum 45 %. [`KalkerBook`](super::KalkerBook) has no such
+/// limit.
 ///
 /// The source states no moment. Here it is the moment of the linear theory, reduced by the same factor as the force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

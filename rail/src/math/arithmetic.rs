@@ -25,8 +25,8 @@ pub fn fuses_multiplication() -> bool {
 
 /// Runs `work` on this thread with the arithmetic of a processor without fused multiply-add.
 ///
-/// Returns `None`, without running `work`, if the instruction set always has it, as on Arm. Objects built by `work`
-/// must not be stepped afterwards.
+/// Returns `None`, without running `work`, if the instruction set always includes fused multiply-add, as on Arm.
+/// Objects built by `work` must not be stepped afterwards.
 ///
 /// ```
 /// let fused = dashpot_rail::without_fused_multiplication(dashpot_rail::fuses_multiplication);

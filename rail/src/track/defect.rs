@@ -169,7 +169,8 @@ impl Defect {
 
     /// Checks the bounds of all values.
     pub(super) fn check(&self, place: Place) -> Result<(), TrackError> {
-        // A rounding must not exceed its straight line, of which the roundings at both ends take half each.
+        // A rounding must not be longer than the straight line it joins: the roundings at the two ends of the line each
+        // take up to half of it.
         let rounding = |value: f64, straight_m: f64| {
             within(place, "rounding_m", value, [1e-3, straight_m.max(1e-3)])
         };

@@ -89,7 +89,7 @@ pub enum VehicleError {
         step_s: f64,
     },
     /// The index of a damper is out of range.
-    #[error("damper {damper}: the vehicle has {dampers}, counted from 0")]
+    #[error("damper {damper}: the vehicle has {dampers} dampers, counted from 0")]
     NoSuchDamper {
         /// Index, from 0.
         damper: usize,
@@ -133,7 +133,7 @@ pub enum VehicleError {
     )]
     NoModes,
     /// No element holds a body in one of its coordinates.
-    #[error("{body}: not held in {coordinate}; add an element that holds it")]
+    #[error("{body}: free to move in {coordinate}; add an element that constrains it")]
     NotHeld {
         /// Name of the body.
         body: String,

@@ -36,7 +36,8 @@ pub(super) struct Attachment {
     pub body: Option<usize>,
     /// Position from the body's centre, m.
     pub from_centre: Vector3<f64>,
-    /// True in an axlebox, which does not follow the body's pitch: that is the spin of the wheelset.
+    /// True if the end is on an axlebox, which does not follow the pitch of its body: the pitch of a wheelset is its
+    /// spin.
     pub is_axlebox: bool,
 }
 

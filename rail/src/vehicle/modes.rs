@@ -26,7 +26,7 @@ struct Share {
     moves_with_first: bool,
 }
 
-/// A body is named beside the first if its share of the energy exceeds this fraction of the first body's.
+/// A second body is named if its share of the energy exceeds this fraction of the first body's share.
 const NAMED: f64 = 0.25;
 
 impl Mode {

@@ -20,8 +20,8 @@ pub struct Running {
     linear: Linear,
 }
 
-/// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only by
-/// its rate.
+/// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only
+/// through its rate.
 const DISPLACEMENT_FIELDS: [Option<usize>; COORDINATES.len()] =
     [Some(1), Some(2), Some(3), None, Some(4)];
 

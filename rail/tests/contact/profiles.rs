@@ -5,8 +5,8 @@ use dashpot_rail::profile::{CurveError, Profile, s1002, uic60};
 
 #[test]
 fn s1002_sections_join() {
-    // The other joints are given to nine decimals and meet within a tenth of a nanometre.
-    // The rounding of section C's ten-digit coefficients adds up to 7e-5 mm at -26 and 2.1e-4 mm at -35.
+    // The rounding of section C's ten-digit coefficients adds up to 7e-5 mm at -26 and 2.1e-4 mm at -35. The other
+    // joints are given to nine decimals and meet within a tenth of a nanometre.
     let rounding = |joint: f64| match joint {
         -26.0 => 7e-5,
         -35.0 => 2.1e-4,

@@ -107,7 +107,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
             v.bodies.clear()
         }),
         (
-            "body: not held in pitch; add an element that holds it",
+            "body: free to move in pitch; add an element that constrains it",
             |v| {
                 // All springs in the middle.
                 for element in &mut v.elements {

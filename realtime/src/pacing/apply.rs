@@ -1,4 +1,4 @@
-//! Applies real-time options to a thread. The system may refuse each of them.
+//! Applies real-time options to a thread. The system may refuse any of them.
 
 use crate::RealtimeError;
 use crate::options::{RealtimeOption, RealtimeOptions};

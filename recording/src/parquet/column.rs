@@ -34,7 +34,7 @@ struct Checksums {
 }
 
 impl Column {
-    /// Creates a reader of the column with this index (from 0), before its first row group.
+    /// Creates a reader of the column with this index (from 0); [`Self::open`] opens its first row group.
     pub(super) fn new(index: usize, descriptor: &ColumnDescriptor, sum: Option<String>) -> Self {
         Self {
             index,

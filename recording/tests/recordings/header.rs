@@ -51,7 +51,7 @@ fn decimal_commas_in_comma_separated_cells_are_reported() {
     assert!(error.ends_with("is not a finite number"), "{error}");
 }
 
-/// With LF or CRLF, comments and blank lines, with or without an end of the last line.
+/// Covers LF and CRLF, comments, blank lines, and a last line with and without a line end.
 #[test]
 fn line_numbers_match_those_of_an_editor() {
     for ends in ["\n", "\r\n"] {

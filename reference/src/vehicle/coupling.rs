@@ -22,7 +22,7 @@ pub(super) enum Action {
     },
     /// Spring about x.
     Bar { stiffness: f64 },
-    /// Force along an axis by the damper or stop with this index.
+    /// Force along an axis from the damper or stop with this index.
     Nonlinear { axis: usize, number: usize },
 }
 
@@ -174,7 +174,7 @@ impl Coupling {
         }
     }
 
-    /// Loads on the first and second body by `force` and `moment` on the second end and their opposites on the first.
+    /// Loads on the first and second body from `force` and `moment` on the second end and their opposites on the first.
     pub(super) fn loads(&self, [force, moment]: &[Vector; 2]) -> [Coordinates; 2] {
         let opposite = |vector: &Vector| vector.map(|component| -component);
         [
@@ -183,7 +183,7 @@ impl Coupling {
         ]
     }
 
-    /// Loads on both bodies by a force of 1 N on the second end along the axis of a damper or stop.
+    /// Loads on both bodies from a force of 1 N on the second end along the axis of a damper or stop.
     pub(super) fn loads_along(&self) -> [Coordinates; 2] {
         let mut force = [0.0; 3];
         if let Action::Nonlinear { axis, .. } = self.action {
@@ -192,7 +192,7 @@ impl Coupling {
         self.loads(&[force, [0.0; 3]])
     }
 
-    /// Additional loads by the standing force as the bodies rotate.
+    /// Additional loads from the standing force as the bodies rotate.
     ///
     /// The potential is `U = -F . R^T (u2 - u1)`: the ends are displaced by `u = u_c + omega x r + omega x (omega x
     /// r)/2`, and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of the force `m x F`

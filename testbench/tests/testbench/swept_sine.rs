@@ -1,4 +1,4 @@
-//! Swept sine against closed forms and against single harmonic motions.
+//! Swept sine: compares it with closed forms and with single harmonic motions.
 
 use std::f64::consts::{PI, TAU};
 

@@ -81,7 +81,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let setting = &report.setting;
     writeln!(
         out,
-        "{} {}, dampers per tick: {}, {} ticks, {}; tick {}; two clock readings {}{}",
+        "{} {}, dampers per tick: {}, {} ticks, {}; tick {}; two clock readings take {}{}",
         setting.damper,
         setting.scalar,
         setting.dampers,

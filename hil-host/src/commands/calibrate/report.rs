@@ -45,7 +45,7 @@ pub(super) struct Number {
     correlation: Vec<(String, f64)>,
 }
 
-/// Smallest shift that the report mentions, as a part of the interval from noise alone.
+/// Smallest shift that the report mentions, as a fraction of half the interval from noise alone.
 const PART_OF_NOISE: f64 = 0.2;
 
 impl Number {
@@ -127,9 +127,9 @@ pub(super) struct Warned {
 pub(super) struct Recording {
     file: String,
     tests: usize,
-    /// Segments between gaps with too few samples for a test.
+    /// Number of segments between gaps that have too few samples for a test.
     too_short: usize,
-    /// Rows with a missing value.
+    /// Number of rows with a missing value.
     rows_left_out: u64,
     /// Number of the last line, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -182,7 +182,7 @@ pub(super) struct Loop {
     pub(super) missed_before_n: f64,
     pub(super) missed_after_n: f64,
     correlation_samples: f64,
-    /// True if the residual is larger than noise explains.
+    /// True if the residual is larger than the noise explains.
     pub(super) misses: bool,
 }
 

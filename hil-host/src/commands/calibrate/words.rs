@@ -100,7 +100,7 @@ fn message(error: &CalibrationError, given: &Given) -> String {
     }
 }
 
-/// Message for an implausible result whose cause was not identified.
+/// Returns the message about an implausible result whose cause was not identified.
 fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
     let tried = "none of the signs, units, bounds and presets tried explains the recordings";
     match finding {

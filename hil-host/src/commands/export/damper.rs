@@ -25,7 +25,7 @@ struct Report {
     /// Size in memory; for standalone C, size of the table.
     damper_bytes: usize,
     state_bytes: usize,
-    /// Size of the image; `None` for Rust source, which contains words.
+    /// Size of the image; `None` for Rust source, which contains words instead of an image.
     #[serde(skip_serializing_if = "Option::is_none")]
     image_bytes: Option<usize>,
 }

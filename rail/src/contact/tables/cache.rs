@@ -172,7 +172,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     drop(file);
     let written = written.and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
-        // The error to report is that of the writing.
+        // The write error is reported; an error of the removal is ignored.
         let _ = fs::remove_file(&temporary);
     }
     written

@@ -24,9 +24,9 @@ use crate::math::number::{Number, are_within, transposed};
 /// spin.
 ///
 /// The idea is that of Kalker's USETAB (Vehicle System Dynamics 27, 1997). The tables were computed with the solver in
-/// `dashpot-reference` for Poisson's ratio 0.28. They cover `a/b` from 0.04 to 25, beyond which `a/b` is limited, and
-/// all creepages. For small creepages the result is the linear theory with the contact's own coefficients. The force
-/// has continuous derivatives with respect to every creepage and never exceeds friction.
+/// `dashpot-reference` for Poisson's ratio 0.28. They cover all creepages, and `a/b` from 0.04 to 25; an `a/b` outside
+/// this range is limited to it. For small creepages the result is the linear theory with the contact's own
+/// coefficients. The force has continuous derivatives with respect to every creepage and never exceeds friction.
 ///
 /// ```
 /// use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};

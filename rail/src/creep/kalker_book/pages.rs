@@ -89,7 +89,7 @@ const CELLS: [f32; 4] = [
     Layout::CELLS[2] as f32,
 ];
 
-/// Four positions in the book, one in each lane.
+/// Four positions in Kalker's book of tables, one in each lane.
 pub(super) struct BookPositions<S: Simd> {
     /// Indices of the first coefficients.
     first: [u32; 4],

@@ -118,7 +118,7 @@ impl Header {
                 if !(named("X") && named("Y")) {
                     return Err(wrong(
                         "ColumnDef",
-                        "names of columns with X and Y, as X,Y,A,C",
+                        "column names that include X and Y, such as X,Y,A,C",
                     ));
                 }
             }
@@ -162,7 +162,7 @@ impl Header {
         }
         match self.points {
             Some(points) if rows.len() < points => Err(ProfileError::CutShort {
-                missing: format!("{} points, allowed: {points}, as XYPoints says", rows.len()),
+                missing: format!("{} points, but XYPoints states {points}", rows.len()),
             }),
             _ => Ok(rows),
         }

@@ -8,7 +8,7 @@ use crate::track::TrackError;
 #[non_exhaustive]
 pub enum MeasuredTrackError {
     /// The header has an unknown column name.
-    #[error("column {name:?}, allowed: {allowed}, with commas between them")]
+    #[error("unknown column {name:?}, allowed: {allowed}, separated by commas")]
     Header {
         /// Line, counted from 1.
         line: u64,

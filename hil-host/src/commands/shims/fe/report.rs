@@ -138,7 +138,7 @@ pub(in crate::commands::shims) fn print(
 ) -> io::Result<()> {
     writeln!(
         out,
-        "\nshims as thin plates, from the shims in the damper file (a compliance in the file is not used)"
+        "\nshims as thin plates, computed from the shims in the damper file (a compliance in the file is not used)"
     )?;
     for valve in &report.valves {
         print_valve(out, valve, report.allowable_stress_pa)?;

@@ -17,8 +17,8 @@ use dashpot_vehicle_run::Run;
 /// Number of slots of the in-process target: as many as a target may have.
 const DESK_SLOTS: usize = MAX_DAMPERS;
 
-/// Tolerance for the ratio of the steps of case and target to a whole number: a target reports its step in single
-/// precision.
+/// Allowed deviation of the ratio of the steps of case and target from a whole number, because a target reports its
+/// step in single precision.
 const SAME_STEP: f64 = 1e-6;
 
 /// A target and its dampers.
