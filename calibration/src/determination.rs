@@ -9,10 +9,10 @@ pub struct Determined {
     pub standard_deviation: f64,
     /// Variance inflation factor, at least 1, relative to independent samples of equal scatter.
     ///
-    /// It is computed from the gradients of whole stretches, because displacement errors have an effect only while the
-    /// force changes fast, and for all that time.
+    /// It is computed from the gradients of whole stretches, because the samples of a stretch are not independent: a
+    /// displacement error has an effect only while the force changes fast, but then on all samples.
     pub inflation: f64,
-    /// True if the parameter changes a force by more than the scatter.
+    /// True if a change of the parameter by its tolerance changes the forces by more than the scatter.
     #[serde(rename = "is_felt")]
     pub has_effect: bool,
     /// Keys of the parameters that could compensate for this one.

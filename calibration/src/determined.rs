@@ -6,17 +6,17 @@ use super::CalibrationError;
 use super::determination::{Determination, Determined};
 use super::model::Model;
 
-/// Minimum singular value, as a share of the largest, for a direction to count as known; the derivatives are finite
+/// A direction counts as known if its singular value is at least this share of the largest. The derivatives are finite
 /// differences and no more accurate than this.
 const MIN_SINGULAR_SHARE: f64 = 1e-3;
 
-/// Number of stretches per loop whose errors count as mutually independent.
+/// Number of stretches into which a loop is divided. The errors of different stretches count as independent.
 const STRETCHES: usize = 40;
 
 /// Information assumed for an unknown direction, as a share of the minimum information of a known one.
 const UNKNOWN: f64 = 1e-12;
 
-/// Minimum component of a parameter in a direction for the parameter to be part of it.
+/// A parameter belongs to a direction if its component there exceeds this.
 const MIN_COMPONENT: f64 = 0.3;
 
 /// Correlation above which two parameters are reported.
@@ -43,7 +43,7 @@ impl Model<'_> {
         for (column, tolerance) in tolerances.iter().enumerate() {
             slopes.column_mut(column).scale_mut(*tolerance);
         }
-        // The slopes are in units of the tolerances, so a singular value below 1 means an undetermined direction.
+        // The slopes apply to a change by one tolerance, so a singular value below 1 means an undetermined direction.
         let tests = slopes.transpose() * &slopes;
         let mut with_priors = tests.clone();
         for prior in self.prior_terms(coordinates) {
@@ -120,7 +120,7 @@ impl Scatter {
         let deviation = |parameter: usize| {
             let terms = eigen.eigenvalues.iter().enumerate().map(|(index, value)| {
                 let part = eigen.eigenvectors[(parameter, index)];
-                // A direction without a component of the parameter adds nothing, even if the direction is unknown.
+                // A direction that does not change the parameter adds nothing to its variance, even if it is unknown.
                 if part.abs() < 1e-9 {
                     0.0
                 } else {

@@ -106,7 +106,7 @@ impl Calibration {
         candidates
     }
 
-    /// Returns the combinations of signs of displacement and force with which the damper may dissipate energy.
+    /// Returns the reversals of force and displacement with which the damper may dissipate energy.
     fn signs(&self) -> Vec<(Factors, Advice)> {
         let factors = |displacement, force| Factors {
             displacement,
@@ -126,7 +126,7 @@ impl Calibration {
         }
     }
 
-    /// Returns factors of displacement and force that correct a confusion of common units.
+    /// Returns factors that correct a displacement or a force that was read in the wrong unit.
     fn scales(&self, finding: &Finding) -> Vec<(Factors, Advice)> {
         let max = |value: &dyn Fn(&super::LoopTest) -> f64| {
             self.loops.iter().map(value).fold(0.0, f64::max)
@@ -258,8 +258,8 @@ impl Calibration {
         presets
     }
 
-    /// Returns a candidate that starts from another preset and varies the same parameters, or the usual ones of that
-    /// preset if it lacks any.
+    /// Returns a candidate that starts from another preset and varies the same parameters; if the preset lacks one of
+    /// them, its usual parameters are varied instead.
     fn started_from_preset(&self, name: &str) -> Option<Candidate> {
         let damper = Keyed::new(name, &*load(name, &[]).ok()?).ok()?;
         if damper.name() == self.damper.name() {
@@ -332,7 +332,7 @@ impl Candidate {
         Some(linear)
     }
 
-    /// Makes the advice list the parameters that are added now.
+    /// Lists in the advice the parameters that are added now, instead of those that were added before.
     fn update_advice(&mut self) {
         for remedy in &mut self.advice {
             match remedy {
@@ -363,7 +363,9 @@ impl Candidate {
         Some(share + COST_PER_CHANGE * changes as f64 + COST_OF_DISTANCE * distance)
     }
 
-    /// Returns the advice if it leads to a result, without added parameters that have no effect.
+    /// Returns the advice if it leads to a result.
+    ///
+    /// Added parameters that the tests do not determine are removed first.
     fn confirmed(mut self, is_cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Advice> {
         self.calibration.starts = 1;
         match self.calibration.attempt(&|_| {}, is_cancelled) {

@@ -26,7 +26,7 @@ pub enum CalibrationError {
     #[error("cancelled")]
     Cancelled,
     /// The parameter cannot be calibrated from forces.
-    #[error("{key}: measured on the part, not calibrated from forces")]
+    #[error("{key}: must be measured on the part, because it cannot be calibrated from forces")]
     NotVaried {
         /// Key of the parameter.
         key: String,
@@ -173,9 +173,9 @@ pub enum CalibrationError {
     /// No search converged.
     #[error("no search converged; error at the starting values: {0}")]
     NoFit(String),
-    /// The search for intervals kept finding better fits.
+    /// The search for the 95 % intervals kept finding better fits.
     #[error(
-        "the search for intervals kept finding better fits than those from {starts} starting points"
+        "the search for the 95 % intervals kept finding better fits than those from {starts} starting points"
     )]
     FewStarts {
         /// Number of starting points.

@@ -37,7 +37,7 @@ pub enum Finding {
         noise_n: f64,
         /// Root mean square of the force about its mean (N).
         force_rms_n: f64,
-        /// Maximum residual beyond the noise, divided by `force_rms_n` (1).
+        /// Allowed residual beyond the noise, divided by `force_rms_n` (1).
         max: f64,
         /// Parameters that ended at a default bound, and their bounds.
         at_bounds: Vec<(String, [f64; 2])>,
@@ -54,7 +54,8 @@ pub enum Finding {
 }
 
 impl Finding {
-    /// Returns the changes that accept the best fit despite this finding; `None` if nothing can.
+    /// Returns the changes with which the calibration accepts the best fit despite this finding; `None` if there are
+    /// none.
     pub(super) fn acceptance(&self) -> Option<Advice> {
         match self {
             Self::Missed {

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::model::Model;
 use super::varied::{angle_at, coordinate_at, coordinate_slope};
 
-/// Relative change of the sum of squares and of the angles at which a search ends.
+/// A search ends when the relative change of the sum of squares, or of the angles, is at most this.
 const TOLERANCE: f64 = 1e-7;
 
 /// Spread of the starting points about the first, in normalised coordinates.

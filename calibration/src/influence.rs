@@ -17,8 +17,8 @@ pub const TEMPERATURE: &str = "oil.temperature_c";
 /// Key of the oil density.
 pub const DENSITY: &str = "oil.density_kg_per_m3";
 
-/// Minimum eigenvalue, as a share of the largest, for a direction to count as known; the step does not move along other
-/// directions.
+/// A direction counts as known if its eigenvalue is at least this share of the largest. The step does not move along
+/// unknown directions.
 const MIN_EIGENVALUE_SHARE: f64 = 1e-6;
 
 /// Effect of an assumed parameter on the calibrated ones.
@@ -61,7 +61,7 @@ impl Calibration {
 
     /// Computes the effect of the assumed parameters on the parameters calibrated at `coordinates`.
     ///
-    /// At each end of an assumed interval, one Gauss-Newton step gives the shift of the minimum.
+    /// For each end of an assumed parameter's interval, one Gauss-Newton step gives the shift of the minimum.
     ///
     /// # Errors
     /// Same errors as [`Model::deviations`].
@@ -180,8 +180,8 @@ impl<'a, 'm> Step<'a, 'm> {
     }
 }
 
-/// Widens an interval from noise by the shifts from the assumed parameters. These are independent, so their squares add
-/// up.
+/// Widens an interval, which covers the noise, by the shifts due to the assumed parameters. The assumed parameters are
+/// independent, so the squares of their shifts add up.
 pub(super) fn widened(
     found: f64,
     [lower, upper]: [Option<f64>; 2],

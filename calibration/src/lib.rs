@@ -53,14 +53,15 @@ use dashpot_core::CheckedParameters;
 
 use dashpot_files::damper::Keyed;
 
-/// Number of rounds that estimate the scatter, then the parameters; the second round changes both by about a percent.
+/// Number of rounds, each of which estimates the scatter and then the parameters. The second round changes both by
+/// about a percent.
 const ROUNDS: usize = 3;
 
 /// Distance from a bound, as a share of the range, within which a parameter counts as at the bound regardless of its
 /// interval.
 const CERTAINLY_AT_BOUND: f64 = 1e-3;
 
-/// Multiple of the allowed misfit beyond which no weighting of the tests can help.
+/// Multiple of the allowed misfit above which the fit is rejected at once, because no weighting of the tests can help.
 const HOPELESS_MISFIT: f64 = 2.0;
 
 /// Minimum scatter of a test, divided by its peak force; no sensor is better.
@@ -69,7 +70,7 @@ const MIN_SCATTER: f64 = 1e-4;
 /// Maximum number of restarts when a profile finds a better minimum.
 const MAX_RESTARTS: usize = 5;
 
-/// Tolerance within which two sums of squares belong to the same minimum, relative and absolute.
+/// Two sums of squares belong to the same minimum if they differ by at most this, relatively plus absolutely.
 const SAME_MINIMUM: f64 = 1e-3;
 
 /// Reason why a search has no result.
@@ -290,7 +291,7 @@ impl Calibration {
         }
     }
 
-    /// Rejects parameters that no force near the best coarse fit depends on.
+    /// Rejects parameters on which no force depends near the best coarse fit.
     fn reject_without_effect(
         &self,
         is_cancelled: &(dyn Fn() -> bool + Sync),

@@ -127,8 +127,8 @@ const BALANCE_SHARE: f64 = 0.25;
 
 /// Estimates what the sensor reads at zero force, from forces between `min` and `max` (N).
 ///
-/// The estimate is the median, because a damper pulls and pushes for about the same time; it is 0 if the forces about
-/// the median are one-sided. It only decides where a test begins to count.
+/// The estimate is the median, because a damper pulls and pushes for about the same time. If the forces about the
+/// median are one-sided, the estimate is 0. It is used only to decide where a test begins to count.
 fn estimated_zero_n(forces: &[f64], min: f64, max: f64) -> f64 {
     let mut sorted = forces.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -8,7 +8,8 @@ use super::{Calibration, CalibrationError};
 
 /// Default maximum residual beyond the noise, divided by the rms force (1).
 ///
-/// A quadratic law misses this much of a linear damper; the laws of real dampers miss a few percent.
+/// A quadratic law leaves a residual of this size on a linear damper; the laws of this model leave a few percent on
+/// real dampers.
 pub const MAX_MISFIT: f64 = 0.2;
 
 /// Net work, divided by the sum of the magnitudes of its increments, above which its sign is certain. The quotient is

@@ -12,8 +12,8 @@ use super::varied::Varied;
 use dashpot_files::damper::Keyed;
 use dashpot_testbench::bench_test;
 
-/// Difference for a derivative, as a share of the tolerance: it changes a force by some percent, far more than the
-/// error of 0.01 % of the tables of a built damper.
+/// Step of the central differences, as a share of the tolerance. It changes a force by some percent, far more than the
+/// error of a built damper's tables, which is 0.01 %.
 const DIFFERENCE: f64 = 0.3;
 
 /// A damper, its varied parameters and the tests.

@@ -10,7 +10,7 @@ use super::varied::Varied;
 /// Rise of the sum of squares at the ends of a 95 % interval: chi-square with one degree of freedom.
 pub const RISE_95: f64 = 3.841;
 
-/// Maximum number of fits per side; the rise is nearly a parabola.
+/// Maximum number of fits per side. A few suffice, because the rise is nearly a parabola.
 const MAX_FITS: usize = 6;
 
 /// A sum of squares that is lower by more than this belongs to a different minimum and is not due to rounding.
@@ -130,7 +130,7 @@ impl Model<'_> {
                     points.push((value(coordinates[parameter]), rise.max(0.0)));
                     rise.max(1e-6)
                 }
-                // The combination of parameters is invalid.
+                // An invalid combination of parameters lies outside the interval.
                 None => f64::INFINITY,
             };
             let reached = rise.sqrt();

@@ -27,7 +27,7 @@ pub enum Remedy {
     OtherDamper {
         /// Name of the preset.
         name: String,
-        /// Parameters to vary instead, if the preset lacks any of the current ones; otherwise empty.
+        /// Parameters to vary instead if the preset lacks one of the current ones; otherwise empty.
         vary: Vec<String>,
     },
     /// Do not vary a parameter.

@@ -238,7 +238,7 @@ impl Varied {
         self.length() * if self.by_ratio { value } else { 1.0 }
     }
 
-    /// Returns the maximum standard deviation of the coordinate for the parameter to count as determined.
+    /// Returns the largest standard deviation of the coordinate with which the parameter counts as determined.
     ///
     /// It corresponds to 10 % of the value or, on a linear scale, at least 1 % of the range.
     pub(super) fn tolerance(&self, value: f64) -> f64 {
@@ -250,7 +250,8 @@ impl Varied {
     }
 }
 
-/// Returns the coordinate of an angle: the search runs over angles, because every angle is within the bounds.
+/// Returns the coordinate of an angle. The search varies angles, because the coordinate of every angle is within the
+/// bounds.
 pub(super) fn coordinate_at(angle: f64) -> f64 {
     0.5 * (1.0 + angle.sin())
 }

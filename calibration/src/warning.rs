@@ -7,10 +7,10 @@ use super::loops::LoopTest;
 use super::varied::Varied;
 use super::{Determination, HIGH_CORRELATION, LoopFit, Profile};
 
-/// Residual divided by noise, above which the model lacks an effect of the test.
+/// Ratio of residual to noise above which the model counts as lacking an effect that the test shows.
 const MAX_RESIDUAL_OVER_NOISE: f64 = 2.0;
 
-/// Minimum noise for this comparison, as a share of the peak force.
+/// Smaller noise counts as this share of the peak force in the comparison.
 const MIN_NOISE: f64 = 0.01;
 
 /// Minimum mean residual, in standard errors, for the force zero of a test to count as different.

@@ -250,7 +250,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_BYTE_ORDER = 6,
     /**
-     * The bytes have another version of the format.
+     * The bytes are in another version of the format.
      */
     DASHPOT_ERROR_VERSION = 7,
     /**
@@ -564,7 +564,7 @@ const char *dashpot_error_text(int32_t code);
  * Initialises the constants of an estimator from an image, the bytes from `dashpot export --health --lang c` or
  * `HealthModel::to_image` of dashpot-core.
  *
- * Do not call it within a tick. It needs the size of the model on the stack.
+ * Do not call it within a tick. It needs as much stack as the size of the model.
  *
  * @param model   storage with any content; written
  * @param image   the bytes, at any alignment, outside the storage of the model

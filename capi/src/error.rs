@@ -22,7 +22,7 @@ pub enum DashpotError {
     Magic = 5,
     /// The byte-order mark is not little-endian.
     ByteOrder = 6,
-    /// The bytes have another version of the format.
+    /// The bytes are in another version of the format.
     Version = 7,
     /// The bytes are not in single precision.
     Scalar = 8,
@@ -82,7 +82,7 @@ impl DashpotError {
             Self::Length => c"a length or count is wrong",
             Self::Magic => c"the bytes are not an image or a saved state",
             Self::ByteOrder => c"the bytes are not little-endian",
-            Self::Version => c"the bytes have another version of the format",
+            Self::Version => c"the bytes are in another version of the format",
             Self::Scalar => c"the bytes are not in single precision",
             Self::Checksum => c"the CRC-32 does not match: the bytes are damaged",
             Self::Values => c"a constant or a value in a state is impossible",

@@ -63,7 +63,7 @@ unsafe fn made_health<'a>(health: *const DashpotHealth) -> Result<&'a Health, Da
 /// Initialises the constants of an estimator from an image, the bytes from `dashpot export --health --lang c` or
 /// `HealthModel::to_image` of dashpot-core.
 ///
-/// Do not call it within a tick. It needs the size of the model on the stack.
+/// Do not call it within a tick. It needs as much stack as the size of the model.
 ///
 /// @param model   storage with any content; written
 /// @param image   the bytes, at any alignment, outside the storage of the model

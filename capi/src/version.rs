@@ -10,7 +10,7 @@ const PATCH: u32 = number(env!("CARGO_PKG_VERSION_PATCH"));
 const fn number(digits: &str) -> u32 {
     match u32::from_str_radix(digits, 10) {
         Ok(number) => number,
-        Err(_) => panic!("cargo sets a number"),
+        Err(_) => panic!("cargo sets the version numbers"),
     }
 }
 

@@ -57,7 +57,7 @@ impl Check {
         self.row == 0
     }
 
-    /// Checks the next slice: four numbers of the table, or the scalars. After the last slice a new round starts.
+    /// Checks the next slice: one row of the table, or the scalars. After the last slice a new round starts.
     ///
     /// Use one `Check` for each damper. Loading the damper or setting its clearance between two calls is allowed.
     ///

@@ -71,7 +71,8 @@ pub(crate) trait Scalar: Lanes<Self, 1> {
 
     /// Returns the number whose bits are twice the bits of this one, which must be a magnitude below 1.5.
     ///
-    /// With it, the step compares the magnitude of another number in one instruction instead of three.
+    /// The result lets the step compare the magnitude of another number with this one in one instruction instead of
+    /// three.
     fn doubled_bits(self) -> Self;
     /// Inverse of [`Scalar::doubled_bits`].
     fn halved_bits(self) -> Self;

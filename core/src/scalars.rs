@@ -3,7 +3,7 @@
 use crate::bins::DOUBLINGS;
 use crate::real::Real;
 
-/// Largest bound of moves and stretches (m): the length of the largest range of displacement.
+/// Largest bound on moves and stretches (m), which covers the longest range of displacement.
 ///
 /// Doubling the bits of a number above 1.5 would give NaN.
 pub(crate) const MAX_BOUND_M: f64 = 1.45;
@@ -28,14 +28,14 @@ pub struct Scalars<T> {
     pub(crate) first_knot: T,
     /// Half the clearance, a (m).
     pub(crate) half_clearance: T,
-    /// Half the force at which the element yields (N). The step doubles it: a sum is not a signalling NaN, so compilers
-    /// compute the minimum of it and the force in one instruction.
+    /// Half the force at which the element yields (N). The step doubles it, because a sum is never a signalling NaN:
+    /// compilers then compute the minimum of the sum and the force in one instruction.
     pub(crate) half_force_limit: T,
     /// Stretch of the mount under seal friction (m).
     pub(crate) held: T,
     /// Largest displacement from zero (m), stored with doubled bits.
     pub(crate) displacement_bound: T,
-    /// Largest stretch after a step (m), from which the next step stays within the table; stored with doubled bits.
+    /// Largest stretch after a step (m) for which the next step stays within the table; stored with doubled bits.
     pub(crate) stretch_bound: T,
 }
 

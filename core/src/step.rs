@@ -42,11 +42,11 @@ impl<T: Real> Damper<T> {
 
     /// Takes over a state of another damper.
     ///
-    /// Displacement and force remain, limited to the range of this damper. The stretch becomes that at which this
+    /// Displacement and force remain, limited to the range of this damper. The stretch becomes the one at which this
     /// damper has the same force. Without force the stretch remains, limited to the clearance.
     ///
     /// [`Damper::step`] calls this when needed. Call it between ticks so that the next tick has its usual cost. It
-    /// always solves 26 stages in `f32`, 55 in `f64`.
+    /// solves 26 stages in `f32` and 55 in `f64`, but none without force.
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let a = self.scalars.half_clearance;
         let limit = self.force_limit_n();
@@ -140,8 +140,8 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     let change = travel - quadrature;
     let end = start + change;
 
-    // The potential gives the mean flow along the straight path. The square corrects it, because the first stage is not
-    // on the path.
+    // The potential gives the mean flow along the straight path. The square of `bend` corrects it, because the first
+    // stage is not on the path.
     let end_potential = last.potential();
     let area = end_potential - potential + bend * bend;
     let max_correction = (change * V::splat(MAX_CORRECTION)).abs();

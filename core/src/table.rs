@@ -23,13 +23,19 @@ const _: () = {
     );
     assert!(
         (2 * PIECES).is_power_of_two(),
-        "a mask keeps indices within bounds"
+        "a bit mask keeps indices within bounds"
     );
-    assert!(2 * PIECES <= 256, "the index of a piece is a byte");
-    assert!(KNOTS_PER_BIN == 2, "the step compares with two knots");
+    assert!(
+        2 * PIECES <= 256,
+        "the index of a piece must fit into a byte"
+    );
+    assert!(
+        KNOTS_PER_BIN == 2,
+        "the step compares the reach with two knots of a bin, to find the piece"
+    );
     assert!(
         size_of::<Piece<f32>>() == 64,
-        "one shift computes the address of a piece"
+        "a shift by 6 bits computes the address of a piece"
     );
 };
 
@@ -37,7 +43,7 @@ const _: () = {
 pub(crate) const INDEX_SLICES: usize = 2 * BINS / BINS_PER_SLICE;
 const BINS_PER_SLICE: usize = 64;
 
-/// Number of rows of a table: rows of bins, then the rows of four numbers of the pieces.
+/// Number of rows of a table: those of the bins, then those of the pieces, with four numbers in each row.
 pub(crate) const ROWS: usize = BIN_ROWS + 4 * 2 * PIECES;
 const BIN_ROWS: usize = BINS / BINS_PER_ROW;
 const BINS_PER_ROW: usize = 8;

@@ -1,4 +1,4 @@
-//! Reading files, or standard input for `-`.
+//! Reads files; `-` means standard input.
 
 use std::borrow::Cow;
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! Writing files, each completely or not at all, or standard output for `-`.
+//! Writes files, each completely or not at all; `-` means standard output.
 
 use std::borrow::Cow;
 use std::fs::File;

@@ -76,7 +76,7 @@ pub fn load(
 
 /// Reads the profile of `body` at `path` (`-` for standard input) with [`measured::parse`].
 ///
-/// Bytes that are not UTF-8 are replaced: comments may contain them, in the encoding of the profile gauge's computer.
+/// Bytes that are not UTF-8 are replaced, because comments may be in the encoding of the profile gauge's computer.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, and the errors of [`measured::parse`] with file, line and column.

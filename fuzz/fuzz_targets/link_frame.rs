@@ -8,7 +8,7 @@ use dashpot_core::Damper;
 use dashpot_core::link::{Clock, Device, FrameReader, REQUEST_BYTES, ResponseFrame};
 use libfuzzer_sys::fuzz_target;
 
-/// A damper of zeros except its step, which is that of the health model among the seeds.
+/// A damper whose numbers are all zero except its step, which is equal to that of the health model in the seeds.
 static DAMPER: Damper<f32> = {
     let mut words = [0; Damper::<f32>::WORDS];
     words[3] = 1e-3_f32.to_bits();

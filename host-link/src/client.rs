@@ -18,7 +18,7 @@ const MAX_SESSIONS: u32 = 10;
 /// gives up.
 const MAX_BACK_OFF: u32 = 8;
 
-/// Maximum length of a grown wait: eight times the first wait for the longest frame.
+/// Maximum wait after back-off: eight times the first wait for the longest frame.
 const MAX_GROWN_WAIT: Duration = Duration::from_secs(12);
 
 /// Link faults that the host detected and recovered from.

@@ -41,7 +41,7 @@ pub enum LinkError {
     TooLong,
     /// No try was answered.
     #[error(
-        "no answer from the target to {} tries within {:.1} s; first wait {} ms",
+        "no answer from the target to {} tries within {:.1} s; the first try waited {} ms",
         limits.tries,
         waited.as_secs_f64(),
         limits.timeout.as_millis()
@@ -65,7 +65,7 @@ pub enum LinkError {
     #[error("the target computes in f64, but this host computes in f32")]
     DoublePrecision,
     /// The target was replaced during the run.
-    #[error("another target answers than the one at the start")]
+    #[error("the target that answers is not the one at the start")]
     OtherTarget,
 }
 

@@ -73,9 +73,8 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
     let masked = py.import("numpy.ma")?.getattr("MaskedArray")?;
     if array.is_instance(&masked)? {
         return refuse(format!(
-            "{name}: a masked array, allowed: {allowed}; use {name}.filled(numpy.nan), at which the step holds its \
-             last \
-             displacement"
+            "{name}: a masked array, allowed: {allowed}; use {name}.filled(numpy.nan); at NaN the step holds its \
+             last displacement"
         ));
     }
     let found = untyped.dtype();

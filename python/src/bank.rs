@@ -1,4 +1,4 @@
-//! Steps several dampers in one call: the bits are the same as one by one, but it takes less time.
+//! Steps several dampers in one call, which takes less time than stepping them one by one and gives the same bits.
 
 use dashpot_core::{Damper as Constants, DamperState};
 use dashpot_testbench::motion::follow_bank;

@@ -183,7 +183,7 @@ impl Calibrated {
     damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None,
     step_s=0.00025, hold=None, temperature_uncertainty_k=5.0, density_uncertainty_kg_per_m3=0.0, max_misfit_percent=20.0
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn calibrate(
     py: Python<'_>,
     damper: &Bound<'_, Damper>,
@@ -355,7 +355,8 @@ fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
         Ok(text) => text.extract()?,
         Err(error) => {
             return refuse(format!(
-                "indices: {}; allowed: a list of dicts with Python's own finite numbers, without unmeasured indices",
+                "indices: {}; allowed: a list of dicts of finite Python numbers; leave out indices that were not \
+                 measured",
                 error.value(py)
             ));
         }

@@ -42,7 +42,7 @@ pub fn message(error: &CalibrationError) -> String {
 
 /// Message if no cause was found.
 fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
-    let tried = "none of the signs, units, bounds and presets tried explains the recordings";
+    let tried = "no sign, unit, bound or preset that was tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
             "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit \
@@ -150,8 +150,8 @@ pub fn warning(warning: &Warning) -> String {
                 "density_uncertainty_kg_per_m3"
             };
             format!(
-                "{key} shifts by {shift_percent:.2} % if {assumed} is {value} +- {uncertainty}, more than by the noise \
-                 of the tests, which cannot separate the two. The interval includes this shift; set the \
+                "{key} shifts by {shift_percent:.2} % if {assumed} is {value} +- {uncertainty}; the noise of the tests \
+                 shifts it less. The tests cannot separate the two. The interval includes this shift; set the \
                  uncertainty with {argument}"
             )
         }

@@ -93,7 +93,7 @@ impl Contact {
     wheel_radius_m=None, inclination=None, smoothing_m=None,
     wheel_format=None, rail_format=None, wheel_mirror=None, rail_mirror=None
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn contact(
     py: Python<'_>,
     wheel: Option<&Bound<'_, PyAny>>,
@@ -188,7 +188,7 @@ fn options(
 /// True
 #[pyfunction]
 #[pyo3(signature = (creepages, *, load_n, a_m, b_m, friction, shear_modulus_pa=None, poisson_ratio=None))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn creep_forces<'py>(
     py: Python<'py>,
     creepages: &Bound<'py, PyAny>,

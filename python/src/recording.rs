@@ -38,7 +38,7 @@ use crate::overrides::path_of_file;
     path, *, step_s=None, with_force=false, time=None, displacement=None, force=None, time_unit=None,
     displacement_unit=None, force_unit=None, group=None, skip_invalid=false, header=None, decimal_mark=None
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn read<'py>(
     py: Python<'py>,
     path: &Bound<'py, PyAny>,

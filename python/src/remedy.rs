@@ -22,7 +22,7 @@ fn in_arguments(remedy: Remedy) -> String {
             unit(quantity)
         ),
         Remedy::GiveUnit(quantity) => {
-            format!("name it: {} with {}", unit(quantity), quantity.unit_names())
+            format!("give it with {}: {}", unit(quantity), quantity.unit_names())
         }
         Remedy::OverrideUnit(quantity) => format!("{} overrides it", unit(quantity)),
         Remedy::NameGroup => "choose one with group=NAME or its number".into(),

@@ -111,7 +111,7 @@ impl VehicleRun {
     case=None, *, vehicle=None, track=None, speed_km_h=None, duration_s=None, start_m=None, friction=None,
     normal_damping_s_per_m=None, step_us=None, push_m=None, dampers=None, overrides=None, signals=None
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn vehicle(
     py: Python<'_>,
     case: Option<&Bound<'_, PyAny>>,

@@ -177,7 +177,7 @@ class Calibration(Test):
             calibrate(time_s, x, force_n.astype(numpy.float32))
         with self.assertRaisesRegex(dashpot.DashpotError, "^indices: "):
             dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude": 1}])
-        with self.assertRaisesRegex(dashpot.DashpotError, "^indices: .*without unmeasured indices$"):
+        with self.assertRaisesRegex(dashpot.DashpotError, "^indices: .*leave out indices that were not measured$"):
             dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude_m": math.nan, "frequency_hz": 1.0}])
         with self.assertRaisesRegex(dashpot.DashpotError, "^table of indices, test 1: "):
             dashpot.calibrate(self.start, vary=[DAMPING], indices=[{"amplitude_m": 1e-3, "frequency_hz": 1.0}])

@@ -84,7 +84,7 @@ class Recordings(Test):
             ("time_s,we`g,--force\n0,1,2\n1,2,3\n", {},
              "column displacement_m is missing; the file has `time_s`, `we`g`, `--force`; choose one with displacement=NAME or its number"),
             ("time_s,--force\n0,1\n1,2\n", {"displacement": "--force"},
-             "the file does not state the unit of --force; name it: displacement_unit with m, cm, mm, um, in"),
+             "the file does not state the unit of --force; give it with displacement_unit: m, cm, mm, um, in"),
             ("--time NAME,--force`\n0,1\n1,2\n", {"displacement": "--force`", "displacement_unit": "m"},
              "column time_s is missing; the file has `--time NAME`, `--force``; choose one with time=NAME or its number"),
             ("time_s,displacement_m,--group\n0,0,1\n1,0,x\n", {"with_force": True, "force": "--group", "force_unit": "N"},

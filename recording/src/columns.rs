@@ -16,7 +16,7 @@ use crate::sums::{self, Sum};
 use dashpot_files::FileError;
 use dashpot_files::output::{cannot_write, write_whole};
 
-/// Rows per row group: about 15 MB for the history of a locomotive.
+/// Rows per row group, which takes about 15 MB for the history of a locomotive.
 const ROWS: usize = 16_384;
 
 /// Cells of one column.
@@ -157,7 +157,7 @@ fn add(
     Ok(())
 }
 
-/// Buffer between the library, which must own its writer, and the file, which is only borrowed.
+/// Buffer that the library writes to. The library must own its writer, but the file is only borrowed.
 #[derive(Clone, Default)]
 pub(super) struct SharedBuffer(Arc<Mutex<Vec<u8>>>);
 

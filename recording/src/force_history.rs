@@ -9,7 +9,7 @@ use super::open::{Origin, open_rows};
 use super::unit::Quantity;
 use dashpot_files::FileError;
 
-/// Tolerance for equal times (s): text files round times to the nanosecond.
+/// Times this close together count as equal (s), because text files round times to the nanosecond.
 const TIME_TOLERANCE_S: f64 = 1e-9;
 
 /// Force over time, linear between samples. By default the channels are `time_s` and `force_n`; the file formats are

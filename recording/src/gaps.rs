@@ -65,7 +65,8 @@ impl Intervals {
     /// sample.
     #[inline]
     pub(super) fn add(&mut self, start_s: f64, end_s: f64, location: impl FnOnce() -> RowLocation) {
-        // Rounds to the nearest unit. This runs for every row, and `round` may be a function call on some processors.
+        // Rounds to the nearest unit without `round`, which is a function call on some processors. This runs for every
+        // row.
         let interval = (end_s - start_s) * UNITS_PER_S;
         let units = (interval + 0.5) as u64;
         self.counts.saturating_record(units.max(1));

@@ -161,7 +161,7 @@ impl Recording {
         self.rows.in_file(error)
     }
 
-    /// Returns `error` as an error of the time in the last row read.
+    /// Returns `error` as an error in the time of the last row read.
     pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
         self.rows.in_time(error)
     }

@@ -23,7 +23,7 @@ const CHANNELS: usize = 32;
 pub struct Overview {
     /// Channels, in the order of the file.
     pub channels: Vec<ChannelOverview>,
-    /// Time channels: one per group, or a single one.
+    /// Time channels: one per group, or one in all if the file has no groups.
     pub times: Vec<TimeOverview>,
     /// Number of the last line if the text does not end with a line end. The last number of this line may be cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,7 +43,7 @@ pub struct ChannelOverview {
     pub group: Option<usize>,
     /// Type of the values in the file.
     pub kind: String,
-    /// Reason why numbers cannot be read: their width or bit position is not supported.
+    /// Reason why the numbers cannot be read: an unsupported width or bit position; `None` if they can be read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unread: Option<String>,
     /// Number of rows in the file or the group.

@@ -15,7 +15,7 @@ pub(super) trait Source {
     /// Reads the next row into `values`; returns `false` at the end.
     fn next(&mut self, values: &mut [f64]) -> Result<bool, FileError>;
 
-    /// Returns the error for the value with this index in the last row, which is not finite.
+    /// Returns the error for a value of the last row that is not finite, given its index.
     fn missing(&self, index: usize) -> RecordingError;
 
     /// Location of the last row.

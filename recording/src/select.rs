@@ -21,7 +21,7 @@ pub(super) struct ChannelInfo {
     pub(super) kind: String,
     /// True if the values can be read as numbers.
     pub(super) is_number: bool,
-    /// Reason why numbers cannot be read: their width or bit position is not supported.
+    /// Reason why the numbers cannot be read: an unsupported width or bit position; `None` if they can be read.
     pub(super) unread: Option<Unread>,
     /// Number of rows, if it is known before reading.
     pub(super) rows: Option<u64>,
@@ -84,7 +84,7 @@ pub(super) fn select_in<const N: usize>(
     let mut indices = [0; N];
     let mut order: Vec<usize> = (0..N).collect();
     if groups.len() > 1 {
-        // The group of the values determines the time channel.
+        // Start with the values: the time channel must be in their group.
         order.reverse();
     }
     for position in order {
@@ -260,7 +260,7 @@ fn group_label(groups: &[String], number: usize) -> String {
     }
 }
 
-/// True if a name is that of the quantity, optionally followed by its unit.
+/// True if a channel name consists of the name of the quantity and, optionally, a unit.
 fn has_standard_name(name: &str, quantity: Quantity) -> bool {
     let lower = name.to_ascii_lowercase();
     lower == quantity.name()

@@ -61,7 +61,7 @@ const UNSUPPORTED: [(&[u8], &str); 9] = [
     ),
 ];
 
-/// Bytes of a file whose first bytes have been inspected.
+/// Byte stream of a file, after its first bytes have been inspected.
 pub(super) struct Stream {
     head: Vec<u8>,
     rest: Box<dyn Read>,

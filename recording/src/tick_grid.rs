@@ -25,14 +25,14 @@ pub struct MeasuredTick {
     pub force_n: f64,
 }
 
-/// Maximum gap (ticks) whose ticks are returned without a check of the rows after it. At a longer gap, the clock of the
+/// Longest gap (ticks) that is filled without first checking the rows after it. At a longer gap, the clock of the
 /// logger may have jumped forward and back.
 const LOOK_AHEAD_TICKS: f64 = 1e3;
 
 /// Number of rows to check after a long gap: one second of a logger at 1 kHz.
 const LOOK_AHEAD_ROWS: usize = 1000;
 
-/// One row: `N` values at a time.
+/// One row: a time and `N` values.
 #[derive(Clone, Copy)]
 struct Row<const N: usize> {
     time_s: f64,
@@ -138,7 +138,7 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         Ok(())
     }
 
-    /// Reads the next row and checks its distance from the previous and the first row.
+    /// Reads the next row and checks that it is not too long after the previous row and the first row.
     fn read_row(&mut self) -> Result<Option<Row<N>>, FileError> {
         let Some(next) = self.rows.next_row()? else {
             return Ok(None);
@@ -214,7 +214,7 @@ impl TickGrid {
     /// Returns the next tick; `None` after the last sample.
     ///
     /// # Errors
-    /// Returns an error if a row is invalid, or if the recording is longer than 24 hours of ticks at 10 kHz.
+    /// Returns an error if a row is invalid, or if the recording has more ticks than 24 hours at 10 kHz.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, FileError> {
         let tick = self.0.next_tick()?;
         Ok(tick.map(|tick| Tick {

@@ -100,7 +100,7 @@ fn damaged(random: &mut Rng, real: usize) -> Vec<u8> {
         .take(4 * real + 8)
         .collect();
     if random.bool() {
-        // A valid mark, and values of which many are small.
+        // A valid mark, and numbers of either sign that are all small, or all huge or not finite.
         bytes[4 * real + 4..4 * real + 6].copy_from_slice(&0x3940_u16.to_ne_bytes());
         let end = if random.bool() { 0x3a } else { 0x7f };
         for number in bytes[..4 * real].chunks_mut(real) {

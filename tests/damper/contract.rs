@@ -184,7 +184,7 @@ fn nonsense_is_refused_with_the_field_and_its_range() {
             "paper",
             "orifice.diameter_m=-1e-3",
             "orifice.diameter_m",
-            "0 to below piston_diameter_m",
+            "at least 0 and below piston_diameter_m",
         ),
         (
             "paper",

@@ -32,8 +32,8 @@ absolute values.
   height of the body's centre of gravity (in the middle and over both bogies).
 - RMS_Dc, RMS_Wn and RMS_Fy belong to the leading wheelset: the larger Y/Q of its wheels, its wear number and its lateral force.
   RMS_Ay is the lateral acceleration of the body. All are root mean squares of the whole run, with a contact damping of 5 s/m.
-- A change is the difference between both ends of a range on the same irregularity: the mean over the seeds with its 95 %
-  confidence interval (Student).
+- A change is the difference between the two ends of a range on the same irregularity: the mean over the seeds with its
+  95 % confidence interval (Student).
 - A rise or fall holds if the interval lies on that side of zero. **Rises** and **is influenced** do not hold if the change is
   within {NONE_PERCENT} %, unless the paper calls it slight. **Hardly changes** holds within {NONE_PERCENT} %. **Flat above** holds if the slope above,
   including its interval, is less than a quarter of the slope below. **Limited fluctuation** holds if the range of the means is
@@ -148,7 +148,7 @@ fn why(compared: &[Compared], paper: &Kept, stand_ins: &Kept) -> String {
     let mut text = String::from(
         "## Sensitivity of the rows
 
-Change of each row between both ends of its range, in percent, with one stand-in value changed at a time.
+Change of each row between the two ends of its range, in percent, with one stand-in value changed at a time.
 
 | Fig., index | as above | 3 to 30 m | German low | friction 0.3 | 1 m to the side | to the side, 3 to 30 m |
 |---|---|---|---|---|---|---|

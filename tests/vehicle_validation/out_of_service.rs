@@ -150,7 +150,7 @@ have other limits, so run the study with yours (`vehicle = \"...\"`).
 
 As new: clearance 2a of 0.5 mm, effective stiffness Ke of 8 MN/m (lateral dampers 7 MN/m), oil at 20 °C. Our criterion is a **ride**
 {WORSE_PERCENT} % worse than new (Sperling's index, maximum of three points; {WORSE_PERCENT} % correspond to 18 % more acceleration). Brackets contain
-the limits for both ends of its confidence interval. Each limit is for a single fault.
+the limits for the two ends of the index's confidence interval. Each limit is for a single fault.
 
 | dampers | fault | ride {WORSE_PERCENT} % worse |
 |---|---|---|

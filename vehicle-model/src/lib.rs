@@ -95,7 +95,7 @@ pub unsafe extern "C" fn model_get_real(
 ) -> ModelResult {
     match guarded(this, None, |this| this.number(variable)) {
         Some(number) => {
-            // SAFETY: `value` is valid for one value.
+            // SAFETY: `value` points to room for one number.
             unsafe { value.write(number) };
             ModelResult::Done
         }
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn model_get_integer(
 ) -> ModelResult {
     match this.integer(variable) {
         Some(integer) => {
-            // SAFETY: `value` is valid for one value.
+            // SAFETY: `value` points to room for one number.
             unsafe { value.write(integer) };
             ModelResult::Done
         }

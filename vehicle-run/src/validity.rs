@@ -134,7 +134,7 @@ struct Lift {
     start: Moment,
 }
 
-/// Load of a wheel within a tick, counted from 1, and its position at the end of the tick.
+/// Load of a wheel within a tick, the tick's number (from 1), and the wheel's position at the end of the tick.
 #[derive(Debug, Clone, Copy, Default)]
 struct Moment {
     load_n: f64,

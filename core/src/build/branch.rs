@@ -39,7 +39,7 @@ impl Branch<'_> {
         }
     }
 
-    /// Deflection `delta(F)` (m) of the mount and, under the gauge pressure of the oil, of the oil column.
+    /// Deflection `delta(F)` (m) of the mount plus that of the oil column under its gauge pressure.
     pub(crate) fn deflection(&self, force: f64) -> f64 {
         let oil = match (&self.column, &self.law) {
             (Some((column, volume)), Law::Physical(side)) => {

@@ -57,7 +57,10 @@ impl CheckedParameters {
             ));
         }
         #[cfg(feature = "log")]
-        log::debug!("built damper {:08x} for {step_s} s", damper.revision());
+        log::debug!(
+            "built damper {:08x} for a step of {step_s} s",
+            damper.revision()
+        );
         Ok(damper)
     }
 
@@ -101,8 +104,8 @@ impl CheckedParameters {
     /// Samples both branches into a table.
     fn assemble<T: Real>(&self, branches: &[Branch<'_>; 2], step_s: f64) -> Damper<T> {
         let max_move = self.limits.rate_m_per_s * step_s;
-        // The last stage reaches at most sqrt(2) times the largest stretch plus one largest move. A step ends at most
-        // an eighth of its travel beyond the yield point.
+        // The last stage reaches at most `sqrt(2) * (largest stretch) + max_move`. A step ends at most an eighth of its
+        // travel beyond the yield point.
         let yields = branches.map(|branch| branch.deflection(branch.force_limit));
         let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * max_move) + max_move;
         let first_knot = first_knot(reach);
@@ -130,7 +133,7 @@ impl CheckedParameters {
             ),
             move_bound: T::from_f64(max_move.min(MAX_BOUND_M)).doubled_bits(),
             position_rounder: T::from_f64(1.5 * span),
-            // Twice the grid of positions: rounds a stretch far below the grid to zero.
+            // Twice the grid of positions, so that a stretch far below the grid is rounded to zero.
             rest_rounder: T::from_f64(2.0 * span * T::EPSILON),
             displacement_bound: T::from_f64(self.limits.displacement_m).doubled_bits(),
             stretch_bound: T::ZERO,
@@ -140,7 +143,7 @@ impl CheckedParameters {
     }
 }
 
-/// Returns the power of two (m) at which a table must start to cover `reach` (m) with its doublings.
+/// Returns the power of two (m) at which a table must start, so that its doublings cover `reach` (m).
 fn first_knot(reach: f64) -> f64 {
     let mut end = 1.0;
     while end < reach {

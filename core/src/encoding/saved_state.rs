@@ -38,10 +38,10 @@ pub enum SavedStateError {
     /// The first four bytes are not `DAST`.
     #[error("not a saved state: must start with DAST")]
     Magic,
-    /// The bytes have another version of the format: this one.
+    /// The bytes have a different format version, given here.
     #[error("format version {0}, must be {VERSION}")]
     Version(u16),
-    /// The bytes are for a scalar of another size: this many bytes.
+    /// The bytes are for a scalar of another size, which has this many bytes.
     #[error("wrong precision: each number has {0} bytes")]
     Scalar(u16),
     /// The CRC-32 does not match: the bytes are damaged.

@@ -21,9 +21,9 @@ macro_rules! words {
 
             /// Returns the damper of these words. Also works at compile time and without the `builder` feature.
             ///
-            /// Order: scalars, revision, revision of the table, pieces. Each piece has four coefficients each of flow,
-            /// potential and stiffness, then its knot. Words that are not from [`Self::to_words`] of this version are
-            /// safe, but give meaningless forces.
+            /// Order: scalars, revision, revision of the table, pieces. Each piece has four coefficients of the flow,
+            /// four of the potential and four of the stiffness, then its knot. Words that are not from
+            /// [`Self::to_words`] of this version are safe, but give meaningless forces.
             ///
             /// ```
             /// use dashpot_core::Damper;

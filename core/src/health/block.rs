@@ -25,7 +25,7 @@ pub(crate) struct Gathered {
     pub(crate) ticks_left: u32,
     /// Force offset, subtracted from the forces of this block (N).
     zero: f32,
-    /// Added friction, subtracted from the force magnitudes in the laws of this block (N).
+    /// Added friction, subtracted from each force magnitude before the laws are evaluated in this block (N).
     friction: f32,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Block {
     pub(crate) highest: f32,
     /// Force offset, subtracted from the forces (N).
     pub(crate) zero: f32,
-    /// Added friction, subtracted from the force magnitudes in the laws (N).
+    /// Added friction, subtracted from each force magnitude before the laws are evaluated (N).
     pub(crate) friction: f32,
 }
 

@@ -7,10 +7,10 @@ use crate::build::CheckedParameters;
 use crate::error::BuildError;
 use crate::parameters::Element;
 
-/// Duration of a block, whose samples form one measurement (s): short compared with the motion of a vehicle, and eight
-/// ticks at 1 kHz, one for each part of the filter's work.
+/// Duration of a block, whose samples form one measurement (s). It is short compared with the motion of a vehicle. At
+/// 1 kHz a block has eight ticks, one for each part of the filter's work.
 const BLOCK_S: f64 = 8e-3;
-/// Longest time without contact after which a crossing of the clearance is still useful (s).
+/// Longest time without contact after which the estimate still uses a crossing of the clearance (s).
 const MAX_CROSSING_S: f64 = 0.5;
 /// Force above which the ends are in contact, in standard deviations of the force noise (1).
 const CONTACT_DEVIATIONS: f64 = 4.0;
@@ -29,7 +29,8 @@ const FRICTION_PART: f64 = 0.01;
 const MAX_FRICTION_SD_N: f64 = 200.0;
 /// Smallest move that is not noise, in standard deviations of a block's position (1).
 const STILL_DEVIATIONS: f64 = 8.0;
-/// Move beyond the clearance at which the force counts as missing (m). A clearance cannot grow by so much at once.
+/// The force counts as missing if the ends move beyond the clearance by more than this (m). A clearance cannot grow by
+/// so much at once.
 const MISSING_M: f64 = 2e-3;
 
 /// Properties of the sensors and settings of the estimator.
@@ -168,8 +169,8 @@ impl CheckedParameters {
 
         let ticks = libm::round(BLOCK_S / step_s).max(f64::from(MIN_TICKS));
         let block_s = ticks * step_s;
-        // The reduced law has no friction. The estimator could hardly distinguish a linear law with friction from
-        // another linear law.
+        // The reduced law has no friction, so none is estimated. The estimator could hardly distinguish a linear law
+        // with friction from another linear law.
         let friction_sd = match self.element {
             Element::Physical(_) => (FRICTION_PART * yields).min(MAX_FRICTION_SD_N),
             Element::Reduced(_) => 0.0,
@@ -239,8 +240,8 @@ impl CheckedParameters {
 
 /// Fits a line to a law over a piece and returns its value at zero force and its slope.
 ///
-/// The slope is that between the two ends of the piece. The mean of the line over the piece equals the mean of the law
-/// (Simpson's rule), so errors cancel in the summed travel.
+/// The slope is that of the chord between the two ends of the piece. The mean of the line over the piece equals the
+/// mean of the law (Simpson's rule), so errors cancel in the summed travel.
 fn line(law: &dyn Fn(f64) -> f64, from: f64, to: f64) -> (f32, f32) {
     let (first, last) = (law(from), law(to));
     let middle = law(0.5 * (from + to));

@@ -49,7 +49,7 @@ pub(crate) struct Prepared {
     projected: [f32; STATES],
     /// Gains of the processed columns, not yet divided by the variance.
     gain: [f32; STATES],
-    /// Variance of the noise and the processed columns.
+    /// Variance of the noise plus that of the processed columns.
     alpha: f32,
     /// Inverse of `alpha`.
     inverse: f32,
@@ -59,7 +59,7 @@ pub(crate) struct Prepared {
     noise: f32,
     /// Expected variance of the innovation.
     pub(crate) variance: f32,
-    /// Part of the expected variance due to the parameters, without position and noise.
+    /// Part of the expected variance that is due to the parameters, not to position or noise.
     pub(crate) information: f32,
 }
 
@@ -88,8 +88,8 @@ impl Filter {
         }
     }
 
-    /// Moves the position by the flow factor times a nominal travel (m) with an additional variance (m^2). `slips` is
-    /// the loss of travel for each newton of force offset and of added friction (m/N).
+    /// Moves the position by the flow factor times a nominal travel (m) with an additional variance (m^2). `slips` are
+    /// the losses of travel per newton of force offset and per newton of added friction (m/N).
     #[inline(always)]
     pub(crate) fn travel(&mut self, travel: f32, slips: [f32; 2], variance: f32) {
         self.state[0] += travel * self.state[1];
@@ -110,7 +110,7 @@ impl Filter {
         self.upper[..STATES - 1].fill(0.0);
     }
 
-    /// Prepares a measurement with this variance of its noise.
+    /// Prepares a measurement whose noise has the variance `noise`.
     ///
     /// The measurement is already corrected for force offset and friction, so the innovation does not subtract them
     /// again.

@@ -1,15 +1,16 @@
 //! Checks that the force follows the displacement.
 //!
-//! While the force is constant within its noise, it determines the travel of the piston, and the ends can move further
-//! only by the clearance. If they move more than that, the force is missing: the force channel is dead or stuck, the
-//! oil is gone, or the clearance is much larger than estimated.
+//! While the force is constant within its noise, it determines the travel of the piston. In addition to this travel,
+//! the ends can move only by the clearance. If they move more than that, the force is missing: the force channel is
+//! dead or stuck, the oil is gone, or the clearance is much larger than estimated.
 
 use super::block::Block;
 use super::model::HealthModel;
 
-/// Move beyond the clearance at which the force counts as missing after half a second without contact (m).
+/// After half a second without contact, the force counts as missing if the ends move beyond the clearance by more than
+/// this (m).
 const WITHOUT_CONTACT_M: f32 = 0.5e-3;
-/// Possible error of the law as a fraction of the piston's path (1).
+/// Possible error of the piston's travel due to errors of the law, as a fraction of its path (1).
 const LAW_PART: f32 = 0.5;
 /// Number of consecutive blocks beyond the limit after which the force is certainly missing.
 const CERTAIN: u32 = 3;
@@ -22,13 +23,13 @@ pub(crate) struct Follow {
     force: f32,
     /// Travel of the piston since the start of the run (m).
     travel: f32,
-    /// Sum of the magnitudes of the travel (m).
+    /// Sum of the magnitudes of the travel in each block (m).
     path: f32,
-    /// Smallest and largest displacement minus oil column and travel (m).
+    /// Smallest and largest displacement, after subtraction of the oil column's deflection and the travel (m).
     lowest: f32,
     highest: f32,
     blocks: u32,
-    /// Number of consecutive blocks with too large a move.
+    /// Number of consecutive blocks in which the move was too large.
     beyond: u32,
 }
 

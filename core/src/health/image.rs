@@ -21,7 +21,7 @@ const HEADER_BYTES: usize = 8;
 const CHECK_BYTES: usize = 4;
 /// Number of words of a model.
 const WORDS: usize = size_of::<HealthModel>() / 4;
-/// Number of bytes checked and words written in a slice.
+/// Number of bytes that a slice checks, and number of words that a slice writes.
 const BYTES_PER_SLICE: usize = 124;
 const WORDS_PER_SLICE: usize = 64;
 
@@ -44,7 +44,7 @@ pub enum HealthImageError {
     /// The first four bytes are not `DAHM`.
     #[error("not a health model: must start with DAHM")]
     Magic,
-    /// The image has this other version of the format.
+    /// The image has a different format version, given here.
     #[error("format version {0}, must be {VERSION}")]
     Version(u32),
     /// The CRC-32 does not match: the bytes are damaged.

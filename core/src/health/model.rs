@@ -159,7 +159,8 @@ pub struct HealthModel {
     pub(crate) yield_force_n: f32,
     /// Variance of a block's measurement (m^2).
     pub(crate) measured_variance: f32,
-    /// Variance of the piston's travel in a block, divided by the square of the mean slope of the law (N^2 s^2).
+    /// Variance of the piston's travel in a block due to force noise, divided by the square of the law's mean slope
+    /// (N^2 s^2).
     pub(crate) force_travel_variance: f32,
     /// Variance of the piston's travel in a block due to errors of the law, divided by the square of the travel (1).
     pub(crate) law_variance: f32,
@@ -167,13 +168,15 @@ pub struct HealthModel {
     pub(crate) growth: f32,
     /// Growth factor of the lag's variance in a block (1).
     pub(crate) lag_growth: f32,
-    /// Number of blocks without contact after which the position counts as unknown: it drifts with the force offset.
+    /// Number of blocks without contact after which the position counts as unknown, because it drifts with the force
+    /// offset.
     pub(crate) max_unmeasured: u32,
-    /// Number of consecutive measured blocks beyond a limit that cause an alarm.
+    /// Number of consecutive measured blocks beyond a limit after which there is an alarm.
     pub(crate) alarm_blocks: u32,
     /// Initial flow factor, compliance, half clearance and lag. Force offset and added friction start at 0.
     pub(crate) start: [f32; 4],
-    /// Initial and largest variances, in the order of `start`, then those of force offset and added friction.
+    /// Initial variances, which are also the largest: in the order of `start`, then those of force offset and added
+    /// friction.
     pub(crate) start_variance: [f32; 6],
     /// Mean compliance of the oil column (m/N).
     pub(crate) oil_compliance: f32,
@@ -181,7 +184,8 @@ pub struct HealthModel {
     pub(crate) block_s: f32,
     /// Largest move that can be noise (m).
     pub(crate) still_m: f32,
-    /// Move beyond the clearance at which the force counts as missing, however recent the last contact (m).
+    /// The force counts as missing if the ends move beyond the clearance by more than this, even after recent contact
+    /// (m).
     pub(crate) missing_m: f32,
     /// Alarm limit of the force offset (N).
     pub(crate) zero_limit_n: f32,
@@ -192,7 +196,8 @@ pub struct HealthModel {
 }
 
 impl HealthModel {
-    /// True for a model, false for uninitialised memory. For programs that get their models from elsewhere.
+    /// True for a model, false for uninitialised memory. Use this in programs whose models come from elsewhere, for
+    /// example from C.
     #[inline]
     pub fn is_marked(&self) -> bool {
         self.mark == MARK
@@ -241,7 +246,7 @@ impl HealthModel {
         self.limits = limits;
     }
 
-    /// Finds the piece of a force (N); its sign selects the side. Any bits are safe.
+    /// Finds the piece of a force (N); its sign selects the side. Every bit pattern of the force is safe.
     #[inline(always)]
     pub(crate) fn piece(&self, force: f32) -> &Piece {
         let bits = force.to_bits();

@@ -14,7 +14,7 @@ bitflags::bitflags! {
         const LITTLE_EXCITATION = 1 << 3;
         /// A sample was not finite or not credible and was left out.
         const INPUT_REJECTED = 1 << 4;
-        /// The estimate was damaged or contradicted the samples for long, and restarted.
+        /// The estimate was damaged, or contradicted the samples for a long time, and was restarted.
         const RESTARTED = 1 << 5;
         /// Alarm: the damper moved, but the force is zero or does not change. Possible causes are a dead or stuck force
         /// channel, oil full of air, or a clearance wider than the motion.
@@ -74,7 +74,7 @@ pub struct HealthReading {
     pub lag_s: Estimate,
     /// Compliance `1/Ke` (m/N), the quantity that the filter estimates.
     pub compliance_m_per_n: Estimate,
-    /// Number of usable samples: in contact, not yielding.
+    /// Number of usable samples, taken in contact and without yielding.
     pub samples: u32,
     /// Number of samples that were not finite or not credible.
     pub rejected: u32,
@@ -82,7 +82,7 @@ pub struct HealthReading {
     pub status: HealthStatus,
     /// Zero offset of the force sensor (N). The other estimates are corrected for it.
     pub force_zero_n: Estimate,
-    /// Friction of the seals beyond the nominal one (N). The other estimates are corrected for it.
+    /// Friction of the seals in excess of the nominal friction (N). The other estimates are corrected for it.
     pub added_friction_n: Estimate,
 }
 

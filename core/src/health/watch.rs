@@ -6,9 +6,9 @@ use super::reading::HealthStatus;
 
 /// Inverse of the number of blocks over which innovations are averaged (1).
 const RATE: f32 = 1.0 / 128.0;
-/// Bound of the squared innovation divided by its variance, in the averages (1).
+/// Upper bound on the ratio of the squared innovation to its variance, applied before averaging (1).
 const MAX_SQUARE: f32 = 9.0;
-/// Bound of the product of successive innovations divided by their variance, in the averages (1).
+/// Bound on the product of successive innovations divided by their variance, applied before averaging (1).
 const MAX_PRODUCT: f32 = 3.0;
 /// Correlation of successive innovations above which the model does not fit (1).
 const MISFIT: f32 = 0.5;
@@ -18,7 +18,7 @@ const FITS_AGAIN: f32 = 0.2;
 const CONVERGING: f32 = 1.0;
 /// Correlation that occurs by chance (1).
 const CHANCE: f32 = 0.1;
-/// Factor that converts the remaining correlation into variance inflation (1): repeated errors do not average out.
+/// Factor that converts the remaining correlation into variance inflation (1). Correlated errors do not average out.
 const REPEATED: f32 = 6.0;
 /// Largest ratio of a standard deviation to its alarm limit (1). Above it, there is too little excitation.
 const KNOWN: f32 = 0.5;
@@ -38,7 +38,8 @@ pub(crate) struct Watch {
     /// Mean of the product of successive innovations divided by their variance: 0 if the model fits.
     correlation: f32,
     last: f32,
-    /// Number of consecutive measured blocks with flow, compliance, clearance and force offset beyond the limit.
+    /// For each of flow, compliance, clearance and force offset, the number of consecutive measured blocks beyond its
+    /// limit.
     beyond: [u32; 4],
     /// Status bits found so far in this block.
     found: u32,
@@ -75,8 +76,8 @@ impl Watch {
         self.last = 0.0;
     }
 
-    /// Adds the squared innovation of a measured block, divided by its variance, to the average. Returns it with its
-    /// bound applied.
+    /// Adds the squared innovation of a measured block, divided by its variance, to the average. Returns this ratio,
+    /// limited to its bound.
     #[inline(always)]
     pub(crate) fn average_square(&mut self, ratio: f32) -> f32 {
         let bounded = if ratio < MAX_SQUARE {

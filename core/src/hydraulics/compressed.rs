@@ -9,8 +9,8 @@ use crate::math::root::bracketed_root;
 /// has half its volume, far beyond any real damper.
 const MAX_PRESSURE_RATIO: f64 = 0.5;
 
-/// Ratio of the pressure to the bulk modulus above which the density is constant (1). Root searches try pressures above
-/// the largest one.
+/// Ratio of the pressure to the bulk modulus above which the density is constant (1). Root searches also try pressures
+/// above the largest allowed one.
 const MAX_DENSITY_RATIO: f64 = 0.9;
 
 impl Laws {

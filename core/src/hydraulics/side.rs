@@ -82,8 +82,8 @@ impl HydraulicSide<'_> {
             }
             return corners;
         };
-        // Until the foot valve opens, nothing flows and both chambers have the same pressure, so the force on the rod
-        // area opens the valve.
+        // Until the foot valve opens, nothing flows and both chambers have the same pressure. The force is therefore
+        // this pressure times the rod area.
         add(Corner::FootValveOpens, foot * laws.rod_area());
         openings.for_each(|(corner, opening)| {
             add(corner, force_at_difference(laws, vapour, opening));

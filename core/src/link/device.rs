@@ -17,11 +17,11 @@ const BYTES_PER_PASS: usize = 32;
 
 /// A bank of `N` dampers behind a serial link. The first `WATCHED` dampers can have a health estimate.
 ///
-/// All bits are zero until [`Device::start`], so a static variable takes no flash. It needs 22 KB, 13 KB for each
-/// damper and 2.4 KB for each watched damper. The firmware calls [`Device::poll`] in a loop.
+/// All bits are zero until [`Device::start`], so a static variable takes no flash. It needs 22 KB, plus 13 KB for each
+/// damper and 2.7 KB (2.6 KiB) for each watched damper. The firmware calls [`Device::poll`] in a loop.
 ///
-/// After power on and after [`Request::Stop`](super::Request::Stop) the host steps: each step request is a tick. After
-/// [`Request::Run`](super::Request::Run) the timer of the firmware determines the ticks.
+/// After power on and after [`Request::Stop`](super::Request::Stop) the host determines the ticks: each step request is
+/// one tick. After [`Request::Run`](super::Request::Run) the timer of the firmware determines the ticks.
 ///
 /// ```
 /// use dashpot_core::Damper;
@@ -61,7 +61,7 @@ const BYTES_PER_PASS: usize = 32;
 /// # Ok::<(), dashpot_core::link::StepSizeError>(())
 /// ```
 #[derive(Debug)]
-#[repr(C)] // the fields that every byte needs come first, where one instruction can address them
+#[repr(C)] // the fields used for every byte come first, where one instruction can address them
 pub struct Device<const N: usize, const WATCHED: usize = 0> {
     /// Number of bytes at the end of the response that are not sent yet.
     unsent: usize,

@@ -13,7 +13,7 @@ use crate::damper::Damper;
 pub const REQUEST_BYTES: usize = Damper::<f32>::IMAGE_BYTES + 32;
 /// Largest response with header and CRC-32 (bytes).
 pub const RESPONSE_BYTES: usize = 512;
-/// Largest frame of a request (bytes): one more byte for every 254, one at the start and the final zero.
+/// Largest frame of a request (bytes). COBS adds one byte for every 254, one at the start and the final zero.
 pub const REQUEST_FRAME_BYTES: usize = frame_bytes(REQUEST_BYTES);
 /// Largest frame of a response (bytes).
 pub const RESPONSE_FRAME_BYTES: usize = frame_bytes(RESPONSE_BYTES);
@@ -44,7 +44,7 @@ pub enum FrameError {
 pub struct Message<'a> {
     /// The message, encoded with postcard.
     pub bytes: &'a [u8],
-    /// CRC-32 of the message, which distinguishes a repeated request from another one with the same number.
+    /// CRC-32 of the message, which distinguishes a repeated request from another one with the same sequence number.
     pub check: u32,
 }
 
@@ -55,7 +55,7 @@ pub struct Message<'a> {
 ///
 /// let mut frame = Frame::<16>::new();
 /// assert!(frame.write(&(7_u8, 0_u8)));
-/// // COBS: 7, then a zero two bytes on; the CRC-32 of 07 00 is 0x0e988438; the end.
+/// // COBS: 2 and 5 are the distances to the next zero byte. The CRC-32 of 07 00 is 0x0e988438.
 /// assert_eq!(frame.bytes(), [2, 7, 5, 0x38, 0x84, 0x98, 0x0e, 0]);
 /// ```
 #[derive(Clone, Debug)]
@@ -168,7 +168,7 @@ impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
 /// assert_eq!(messages, 1);
 /// ```
 #[derive(Debug)]
-#[repr(C)] // the fields that every byte needs come first, where one instruction can address them
+#[repr(C)] // the fields used for every byte come first, where one instruction can address them
 pub struct FrameReader<const BYTES: usize> {
     /// Number of bytes of the message so far.
     length: usize,
@@ -249,7 +249,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         }
     }
 
-    /// Returns bytes of the last message. They remain until the next byte.
+    /// Returns bytes of the last message. They stay valid until the next byte is taken.
     pub(crate) fn last_message(&self, bytes: core::ops::Range<usize>) -> &[u8] {
         self.message.get(bytes).unwrap_or_default()
     }

@@ -11,7 +11,7 @@ use crate::parameters::Mount;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[non_exhaustive]
 pub enum Refusal {
-    /// The frame was corrupt. The header of this response is not that of the request. Send it again.
+    /// The frame was corrupt. The header of this response is not that of the request. Send the request again.
     #[error("the request was corrupted on its way to the target")]
     Corrupt,
     /// The frame contains no request of this protocol.
@@ -37,15 +37,15 @@ pub enum Refusal {
     /// The index is out of range; the device has this many dampers.
     #[error("the target has {0} dampers; allowed: 0 to {last}", last = .0.saturating_sub(1))]
     Damper(u8),
-    /// The change needs a rebuild on the host and a load.
+    /// For this change, the host must build the damper again and load it.
     #[error(
         "the target can change only the clearance; for other parameters build a damper on the host and load it"
     )]
     NeedsRebuild,
     /// A value is not finite or is out of range.
     #[error(
-        "the target refused a value as not finite or out of range; allowed: a clearance of {clearance}, \
-         finite displacements, a link lost after 1 tick or more, 1 to {MAX_MEASURED} whole samples",
+        "the target refused a value that is not finite or out of range; allowed: a clearance of {clearance}, \
+         finite displacements, a loss of link after 1 tick or more, 1 to {MAX_MEASURED} whole samples",
         clearance = Mount::RANGES.clearance_m.allowed
     )]
     Range,
@@ -60,17 +60,17 @@ pub enum Refusal {
         "the target refused a state: it belongs to another damper, or has values that no step produces"
     )]
     State,
-    /// The tick runs free: stop it first.
+    /// The device is free-running; stop it first.
     #[error("the target is free-running; stop it first")]
     Running,
-    /// The tick does not run free.
+    /// The device is not free-running.
     #[error("the target is not free-running; run it first")]
     NotRunning,
     /// The link was lost. The safe outputs remain until the next run.
     #[error("the target lost the link; its outputs stay safe until you run it again")]
     LinkLost,
-    /// Memory of this damper was damaged. The safe outputs remain until the next run. Damaged constants must be loaded
-    /// again before it.
+    /// Memory of this damper was damaged. The safe outputs remain until the next run. Load damaged constants again
+    /// before that run.
     #[error(
         "the memory of damper {0} was damaged; the outputs stay safe until you load the damper again and run the target"
     )]

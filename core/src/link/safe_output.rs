@@ -1,4 +1,4 @@
-//! Safe outputs after the loss of the link or damage in memory while the tick runs free.
+//! Safe outputs after the link is lost or memory is damaged while the device is free-running.
 
 use serde::{Deserialize, Serialize};
 
@@ -36,7 +36,7 @@ pub enum SafeOutput {
     Zero,
 }
 
-/// Counts silent ticks and computes the outputs of each tick.
+/// Counts silent ticks (without new displacements) and computes the outputs of each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct Watch<const N: usize> {
     configuration: LossOfLink,
@@ -61,7 +61,7 @@ impl<const N: usize> Watch<N> {
         }
     }
 
-    /// Sets the configuration. The silent ticks so far never cause the loss of the link immediately.
+    /// Sets the configuration. The ticks that have been silent so far never cause an immediate loss of the link.
     pub(crate) fn configure(&mut self, configuration: LossOfLink) {
         self.silent_ticks = self.silent_ticks.min(configuration.after_ticks);
         self.configuration = configuration;
@@ -87,8 +87,8 @@ impl<const N: usize> Watch<N> {
         &mut self.last_good
     }
 
-    /// Returns the outputs of a tick with these forces (N), and true if this tick lost the link. Damaged memory also
-    /// causes safe outputs.
+    /// Returns the outputs of a tick with these forces (N), and true if the link was lost at this tick. Damaged memory
+    /// also causes safe outputs.
     pub(crate) fn output(&mut self, forces: &[f32; N], damaged: bool) -> ([f32; N], bool) {
         let was_lost = self.lost();
         self.silent_ticks = self.silent_ticks.saturating_add(1);

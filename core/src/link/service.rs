@@ -189,7 +189,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 }
                 self.loaded.displace(displacements_m)?;
                 self.step();
-                // The outputs are driven only while the tick runs free, so these forces are not outputs.
+                // The outputs are driven only while the device is free-running, so these forces are not outputs.
                 let forces = self.loaded.forces(self.loaded.forces_n(), self.clock_ticks);
                 return Ok(Response::Forces(forces));
             }
@@ -294,7 +294,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         Ok(())
     }
 
-    /// Refuses a request while the tick runs free.
+    /// Refuses a request while the device is free-running.
     fn require_host_steps(&self) -> Result<(), Refusal> {
         if self.running {
             Err(Refusal::Running)

@@ -6,8 +6,8 @@ use crate::health::{Health, HealthLoading, HealthModel, HealthReading};
 
 /// Health models and estimates of the first `N` dampers of a bank.
 ///
-/// They change neither a damper's state nor an output, so the guard does not check their memory. Estimates with any
-/// bits can be read and fed safely.
+/// They change neither a damper's state nor an output, so the guard does not check their memory. An estimate with
+/// any bit pattern can be read and fed safely.
 #[derive(Clone, Debug)]
 pub(crate) struct Watched<const N: usize> {
     models: [HealthModel; N],

@@ -23,7 +23,7 @@ pub(crate) type F32 = Pair<f32x4<Baseline>>;
 /// Numbers of a group in double precision.
 pub(crate) type F64 = Pair<f64x4<Baseline>>;
 
-/// Returns the token of [`Baseline`]; the compiler removes the check.
+/// Returns the token of [`Baseline`]; the compiler removes the check for these instructions.
 #[inline(always)]
 fn baseline() -> Baseline {
     #[cfg(target_arch = "x86_64")]

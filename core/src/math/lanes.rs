@@ -1,6 +1,6 @@
 //! Numbers of `L` dampers side by side. The step is written once, for one damper and for several.
 //!
-//! Each lane has the same operations as a single number, so the bits do not depend on `L`.
+//! Each lane goes through the same operations as a single number, so the bits do not depend on `L`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -17,7 +17,7 @@ pub(crate) trait Lanes<T, const L: usize>:
 {
     /// Returns the lanes of an array.
     fn new(lanes: [T; L]) -> Self;
-    /// Returns equal lanes.
+    /// Returns lanes that all have this value.
     fn splat(value: f64) -> Self;
     /// Returns the lanes as an array.
     fn array(self) -> [T; L];
@@ -41,7 +41,7 @@ pub(crate) trait Lanes<T, const L: usize>:
     fn with_sign_of(self, direction: Self) -> Self;
     /// Index of the table's bin for each positive number; a valid index for any other number.
     fn bins(self) -> [usize; L];
-    /// Number of knots, among the second and the third, that each positive number exceeds.
+    /// Number of knots that each positive number exceeds, counting only the second and the third knot.
     fn knots_passed(self, knots: [[T; 4]; L]) -> [usize; L];
     /// Sign bit of each lane, 0 or 1.
     fn sign_bits(self) -> [usize; L];

@@ -125,7 +125,7 @@ parameters! {
     #[derive(Copy)]
     pub struct Orifice, OrificeRanges {
         /// Orifice diameter (m); 0 closes it.
-        diameter_m: f64, 0 to 1 => "0 to below piston_diameter_m";
+        diameter_m: f64, 0 to 1 => "at least 0 and below piston_diameter_m";
         /// Turbulent discharge coefficient (1).
         discharge_coefficient: f64, 0 to 1;
         /// Reynolds number `Re = u d/nu` (u is the mean velocity in the bore) at which the laminar and the turbulent
@@ -183,8 +183,9 @@ impl Valves {
 parameters! {
     /// A shim-pack valve: edge lift `w = k_w (P - P_0)+`, flow `Q = Cd 2 pi r_w w sqrt(2 P/rho)`.
     ///
-    /// The edge compliance `k_w` (m/Pa) is `edge_compliance_m_per_pa * equivalent_pressure_factor` if the former is
-    /// given, else `Cw(r_w) equivalent_pressure_factor / h_e^3` of the pack.
+    /// If `edge_compliance_m_per_pa` is given, the edge compliance `k_w` (m/Pa) is
+    /// `edge_compliance_m_per_pa * equivalent_pressure_factor`. Otherwise it is
+    /// `Cw(r_w) equivalent_pressure_factor / h_e^3` of the pack.
     pub struct Valve, ValveRanges {
         /// Clamping radius r_n of the discs (m).
         clamp_radius_m: f64, 0 to 1 => "above 0 and below free_radius_m";
@@ -303,8 +304,8 @@ impl Relief {
 parameters! {
     /// Gas above the oil in the reservoir. Back pressure (gauge) at the operating point:
     /// `P_b = (p_fill + p_a) (V_fill/V) (T/T_fill) - p_a` with `V = V_fill - A_rod x_rod`. The gas is isothermal while
-    /// the mean rod position slowly changes. Within a stroke `P_b` is constant: a stroke changes it by a fraction of
-    /// less than `A_rod stroke/V`.
+    /// the mean rod position slowly changes. Within a stroke `P_b` is taken as constant, because a stroke changes it by
+    /// a fraction of less than `A_rod stroke/V`.
     #[derive(Copy)]
     pub struct Reservoir, ReservoirRanges {
         /// Gauge pressure when filled (Pa).
@@ -314,7 +315,7 @@ parameters! {
         /// Oil and gas temperature when filled (degC).
         fill_temperature_c: f64, -60 to 150 "degC";
         /// Mean rod insertion beyond the position at filling (m), positive in compression.
-        rod_insertion_m: f64 = 0, -1 to 1 => "-1 to 1 m and leaving a tenth of gas_volume_m3";
+        rod_insertion_m: f64 = 0, -1 to 1 => "-1 to 1 m, so that a tenth of gas_volume_m3 remains";
     }
 }
 

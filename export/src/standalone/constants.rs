@@ -8,7 +8,7 @@ use super::digest::digest;
 use super::number::hexadecimal;
 use crate::Word;
 
-/// A damper's words are its scalars, its revisions, then its pieces.
+/// A damper's words are its scalars, then two revisions (identifiers of its constants), then its pieces.
 const SCALARS: usize = 11;
 const REVISIONS: usize = 2;
 

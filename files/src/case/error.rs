@@ -62,7 +62,7 @@ pub enum CaseError {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Origin {
     pub file: PathBuf,
-    /// Lines by key, by replacement (`dampers=damper`) and by override text.
+    /// Lines by key, by replacement (`WHICH=DAMPER`) and by override text.
     pub lines: BTreeMap<String, u64>,
     /// Line of each fault.
     pub faults: Vec<u64>,

@@ -109,7 +109,7 @@ pub fn parse(
         .and_then(from_file)
         .map_err(|source| match plain {
             Ok(_) => DamperError::Overridden { name, source },
-            // The file itself is incomplete: overrides may complete it, but are not the cause of the error.
+            // The file is incomplete even without the overrides, so they are not the cause of the error.
             Err(_) => DamperError::Content { name, source },
         })
 }

@@ -21,7 +21,8 @@ pub struct Figure {
 /// Content of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FigureContent {
-    /// Observed indices over the first axis, one panel per sweep: mean over seeds with its confidence interval.
+    /// Observed indices against the first axis, one panel per sweep: the mean over the seeds and its confidence
+    /// interval.
     Indices {
         /// Names of the sweeps.
         sweeps: Vec<String>,
@@ -42,7 +43,7 @@ pub enum FigureContent {
     Signal {
         /// Name of the sweep.
         sweep: String,
-        /// Values of the sweep's first axis to draw.
+        /// Values of the sweep's first axis that are drawn.
         values: Vec<Value>,
         /// Name of the signal, as in a history file.
         signal: String,
@@ -51,7 +52,7 @@ pub enum FigureContent {
     Response {
         /// Name of the sweep.
         sweep: String,
-        /// Values of the sweep's first axis to draw.
+        /// Values of the sweep's first axis that are drawn.
         values: Vec<Value>,
         /// Name of the damper.
         damper: String,
@@ -61,7 +62,7 @@ pub enum FigureContent {
 }
 
 impl FigureContent {
-    /// Returns the values drawn, each with its sweep.
+    /// Returns the values that the figure shows, each with its sweep.
     pub(super) fn values(&self) -> impl Iterator<Item = (&str, &Value)> {
         let (sweep, values) = match self {
             Self::Signal { sweep, values, .. } | Self::Response { sweep, values, .. } => {
@@ -72,7 +73,7 @@ impl FigureContent {
         values.iter().map(move |value| (sweep, value))
     }
 
-    /// Returns the names of the sweeps drawn.
+    /// Returns the names of the sweeps that the figure shows.
     pub fn sweeps(&self) -> &[String] {
         match self {
             Self::Indices { sweeps, .. } => sweeps,

@@ -123,7 +123,7 @@ impl StudyParameters {
         tables.parameters(found)
     }
 
-    /// Replaces the seeds of each sweep that has seeds by 1 to `count`.
+    /// Replaces the seeds with 1 to `count` in each sweep that has seeds.
     #[must_use]
     pub fn with_seeds(mut self, count: u64) -> Self {
         for sweep in &mut self.sweeps {

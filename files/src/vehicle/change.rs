@@ -42,7 +42,7 @@ pub(super) fn apply(
     };
     overrides::parse(assignment).map_err(invalid)?;
     let Some(DamperOverride { dampers, change }) = split(assignment) else {
-        return Err(invalid("no damper table in the path".into()));
+        return Err(invalid("it names no table of the damper".into()));
     };
     let change = [change.to_owned()];
     // Identical dampers are changed only once.

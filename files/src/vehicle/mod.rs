@@ -64,7 +64,7 @@ pub fn load(name: &str, overrides: &[String]) -> Result<VehicleParameters, Vehic
 /// Same as [`load`], but replaces dampers before the overrides are applied.
 ///
 /// # Errors
-/// Same errors as [`load`]; also an error for a replacement of, or by, an unknown damper.
+/// Same errors as [`load`]; also an error if the damper to replace or the new damper is unknown.
 ///
 /// ```
 /// use dashpot_files::vehicle::{self, Replacement};

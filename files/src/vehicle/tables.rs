@@ -230,7 +230,7 @@ impl VehicleFile {
         }
         for (number, table) in self.damper.iter().enumerate() {
             let replacement = replaced.get(number).copied().flatten();
-            // A later override may have named another damper.
+            // A later override may have replaced the damper again.
             let replacement = replacement.filter(|replacement| replacement.damper == table.damper);
             let parameters = match replacement.and_then(|by| by.parameters.as_deref()) {
                 Some(parameters) => damper::change(&table.damper, parameters, &table.set),

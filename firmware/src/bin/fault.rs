@@ -12,7 +12,7 @@ fn main() -> ! {
     let mut outputs = SerialOutputs::start();
     for tick in 1..=3 {
         outputs.drive(&[1000.0 * tick as f32; DAMPERS]);
-        // The fault interrupts the last packet: this call sends at least one byte, and as many as the line takes.
+        // This call sends only what the line takes now, at least one byte, so the fault interrupts the last packet.
         outputs.send_waiting();
     }
     cortex_m::asm::udf()

@@ -1,5 +1,5 @@
-//! Counts the instructions of a tick of the health estimator over samples that the host puts into memory, and computes
-//! a digest of its results.
+//! Counts the instructions that a tick of the health estimator takes, over samples that the host puts into memory. Also
+//! computes a digest of the results.
 //!
 //! The host loads a [`Watch`] at [`__sheap`] before the start and reads one JSON object from the link's UART. The
 //! documentation of the image `step-cost` explains the counts.

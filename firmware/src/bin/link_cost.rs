@@ -3,9 +3,9 @@
 //!
 //! Answers go to the spare UART. The image prints one JSON object on the UART of the link: clock ticks at [`CLOCK_HZ`]
 //! for all requests, the largest number of clock ticks of one request, and bytes in and out. For health it prints the
-//! largest number of clock ticks of a slice of loading a model that the host put at [`__sheap`], of a request with
-//! measured samples, and of a reading. It also prints the sizes of devices with 1, 4, 12 and 16 dampers. Under QEMU's
-//! `-icount shift=0` a clock tick is 40 instructions.
+//! largest number of clock ticks for each of these: a slice while a model is loaded, a request with measured samples, a
+//! reading. The host puts the model at [`__sheap`]. The image also prints the sizes of devices with 1, 4, 12 and 16
+//! dampers. Under QEMU's `-icount shift=0` a clock tick is 40 instructions.
 #![no_std]
 #![no_main]
 
@@ -176,7 +176,7 @@ fn ask(device: &mut Device<DAMPERS, DAMPERS>, outputs: &mut SerialOutputs, frame
 struct HealthCost {
     /// Number of requests carried out.
     accepted: u32,
-    /// Clock ticks of a slice of loading a model.
+    /// Clock ticks of one slice while a model is loaded.
     slice: u32,
     /// Clock ticks of a request with measured samples.
     measure: u32,

@@ -1,10 +1,10 @@
-//! Counts the instructions of the step of one damper or a bank of twelve over a motion that the host puts into memory,
-//! and computes a digest of the forces. Then it counts the instructions of unusual steps and of the functions of the C
-//! library.
+//! Counts the instructions that each step of one damper, or of a bank of twelve, takes over a motion that the host puts
+//! into memory. Also computes a digest of the forces. Then it counts the instructions of unusual steps and of the
+//! functions of the C library.
 //!
 //! The host loads an [`Experiment`] at [`__sheap`] before the start and reads one JSON object from the link's UART.
-//! Counts are in clock ticks and include the call: `call` is the count of a function that only returns. Under QEMU's
-//! `-icount shift=10` an instruction takes 1024 ns.
+//! Counts are in clock ticks and include the function call itself; `call` is the count of a function that only returns.
+//! Under QEMU's `-icount shift=10` an instruction takes 1024 ns.
 #![no_std]
 #![no_main]
 
@@ -25,7 +25,7 @@ use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::counted_call::{Arguments, Returned, counted_call};
 use dashpot_firmware::printer::Printer;
 
-/// Size of the stack that is checked below the measured call (bytes).
+/// Size of the part of the stack, below the measured call, that is checked for use (bytes).
 const PAINTED: usize = 2048;
 const PAINT: u32 = 0xa5a5_a5a5;
 
@@ -77,7 +77,7 @@ extern "C" fn load_slice(damper: &mut Damper<f32>, image: &&[u8], loading: &mut 
     damper.load_slice(image, loading).map_or(2, usize::from)
 }
 
-/// Returns the largest number of clock ticks that a slice of loading a damper takes; 0 if the image is refused.
+/// Returns the largest number of clock ticks of one slice while a damper is loaded; 0 if the image is refused.
 fn timed_load(image: &[u8]) -> u32 {
     let mut damper = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
     let mut loading = Loading::START;
@@ -157,7 +157,7 @@ struct Library {
     step: u32,
     step_bank: u32,
     set_clearance: u32,
-    /// Largest number of clock ticks of a slice in a round.
+    /// Largest number of clock ticks of one slice in a round of the integrity check.
     check_slice: u32,
 }
 
@@ -223,7 +223,7 @@ impl Library {
             [damper_address, 0, 0, 0, 0],
             2e-3,
         );
-        // A refused call takes fewer clock ticks than the work, so it counts as 0.
+        // A refused call does not do the work, so its clock ticks are reported as 0.
         let counted = |returned: Returned| match returned.integer {
             0 => returned.ticks,
             _ => 0,

@@ -10,7 +10,7 @@ use crate::commands::failure::{Failure, Outcome};
 static ENDS_GENTLY: AtomicBool = AtomicBool::new(false);
 static IS_WANTED: AtomicBool = AtomicBool::new(false);
 
-/// While this value exists, the first interruption only sets [`is_wanted`].
+/// While this value exists, the first interruption only makes [`is_wanted`] return true.
 #[derive(Debug)]
 pub struct EndsGently(());
 

@@ -60,7 +60,8 @@ struct Report {
 struct HuntingRow {
     critical_speed_km_h: Option<f64>,
     greatest_speed_km_h: f64,
-    /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is none.
+    /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is no linear
+    /// critical speed.
     nonlinear_critical_speed_km_h: Option<f64>,
     /// Maximum lateral displacement of a wheelset in the limit cycle at that speed, m.
     limit_cycle_m: Option<f64>,

@@ -1,4 +1,4 @@
-//! Parsers of option values for types of the libraries, which do not depend on the command line.
+//! Parsers of option values whose types come from libraries that do not depend on the command line.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use dashpot_files::Scalar;

@@ -135,7 +135,7 @@ fn text_lists_area_factor_stress_and_the_validity_of_theory() {
     let text = text_of(&output);
     for part in [
         "on 6 round bosses at radius 22.500 mm",
-        "(assumed kind, fitted to Ce)",
+        "(of an assumed kind, fitted to the Ce of the file)",
         "Ce 0.8265 from the mean edge lift",
         "deg from the centre of a boss, discs 4, 5, 6, 7 of the file",
         "full from 5.000 to 10.436 mm, decaying to zero at 11.000 mm with exponent 2",

@@ -122,7 +122,7 @@ fn samples_are_watched_as_they_come() {
     assert_eq!(samples.len(), 200);
     let ticks = ticks(&samples);
     assert!(ticks.is_sorted_by(|a, b| a < b), "{ticks:?}");
-    // 20 ticks pass with each request, and its answer has 8 samples.
+    // 20 ticks pass per request, but an answer holds only 8 samples, so some are overwritten before they are fetched.
     let warnings = error_of(&output);
     assert!(warnings.starts_with("warning: slot 0: "), "{warnings}");
     assert!(warnings.contains("overwritten before they were fetched"));

@@ -93,10 +93,7 @@ fn a_refusal_of_the_target_is_reported_in_words() {
     );
     rig.text(&["run", "--displacement-m", "0"]);
     let error = rig.error(&["restore", "--input", "a.toml"], 1);
-    assert!(
-        error.contains("is free-running; stop it first"),
-        "{error}"
-    );
+    assert!(error.contains("is free-running; stop it first"), "{error}");
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn make_pipe(path: &Path) {
     assert!(made.unwrap().success());
 }
 
-/// Sends SIGTERM and waits until it has ended the process.
+/// Sends SIGTERM, waits for the process to end, and checks that the signal ended it.
 fn terminate(child: &mut Child) {
     let id = child.id().to_string();
     let sent = Command::new("kill").args(["-TERM", &id]).status();

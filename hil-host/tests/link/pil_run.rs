@@ -207,7 +207,10 @@ fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
     let message = silent.unwrap_err().to_string();
     let start = format!("after tick {last}: no answer from the target to 30 tries within ");
     assert!(message.starts_with(&start), "{message}");
-    assert!(message.ends_with(" s; first wait 300000 ms"), "{message}");
+    assert!(
+        message.ends_with(" s; the first try waited 300000 ms"),
+        "{message}"
+    );
 }
 
 #[test]

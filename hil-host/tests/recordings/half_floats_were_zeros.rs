@@ -128,12 +128,12 @@ fn other_widths_and_bit_offsets_are_refused() {
         (
             0,
             [23, 1, 8],
-            "numbers up to byte 25 of records that have 24, allowed: numbers within their record",
+            "numbers up to byte 25 of records of 24 bytes, allowed: numbers within their record",
         ),
         (
             4,
             [20, 0, 64],
-            "numbers up to byte 28 of records that have 24, allowed: numbers within their record",
+            "numbers up to byte 28 of records of 24 bytes, allowed: numbers within their record",
         ),
     ];
     for (number, place, expected) in cases {

@@ -25,7 +25,8 @@ pub struct Motion {
     pub vertical_velocity_m_per_s: f64,
     /// Roll rate, rad/s.
     pub roll_rate_rad_per_s: f64,
-    /// Angular velocity about the axle, rolling forward positive, rad/s; speed over rolling radius in free rolling.
+    /// Angular velocity about the axle, rolling forward positive, rad/s; in free rolling, the speed divided by the
+    /// rolling radius.
     pub rotation_rad_per_s: f64,
     /// Yaw rate relative to the ground, rad/s. In a right-hand curve of radius `R` it includes `speed / R`.
     pub yaw_rate_rad_per_s: f64,

@@ -48,8 +48,8 @@ pub struct Pair {
 }
 
 /// Contact angle that separates tread and flange. If the flange root is as round as the rail's corner, the contact
-/// jumps within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between, tread and
-/// flange each have one maximum of interpenetration.
+/// angle jumps within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between,
+/// tread and flange each have one maximum of interpenetration.
 const FLANGE_ANGLE: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
 impl Pair {
@@ -78,8 +78,8 @@ impl Pair {
         let steepest = (tip..=tread_end)
             .min_by(|&i, &j| points[i].angle_rad.total_cmp(&points[j].angle_rad))
             .map_or(tip, |steepest| {
-                // Takes the innermost point within 0.1 degrees of the steepest angle: on a straight face, no wheel
-                // climbs yet.
+                // Takes the innermost point within 0.1 degrees of the steepest angle, because a wheel in contact on a
+                // straight flange face does not climb yet.
                 let bound = points[steepest].angle_rad + 1.7e-3;
                 (tip..=steepest)
                     .find(|&i| points[i].angle_rad <= bound)

@@ -11,7 +11,7 @@ pub const MIN_CURVATURE_PER_M: f64 = 0.5;
 
 /// Load fraction below which a patch is raised off the rail, so that the step need not evaluate it.
 const LIGHT_FRACTION: f64 = 1e-3;
-/// Amount by which a patch is raised for each factor of `e` that its load fraction is below [`LIGHT_FRACTION`], m.
+/// Amount by which a patch is raised for each factor of `e` by which its load fraction is below [`LIGHT_FRACTION`], m.
 const LIFT_M: f64 = 0.1e-3;
 
 /// Length of a packed [`PatchNumbers`]: three vectors of four.
@@ -31,7 +31,7 @@ pub struct PatchNumbers<T> {
     pub load_fraction: T,
     /// Hertzian stiffness, N/m^1.5.
     pub stiffness: T,
-    /// Semi-axes over the square root of the penetration, m^0.5.
+    /// Semi-axes divided by the square root of the penetration, m^0.5.
     pub a_factor: T,
     pub b_factor: T,
     pub kalker: KalkerCoefficients<T>,

@@ -11,7 +11,7 @@ thread_local! {
 
 /// True if this processor uses fused multiply-add (one rounding for a product and a sum).
 ///
-/// Contact forces are bit-identical on all processors that do, and on all processors that do not.
+/// Contact forces are bit-identical among all processors that use it, and among all processors that do not.
 ///
 /// ```
 /// let fused = dashpot_rail::fuses_multiplication();

@@ -73,8 +73,9 @@ pub enum Defect {
         /// Length of each rounding, m.
         rounding_m: f64,
     },
-    /// Cross level that rises linearly over `base_m`, stays constant over `plateau_m` and falls over `base_m`, half of
-    /// it on each rail. Each corner is a parabola of the length `rounding_m`. The twist is `cross_level_m / base_m`.
+    /// Cross level that rises linearly over `base_m`, stays constant over `plateau_m` and falls over `base_m`. Each
+    /// rail is displaced by half of it. Each corner is a parabola of the length `rounding_m`. The twist is
+    /// `cross_level_m / base_m`.
     Twist {
         /// First corner, m.
         start_m: f64,

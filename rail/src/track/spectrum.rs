@@ -45,7 +45,7 @@ impl Density {
 /// - vertical `Av Wc^2 / ((W^2 + Wr^2) (W^2 + Wc^2))`, lateral the same with `Aa`;
 /// - gauge `Ag Wc^2 W^2 / ((W^2 + Wr^2) (W^2 + Wc^2) (W^2 + Ws^2))`;
 /// - cross level the same with `Av`, times `(2 b)^2 / b^2 = 4`, because the published density is that of the angle,
-///   which is the cross level over `2 b`.
+///   which is the cross level divided by `2 b`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Spectrum {

@@ -69,7 +69,7 @@ pub enum VehicleError {
         source: Box<dashpot_core::BuildError>,
     },
     /// The points of a stop are invalid.
-    #[error("{element}: points of a stop: allowed: {reason}")]
+    #[error("{element}: points of a stop, allowed: {reason}")]
     Stop {
         /// Name of the element.
         element: String,
@@ -82,7 +82,7 @@ pub enum VehicleError {
     /// The vehicle has no wheelsets.
     #[error("no wheelset: a running vehicle needs at least one")]
     NoWheelset,
-    /// The step is too long: the load makes the equations of a step indefinite.
+    /// The step is too long: the geometric stiffness due to the load makes the equations of a step indefinite.
     #[error("step_s = {step_s}: too long for this vehicle; use a shorter step")]
     StepTooLong {
         /// Step, s.

@@ -41,7 +41,7 @@ pub(super) struct Attachment {
     pub is_axlebox: bool,
 }
 
-/// Velocity amplitude of the secant that gives a damper's small-motion damping, m/s.
+/// Velocity amplitude at which the secant of a damper's characteristic gives its damping in small motion, m/s.
 const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
 /// Damping and series stiffness of a damper in small motion with its clearance taken up: the secant of its

@@ -12,8 +12,8 @@ use crate::contact::{
 };
 use crate::creep::CreepLaw;
 
-/// A vehicle that runs on straight track at constant speed, linearised about its central position: the contact forces
-/// by their derivatives, the wheelsets with their gyroscopic moments.
+/// A vehicle that runs on straight track at constant speed, linearised about its central position. The derivatives of
+/// the contact forces and the gyroscopic moments of the wheelsets are included.
 #[derive(Debug, Clone)]
 pub struct Running {
     bodies: Vec<Body>,

@@ -185,7 +185,7 @@ fn simpack_files_say_what_is_wrong_where_and_what_is_allowed() {
             good[..good.rfind("  point.end").unwrap()].to_owned(),
             &[
                 "cut short: no complete section `point`",
-                "point.begin to point.end",
+                "rows y z between point.begin and point.end",
             ],
         ),
         (

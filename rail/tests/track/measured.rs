@@ -149,7 +149,7 @@ fn errors_of_files_state_line_column_and_bounds() {
         ),
         (
             good.replace("\n25,", "\n24.75,"),
-            ":102: column distance_m: 0 m after the previous row, allowed: 0.01 to 5 m, rising",
+            ":102: column distance_m: 0 m after the previous row, allowed: rising distances, 0.01 to 5 m apart",
         ),
         (
             good.replace("\n25,", "\n20,"),
@@ -157,7 +157,7 @@ fn errors_of_files_state_line_column_and_bounds() {
         ),
         (
             good.replace("\n100,", "\n105,"),
-            ":402: column distance_m: 5.25 m after the previous row, allowed: 0.01 to 5 m",
+            ":402: column distance_m: 5.25 m after the previous row, allowed: rising distances, 0.01 to 5 m",
         ),
         (
             good.lines()

@@ -215,7 +215,8 @@ fn an_anti_roll_bar_and_a_traction_rod_add_their_stiffness() {
         );
     };
     added(&bar, 3e6 / (0.8 * 30e3));
-    // A rod along the track, 1 m beside the centre of gravity, resists yaw with its squared lever arm.
+    // A rod along the track, 1 m beside the centre of gravity: its yaw stiffness is its stiffness times the squared
+    // lever arm.
     let rod = modes_with(Some(Element::new(
         "rod",
         [

@@ -39,7 +39,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
     assert!(Standstill::new(&vehicle()).is_ok());
     let cases: [(&str, Change); 14] = [
         (
-            "left: points of a stop: allowed: displacements rising by at least 1e-6 m, and forces that do not decrease",
+            "left: points of a stop, allowed: displacements rising by at least 1e-6 m, and forces that do not decrease",
             |v| {
                 v.elements[0].law = Law::BumpStop {
                     direction: Direction::Lateral,

@@ -45,7 +45,7 @@ pub(super) fn reading(channel: &Channel, group: &ChannelGroup) -> Result<Reading
     let end = u64::from(channel.byte_offset) + bytes;
     if end > group.data_bytes_len() as u64 {
         let held = format!(
-            "numbers up to byte {end} of records that have {}",
+            "numbers up to byte {end} of records of {} bytes",
             group.data_bytes_len()
         );
         return unread(held, "numbers within their record");

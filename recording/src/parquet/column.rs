@@ -14,7 +14,8 @@ pub(super) struct Column {
     index: usize,
     /// Definition level of a value that is not null.
     present: i16,
-    /// True if the numbers are timestamps. They are read relative to the first, because a double has too few digits.
+    /// True if the numbers are timestamps. They are read relative to the first timestamp, because a double has too few
+    /// digits for a date with nanoseconds.
     is_instant: bool,
     origin: Option<i64>,
     reader: Option<ColumnReader>,

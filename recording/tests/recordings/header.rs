@@ -74,7 +74,7 @@ fn line_numbers_match_those_of_an_editor() {
     }
 }
 
-/// Stray separators and zero bytes do not make a file an unsupported format.
+/// Stray separators and zero bytes do not lead to the error for unsupported formats.
 #[test]
 fn a_missing_column_is_reported() {
     assert!(error_of(b"\"\"\n0\n").contains("no header says which column is the time"));

@@ -1,9 +1,9 @@
 //! Reference solution of the damper: it implements the laws in the documentation of the parameters and integrates them
 //! with an adaptive stiff solver at a tolerance of 1e-12 per step.
 //!
-//! It shares only the parameters with the fixed step. Chamber pressure and piston position are states; contact at the
-//! clearance, opening valves, release and yielding are events. Displacement is positive in extension; force is positive
-//! if it resists extension.
+//! It shares nothing with the fixed step except the parameters. Chamber pressure and piston position are states;
+//! contact at the clearance, opening valves, release and yielding are events. Displacement is positive in extension;
+//! force is positive if it resists extension.
 
 mod bracket;
 mod chambers;
@@ -28,7 +28,7 @@ pub use self::segment::{Arrival, Integrator, STATES, Segment};
 use self::side::Side;
 use crate::error::ReferenceError;
 
-/// Linear pieces of a motion between two checks for cancellation.
+/// Number of linear pieces of a motion between two checks for cancellation.
 const PIECES_PER_CHECK: usize = 64;
 
 /// Reference solver of one damper.
@@ -184,8 +184,8 @@ fn run(
     Ok((forces, motion.statistics))
 }
 
-/// Scales of a motion: its RMS velocity, and the smaller of the forces that this velocity and the RMS displacement of
-/// the springs cause. `None` if nothing moves.
+/// Scales of a motion: its RMS velocity and a typical force of each side. This force is the smaller of two: the force
+/// at the RMS velocity, and the force that stretches the springs by the RMS displacement. `None` if nothing moves.
 fn scales(sides: &[Side; 2], times: &[f64], x: &[f64]) -> Option<Scales> {
     let duration = times[times.len() - 1] - times[0];
     let (mut velocity, mut amplitude) = (0.0, 0.0);

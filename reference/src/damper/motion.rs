@@ -165,7 +165,7 @@ impl Motion {
         }
     }
 
-    /// Integrates flow from a coordinate at the displacement `x` of the seats until the next event.
+    /// Integrates flow until the next event, from the coordinate `start` at the displacement `x` of the seats.
     fn flow(
         &mut self,
         side: usize,
@@ -234,7 +234,7 @@ impl Motion {
                 },
             )
         } else if speed > 0.0 {
-            // The tolerance interval of an equilibrium just above zero can contain zero.
+            // An equilibrium just above zero can be closer to zero than the tolerance, so the solver can reach zero.
             stay(laws.coordinate_at(speed))
         } else {
             (spent, released(x + velocity * spent))

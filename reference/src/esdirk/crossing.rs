@@ -35,8 +35,8 @@ impl Bracket {
     /// Finds the first event between two times.
     ///
     /// The search narrows an interval around the event down to rounding and returns its upper end. `evaluate` writes
-    /// the functions at a time. The search uses secants (Illinois variant) on the function that linear interpolation
-    /// predicts to cross first, as CVODE does (Hindmarsh et al. 2005).
+    /// the values of the functions at a time. The search uses secants (Illinois variant) on the function that linear
+    /// interpolation predicts to cross first, as CVODE does (Hindmarsh et al. 2005).
     pub(super) fn locate(
         &mut self,
         (mut start, mut end): (f64, f64),

@@ -10,7 +10,7 @@ pub(crate) trait Equations {
     /// Writes the derivative of the rates with respect to the state. An approximation costs iterations, not accuracy.
     fn jacobian(&mut self, time: f64, state: &[f64], jacobian: &mut Matrix);
 
-    /// Writes the event functions. An event is a function that falls to zero or below.
+    /// Writes the event functions. An event occurs when a function falls to zero or below.
     fn events(&mut self, time: f64, state: &[f64], values: &mut [f64]);
 }
 

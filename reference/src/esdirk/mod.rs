@@ -20,13 +20,13 @@ use self::tableau::{COEFFICIENTS, ERROR_WEIGHTS, GAMMA, ORDER, STAGES, TIMES};
 /// Safety factor of a new step length.
 const SAFETY: f64 = 0.9;
 
-/// Smallest and largest change of the step length after a step.
+/// Smallest and largest factor by which the step length changes after a step.
 const LENGTH_CHANGE: [f64; 2] = [0.5, 2.0];
 
-/// Proposed changes of the step length in this range are not made, so that the factors stay valid.
+/// The step length stays the same if its proposed change is in this range, so that the matrix factors stay valid.
 const UNCHANGED: [f64; 2] = [0.9, 2.0];
 
-/// Change of the step length if an iteration diverges with a new Jacobian.
+/// Factor by which the step length changes if an iteration diverges with a new Jacobian.
 const CHANGE_AFTER_DIVERGENCE: f64 = 0.3;
 
 /// Fraction by which a step may be lengthened to reach a stop time, so that no tiny step remains.
@@ -42,7 +42,7 @@ pub(crate) struct Esdirk {
     wanted: f64,
     start_time: f64,
     start: Vec<f64>,
-    /// Derivatives at the stages, times the step length; the first and last stages are the ends of the step.
+    /// Derivatives at the stages, times the step length; the first and last stages are at the ends of the step.
     increments: [Vec<f64>; STAGES],
     known: Vec<f64>,
     stage: Vec<f64>,
@@ -251,7 +251,7 @@ impl Esdirk {
         self.tolerances.mean_square(&self.residual, &self.state)
     }
 
-    /// Change of the step length for the mean square error of a step; smaller after many iterations.
+    /// Factor by which the step length changes after a step with this mean square error; smaller after many iterations.
     fn change(&self, error: f64) -> f64 {
         let (max, used) = (
             f64::from(MAX_ITERATIONS),

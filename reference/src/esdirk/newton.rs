@@ -16,7 +16,7 @@ const NEW_FACTORS: f64 = 20.0;
 /// With a new step length, the iteration assumes this ratio of error to last change until it knows a rate.
 const NEW_LENGTH: f64 = 100.0;
 
-/// Exponent by which the assumed ratio shrinks from one stage to the next.
+/// Exponent that reduces the assumed ratio from one stage to the next.
 const TRUST: f64 = 0.8;
 
 /// Smallest assumed ratio of error to last change.

@@ -174,7 +174,8 @@ fn over_size(levels: &[f64]) -> Vec<f64> {
 /// Coefficients of one force along `spin` and `direction` at one `size`, ordered by spin, then by direction.
 fn layer(lines: &[Line], level: usize, force: usize) -> Vec<f64> {
     let square = |cell: usize| 1.0 + direction_coordinate(cell).powi(2);
-    // The longitudinal force is odd in x, and x is zero at both ends. An even f = N / (1 + v^2) has N' = N at v = 1.
+    // The longitudinal force is odd in x, and x is zero at both ends, so this force is zero there. The other forces are
+    // even: f = N / (1 + v^2) has zero slope at v = 1 if N' = N there.
     let half = 1.0 / DIRECTIONS as f64;
     let end = End::multiple(if force == 0 {
         -1.0

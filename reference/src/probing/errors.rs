@@ -33,7 +33,7 @@ impl MotionErrors {
         for (&tick, &expected) in motion.compared.iter().zip(reference) {
             let actual = forces.get(tick).copied().unwrap_or(f64::NAN);
             let error = (actual - expected).abs();
-            // NaN is larger than any number.
+            // NaN counts as larger than any number.
             if error.is_nan() || error > found.largest_n {
                 (found.largest_n, found.tick) = (error, tick);
             }

@@ -1,8 +1,8 @@
 //! Largest errors of the fixed step with one damper over a fixed set of motions.
 //!
 //! The set is scaled to the damper so that it includes the worst cases: motions pass the damper's clearance, friction
-//! and the corners of its law, at speeds from those of its smallest forces up to the top speed. The caller supplies the
-//! forces of the fixed step, because this crate knows only the parameters, not the step.
+//! and the corners of its law, at speeds from those that cause its smallest forces up to the top speed. The caller
+//! supplies the forces of the fixed step, because this crate knows only the parameters, not the step.
 
 mod errors;
 mod motion;
@@ -19,11 +19,12 @@ use self::set::Scale;
 use crate::damper::Reference;
 use crate::error::ReferenceError;
 
-/// Default top speed of the motions (m/s); if the damper limits its input rate further, that limit reduces it.
+/// Default top speed of the motions (m/s); a lower input rate limit of the damper reduces it.
 pub const TOP_SPEED_M_PER_S: f64 = 0.6;
 
-/// Safety factor from [`Probing::largest_errors`] to the promised errors, valid for every motion of the class defined
-/// in docs/numerics.md. The search for the worst motion (`cargo xtask search`) stays below it.
+/// Safety factor between [`Probing::largest_errors`] and the promised errors. The promise holds for every motion of the
+/// class defined in docs/numerics.md. The errors that the search for the worst motion (`cargo xtask search`) finds stay
+/// below it.
 pub const PROMISED_FACTOR: f64 = 3.0;
 
 /// Smallest promised error at a tick as a fraction of the force limit (1), in double and in single precision.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Number of ticks at the start of a rest that are all compared; the gaps grow afterwards.
+/// Number of ticks at the start of a rest that are all compared; after them, the gaps between compared ticks grow.
 const CLOSE_TICKS: usize = 16;
 
 /// Kind of a probing motion.

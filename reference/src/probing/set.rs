@@ -12,7 +12,7 @@ const OCTAVES: i32 = 11;
 const FORCE_SHARES: [f64; 6] = [0.003, 0.03, 0.15, 0.4, 0.8, 1.0];
 /// Times between two turns of a saw, as fractions of the settling time of the force.
 const SAW_SHARES: [f64; 3] = [1.0, 0.35, 0.12];
-/// Maximum settling time in ticks; faster motions of the set reach the forces that would take longer.
+/// Maximum settling time in ticks. Forces that would take longer to settle are reached by faster motions of the set.
 const MAX_SETTLING_TICKS: usize = 150;
 /// Maximum ticks of a passage through the clearance.
 const MAX_CROSSING_TICKS: usize = 20_000;
@@ -114,7 +114,7 @@ impl Scale<'_> {
         path.go(speed, across / 2);
         for piece in 0..8 {
             let speed = speed * (1.0 - 0.017 * f64::from(piece));
-            // Stops after the force has settled, and earlier.
+            // Some stops come after the force has settled, others earlier.
             let share = [1.0, 0.6, 0.35, 0.2][piece as usize % 4];
             let ticks = across + (share * settling as f64) as usize + 2;
             path.go(if piece % 2 == 0 { speed } else { -speed }, ticks);

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 
 use super::mesh::Element;
 
-/// `[-du_x/dx by px, -du_y/dx by py, -du_x/dx by py]`, where the last one is also `-du_y/dx by px`; shear modulus 1.
+/// Slips per unit traction: `-du_x/dx` due to `px`, `-du_y/dx` due to `py`, and `-du_x/dx` due to `py`, which equals
+/// `-du_y/dx` due to `px`. The shear modulus is 1.
 pub(super) type Slip = [f64; 3];
 
 /// Slip at each element of the strip `to` that a unit traction on each element of the strip `from` causes, ordered by

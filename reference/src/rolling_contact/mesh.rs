@@ -27,13 +27,13 @@ impl Element {
     }
 }
 
-/// Distance from the trailing edge of the contact to the middle of the last rectangle, in elements; at the leading edge
-/// it is half an element more.
+/// Distance from the trailing edge of the contact to the middle of the last rectangle, in elements; at the leading
+/// edge, the distance is half an element longer.
 ///
 /// A quarter is exact for line loads and slip at points in plane strain (the vortex lattice of wing theory, James
-/// 1972). Loads and slip spread over an element multiply the equations' spectrum by `A(t) = 4 sin^2(t/2) sum_n (-1)^n
-/// sgn(t + 2 pi n)/(t + 2 pi n)^2`, which moves either end of the solution by `sum_(n > 0) n a_n = 0.0753` elements,
-/// where `a_n` are the Fourier coefficients of `ln A` (Wiener and Hopf).
+/// 1972). Here loads and slip are spread over an element. This multiplies the equations' spectrum by
+/// `A(t) = 4 sin^2(t/2) sum_n (-1)^n sgn(t + 2 pi n)/(t + 2 pi n)^2`, which moves either end of the solution by
+/// `sum_(n > 0) n a_n = 0.0753` elements, where `a_n` are the Fourier coefficients of `ln A` (Wiener and Hopf).
 const END: f64 = 0.25 + 0.0753;
 
 /// Elements of an ellipse with `a b = 1`, strip by strip from the leading to the trailing edge; Hertz pressure for a

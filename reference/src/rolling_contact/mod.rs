@@ -51,8 +51,8 @@ const MAX_SWEEPS: usize = 1000;
 /// ```
 pub struct RollingContact {
     elements: Vec<Element>,
-    /// Slip at each element caused by the traction of each element: longitudinal by longitudinal, lateral by lateral,
-    /// longitudinal by lateral.
+    /// Slip at each element that the traction of each element causes: longitudinal slip by longitudinal traction,
+    /// lateral by lateral, longitudinal by lateral.
     slip: [Vec<f64>; 3],
 }
 

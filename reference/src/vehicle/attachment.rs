@@ -22,7 +22,7 @@ pub(super) struct Attachment {
     pub(super) body: Option<usize>,
     /// Position relative to the body's centre (m).
     pub(super) arm: Vector,
-    /// True in an axlebox, which does not rotate with its wheelset.
+    /// True if the end is on an axlebox, which does not rotate with its wheelset.
     pub(super) is_axlebox: bool,
 }
 

@@ -194,11 +194,14 @@ impl Coupling {
 
     /// Additional loads from the standing force as the bodies rotate.
     ///
-    /// The potential is `U = -F . R^T (u2 - u1)`: the ends are displaced by `u = u_c + omega x r + omega x (omega x
-    /// r)/2`, and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of the force `m x F`
-    /// on the second end and its opposite on the first; half of the moment `F x (u2 - u1)` on each body; and, from
-    /// `omega x (omega x r)/2`, the moment `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second body and
-    /// its opposite, with the first body's `r`, on the first.
+    /// The potential is `U = -F . R^T (u2 - u1)`. In it, the ends are displaced by `u = u_c + omega x r + omega x
+    /// (omega x r)/2`, and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of three
+    /// terms:
+    ///
+    /// - the force `m x F` on the second end and its opposite on the first;
+    /// - half of the moment `F x (u2 - u1)` on each body;
+    /// - from `omega x (omega x r)/2`, the moment `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second
+    ///   body; on the first body the opposite of this moment with its own `r` and `omega`.
     pub(super) fn turned_loads(&self, poses: &[Pose; 2], motion: &Motion) -> [Coordinates; 2] {
         let f = &self.standing_force;
         let turns: [Vector; 2] =

@@ -9,9 +9,9 @@ use super::coupling::Coupling;
 use super::equations::{Equations, N, Ranged, Situation};
 use crate::linear::Matrix;
 
-/// Field of a contact's motion for each coordinate of a wheelset.
+/// Index of the field of a contact's motion that corresponds to each coordinate of a wheelset.
 const BY_COORDINATE: [Option<usize>; N] = [Some(1), Some(2), Some(3), None, Some(4)];
-/// Field of a contact's motion for each velocity of a wheelset, and its sign.
+/// Index of the field of a contact's motion that corresponds to each velocity of a wheelset, and the sign.
 const BY_VELOCITY: [(usize, f64); N] = [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 
 impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {

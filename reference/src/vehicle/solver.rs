@@ -62,8 +62,8 @@ impl<L: CreepLaw, S: PatchSource> esdirk::Equations for Problem<'_, '_, L, S> {
     /// A state is close if its distance is below [`LINEAR_RATIO`] times the tolerance.
     ///
     /// The contact tables are rounded to `f32`, so forces jump by about 1e-7 of their magnitude at the borders of
-    /// their cells; one border is at the track's centre. An iteration that converges to a border would otherwise jump
-    /// between both sides forever.
+    /// their cells; one border is at the track's centre. Without the extrapolation, an iteration that converges to a
+    /// border would jump between the two sides forever.
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
         let (last_time, last_state, last_rates) = &self.last;
         if *last_time == time

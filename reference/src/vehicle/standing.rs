@@ -57,7 +57,7 @@ pub(super) fn load_elements(
         }
         all
     };
-    // Each column is minus the loads that a unit displacement causes.
+    // Each column contains the loads that a unit displacement causes, with opposite signs.
     let mut stiffness = Matrix::zeros(size);
     for column in 0..size {
         let mut unit = vec![0.0; size];

@@ -108,7 +108,7 @@ fn two_chambers_balance() {
     }
 }
 
-/// A saw at constant speed alternates between both static forces.
+/// A saw at constant speed alternates between the two static forces.
 #[test]
 fn saw_settles_on_each_leg() {
     let velocity = 0.05;

@@ -109,7 +109,10 @@ impl Study {
             check(&parameters, sweep, ride_index, &mut digest)?;
             let end = starts[starts.len() - 1].saturating_add(sweep.cases());
             if end > MAX_CASES {
-                let message = format!("more than {MAX_CASES} cases up to sweep {}", sweep.name);
+                let message = format!(
+                    "more than {MAX_CASES} cases in the sweeps up to {}",
+                    sweep.name
+                );
                 return Err(invalid(sweep.line, message));
             }
             starts.push(end);

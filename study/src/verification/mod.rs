@@ -63,7 +63,7 @@ pub fn reference(case: &Case, stepped: &Trace, tolerance: f64) -> Result<Trace, 
     let mut trace = Trace::new(case);
     trace.times_s.clone_from(&stepped.times_s);
     for (sample, track) in samples.iter().zip(&stepped.track_accelerations) {
-        // An accelerometer does not measure gravity, but it measures the acceleration of the curve.
+        // An accelerometer does not measure gravity, but it does measure the centripetal acceleration in a curve.
         let acceleration =
             |body: usize| std::array::from_fn(|i| sample.accelerations[body][i] - track[body][i]);
         let tick = Sample {

@@ -30,7 +30,7 @@ pub enum Fit {
     Decay {
         /// Exponent of the decay (1).
         exponent: f64,
-        /// Fitted outer radius of full pressure (m).
+        /// Fitted outer radius of the area under full pressure (m).
         full_radius_m: f64,
     },
     /// Full pressure in the middle, decaying to zero at clamp and edge over the same width.
@@ -42,7 +42,7 @@ pub enum Fit {
     },
     /// Sectors; their number does not matter.
     Sectors {
-        /// Inner and outer radius of full pressure (m).
+        /// Inner and outer radius of the area under full pressure (m).
         full_m: [f64; 2],
         /// Fitted share of the circumference (1).
         share: f64,

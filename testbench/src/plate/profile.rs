@@ -9,7 +9,7 @@ use super::limits::{check_exponent, invalid};
 /// zero at `ends_m` as `((r - end)/(full - end))^n`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Profile {
-    /// Inner and outer radius of full pressure (m).
+    /// Inner and outer radius of the area under full pressure (m).
     pub full_m: [f64; 2],
     /// Radii at which the pressure has decayed to zero (m); equal to `full_m` for no decay.
     pub ends_m: [f64; 2],

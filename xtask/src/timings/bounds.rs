@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::run::{Outcome, cargo_output};
 
-/// Maximum number of packages from which each package may be built on this machine's platform, including itself.
+/// For each package, the maximum number of packages in its build for this machine's platform, including itself.
 const MAX_PACKAGES: [(&str, usize); 2] = [
     // The default build.
     ("dashpot-hil", 170),
@@ -18,7 +18,7 @@ const MAX_PROCESSOR_S: f64 = 240.0;
 /// Allowance for slower processors.
 const MARGIN: f64 = 1.5;
 
-/// Checks the number of packages from which the command and the FMU's library are built. Compiles nothing.
+/// Checks the number of packages in the builds of the command and of the FMU's library. Compiles nothing.
 ///
 /// # Errors
 /// A package is built from too many packages.

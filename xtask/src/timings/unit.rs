@@ -73,7 +73,7 @@ impl FromStr for Unit {
     type Err = String;
 
     fn from_str(line: &str) -> Outcome<Self> {
-        let wrong = || format!("not a line of the compiler's wrapper: {line}");
+        let wrong = || format!("not a line that the compiler's wrapper writes: {line}");
         let columns: Vec<&str> = line.split(SEPARATOR).collect();
         let [
             package,

@@ -131,7 +131,7 @@ macro_rules! loading {
                 Ok(Loading(stage))
             }
 
-            /// Reads the scalars of an image and the stated revisions of damper and table.
+            /// Reads the scalars of an image and the revisions of damper and table that it states.
             fn read_scalars(image: &[u8]) -> Result<(Scalars<$float>, [$word; 2]), ImageError> {
                 let words = Words::<{ size_of::<$float>() }>::of(image);
                 let both = words.scalars().zip(words.revisions());

@@ -44,10 +44,10 @@ pub enum ImageError {
     /// The byte-order mark is not little-endian.
     #[error("byte order is not little-endian")]
     ByteOrder,
-    /// The image has another version of the format: this one.
+    /// The image has a different format version, given here.
     #[error("format version {0}, must be {VERSION}")]
     Version(u16),
-    /// The image is for a scalar of another size: this many bytes.
+    /// The image is for a scalar of another size, which has this many bytes.
     #[error("wrong precision: each number has {0} bytes")]
     Scalar(u32),
     /// The CRC-32 does not match: the bytes are damaged.

@@ -16,7 +16,7 @@ use dashpot_files::output;
 use dashpot_recording::Gaps;
 use dashpot_testbench::bench_test::{Indices, run_until_periodic};
 
-/// Half-width of the 95 % interval of the middle of a motion, in standard deviations of the noise.
+/// Half the width of the 95 % interval for the middle of a motion, in standard deviations of the noise.
 ///
 /// It is 1.96 / sqrt(2) because the middle is the mean of two ends, and smoothing makes neither end noisier than a
 /// sample.
@@ -122,7 +122,7 @@ pub(super) struct Warned {
     pub(super) words: String,
 }
 
-/// Counts of tests and omitted rows of a file of loops.
+/// Number of tests found in a file of recorded loops, and what was omitted.
 #[derive(Serialize)]
 pub(super) struct Recording {
     file: String,
@@ -447,7 +447,7 @@ impl Report {
 }
 
 impl IndexRow {
-    /// Returns the name, measured value, value before and value after of each measured index.
+    /// Returns, for each measured index, its name, its measured value, and its values before and after calibration.
     pub(super) fn lines(&self) -> impl Iterator<Item = (&'static str, String, f64, f64)> {
         let IndexRow {
             measured,

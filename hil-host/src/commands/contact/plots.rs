@@ -96,7 +96,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
                 continue;
             }
             last_label = at;
-            // The number is next to the wheel surface, along its normal.
+            // Place the number next to the wheel surface, along its normal.
             let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
             let away = 15.0 * f64::from(FINE);
             let offset = ((away * across) as i32, (-away * up) as i32);

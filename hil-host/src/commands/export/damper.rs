@@ -47,7 +47,7 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments) -> Outcome<()> {
             report.exported.print(out)?;
             writeln!(
                 out,
-                ": {} for {} us, {}, revision {:#010x}: {}{} bytes {}, state {} bytes",
+                ": {} for a step of {} us, {}, revision {:#010x}: {}{} bytes {}, state {} bytes",
                 report.damper,
                 arguments.step_us,
                 report.scalar,

@@ -23,8 +23,8 @@ pub(super) struct Exported {
 }
 
 impl Exported {
-    /// Writes `content`, which receives the name of the header to include. For C source in a file, also writes the
-    /// header.
+    /// Writes the text that `content` returns; it receives the name of the header to include. For C source in a file,
+    /// also writes the header.
     ///
     /// # Errors
     /// The constant cannot be exported or a file cannot be written. Neither file is written then.

@@ -24,7 +24,7 @@ struct Report {
     deviations: Deviations<Worst>,
     bounds: Deviations<f64>,
     with_half_the_inner_step: Deviations<Worst>,
-    /// If a bound is exceeded: difference between two reference solutions of different tolerances.
+    /// Difference between two reference solutions with different tolerances, if a bound is exceeded.
     #[serde(skip_serializing_if = "Option::is_none")]
     parting: Option<Deviations<Worst>>,
     /// Indices over seeds of the irregularity, for a chaotic case.

@@ -9,8 +9,8 @@ use crate::contact::zones::ZONES;
 /// Loads at which the force is compared, as fractions of the nominal load.
 const LOADS: [f64; 2] = [0.5, 1.0];
 
-/// Shift over which the contact stiffness may change the force, m: the node distance in the fine part of the default
-/// [`Grid`](super::Grid), over which interpolation blurs a jump.
+/// Shift, m, for which the change of force due to the contact stiffness is not counted as part of a jump. It is the
+/// node distance in the fine part of the default [`Grid`](super::Grid), over which interpolation blurs a jump anyway.
 const ALLOWED_SHIFT_M: f64 = 30e-6;
 
 /// Maximum [`Jump::excess`] of tables, as a fraction of the load; docs/contact.md explains the choice.
@@ -24,7 +24,7 @@ const SUSPECT: f64 = 0.02;
 /// down to this length.
 const NEAR_M: f64 = 0.03e-6;
 
-/// Maximum number of halvings, enough for an interval of a kilometre; a wider grid has no contact.
+/// Maximum number of halvings. They suffice for an interval of a kilometre, which is far wider than any contact.
 const MAX_HALVINGS: usize = 35;
 
 /// Depth below first contact that suffices for any load, m.

@@ -32,8 +32,8 @@ pub const MAX_NODES: usize = 4_000_000;
 pub enum TablesError {
     /// An axis of the grid has no cells, too many, or ends that do not rise.
     #[error(
-        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in exactly the parts that have a \
-         width, fewer than {MAX_NODES} cells in all, a squared yaw of 0 or more",
+        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in every part that has a width \
+         and in no other part, fewer than {MAX_NODES} cells in all, a squared yaw of 0 or more",
         .axis.ends, .axis.cells
     )]
     Axis {

@@ -208,8 +208,8 @@ fn forces<C: Number, R: Number + Mul<C, Output = R>>(
     ]
 }
 
-/// Factor that keeps a force with this square within 1 where the spline overshoots. Above `1 - BEND` the force follows
-/// a parabola with its vertex at 1, so its slope is continuous.
+/// Factor that keeps a force within 1 where the spline overshoots; `square` is the square of the force. Above
+/// `1 - BEND` the force follows a parabola with its vertex at 1, so its slope is continuous.
 #[inline(always)]
 fn limited<R: Number>(square: R) -> R {
     let force = (square + TINY).sqrt();

@@ -1,8 +1,8 @@
 //! Measured profiles: reads the files of profile gauges and simulation programs, checks, trims and smooths them.
 //!
 //! - [`Columns`](Format::Columns): two columns `y_mm`, `z_mm`, with `y` to the field side and `z` down.
-//! - [`MiniProf`](Format::MiniProf): `.whl`, `.ban`. A wheel has `X` from the flange back to the field side and `Y`
-//!   down; a rail has the same axes or both reversed.
+//! - [`MiniProf`](Format::MiniProf): `.whl`, `.ban`. A wheel has `X` from the back of the flange to the field side and
+//!   `Y` down; a rail has the same axes or both reversed.
 //! - [`Simpack`](Format::Simpack): `.prw`, `.prr`. After the file's own shifts, rotations and mirrors, `y` points to
 //!   the field side and `z` down.
 //! - [`Gensys`](Format::Gensys): `.wheel`, `.rail`. `z` points down. A wheel has `y` to the track centre; for a rail

@@ -62,7 +62,7 @@ pub(super) fn read(
     }
     if !complete {
         let missing =
-            "no complete section `point`, allowed: point.begin to point.end with rows y z";
+            "no complete section `point`, which needs rows y z between point.begin and point.end";
         return Err(ProfileError::CutShort {
             missing: missing.to_owned(),
         });

@@ -119,7 +119,8 @@ impl VehicleState {
     }
 
     /// Returns the acceleration that an accelerometer on a body would measure, in the axes of the track, m/s^2 and
-    /// rad/s^2. It is force over inertia and does not include [`track_acceleration`](Self::track_acceleration).
+    /// rad/s^2. It is the force divided by the inertia and does not include
+    /// [`track_acceleration`](Self::track_acceleration).
     ///
     /// # Panics
     /// If the index of the body is out of range.

@@ -1,4 +1,5 @@
-//! Chart of the correction factor Ce over the geometry of the pressure area, which the source paper does not give.
+//! Chart of the correction factor Ce over the geometry of the pressure area. The source paper does not give this
+//! geometry.
 
 use plotters::prelude::SeriesLabelPosition;
 
@@ -60,7 +61,7 @@ fn decays(solved: &Solved, profile_at: impl Fn(f64, f64) -> (f64, Profile)) -> O
     Ok(curves)
 }
 
-/// Draws Ce for full pressure from the clamp to a radius and a decay from there to zero at the edge.
+/// Draws Ce for a pressure that is full from the clamp to a radius and then decays to zero at the edge.
 fn outer_decay(solved: &Solved) -> Outcome<Panel> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let mut curves = decays(solved, |part, exponent| {
@@ -76,7 +77,8 @@ fn outer_decay(solved: &Solved) -> Outcome<Panel> {
     Ok(factor_panel(solved, "full pressure up to, mm", curves))
 }
 
-/// Draws Ce for full pressure in the middle and decays of equal width to zero at the clamp and at the edge.
+/// Draws Ce for a pressure that is full in the middle and decays over equal widths to zero at the clamp and at the
+/// edge.
 fn both_decays(solved: &Solved) -> Outcome<Panel> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let widest = 0.5 * (free - clamp);

@@ -177,9 +177,9 @@ fn print_valve(
             let source = if valve.pressure_area_is_given {
                 "given"
             } else if valve.damper_correction_factor == 1.0 {
-                "Ce of the file is 1"
+                "the file has Ce = 1"
             } else {
-                "assumed kind, fitted to Ce"
+                "of an assumed kind, fitted to the Ce of the file"
             };
             writeln!(out, "  pressure: {} ({source})", described(area))?;
         }

@@ -177,7 +177,7 @@ impl Outside {
         (&mut self.lines, &mut self.beside)
     }
 
-    /// Returns the report and the forces in both runs; sets `ending` if a target is lost while closing.
+    /// Returns the report and the forces in both runs; sets `ending` if a target is lost while its session is closed.
     ///
     /// # Errors
     /// The run with internal dampers fails.
