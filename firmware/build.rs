@@ -1,4 +1,4 @@
-//! Links with the memory map of the board and the start-up code of cortex-m-rt.
+//! Sets the linker options of the images: the memory map of the board and the start-up code of cortex-m-rt.
 
 fn main() {
     let here = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");

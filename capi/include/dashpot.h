@@ -242,7 +242,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_LENGTH = 4,
     /**
-     * The bytes do not start as an image or a saved state does.
+     * The bytes do not start like an image or a saved state.
      */
     DASHPOT_ERROR_MAGIC = 5,
     /**
@@ -290,7 +290,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_HEADER = 16,
     /**
-     * The revision of an image does not match its constants, so no build produced them.
+     * The revision of an image does not match its constants, so they do not come from the build of a damper.
      */
     DASHPOT_ERROR_REVISION = 17,
     /**

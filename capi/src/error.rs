@@ -18,7 +18,7 @@ pub enum DashpotError {
     NoDamper = 3,
     /// A length or count is wrong, or an image is from a library with another table.
     Length = 4,
-    /// The bytes do not start as an image or a saved state does.
+    /// The bytes do not start like an image or a saved state.
     Magic = 5,
     /// The byte-order mark is not little-endian.
     ByteOrder = 6,
@@ -42,7 +42,7 @@ pub enum DashpotError {
     Overlap = 15,
     /// Header and library have different versions or different storage sizes.
     Header = 16,
-    /// The revision of an image does not match its constants, so no build produced them.
+    /// The revision of an image does not match its constants, so they do not come from the build of a damper.
     Revision = 17,
     /// The storage contains no health model or estimate: call `dashpot_health_model_init`, then `dashpot_health_init`.
     NoHealth = 18,

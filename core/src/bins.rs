@@ -13,7 +13,7 @@ pub(crate) const DOUBLINGS: u32 = 1 << (BIN_BITS - BIN_FRACTION_BITS);
 
 const _: () = assert!(
     BIN_FRACTION_BITS < BIN_BITS,
-    "the bins must cover several doublings"
+    "the bins must cover several doublings of the reach"
 );
 
 /// Number of low bits that do not belong to the bin index, in a float with this many significant binary digits.

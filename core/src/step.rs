@@ -82,8 +82,9 @@ pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     }
 }
 
-/// True if all dampers can take the usual step: each stepped its state last, the state is possible, and displacement
-/// and travel (m) are within their bounds. A damaged displacement in the state gives a travel out of bounds.
+/// True if all dampers can take the usual step: each was the last damper to step its state, the state is possible, and
+/// displacement and travel (m) are within their bounds. A damaged displacement in the state gives a travel out of
+/// bounds.
 #[inline(always)]
 fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],

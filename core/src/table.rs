@@ -91,7 +91,7 @@ impl<T> Piece<T> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Table<T> {
-    /// Bins of extension and compression in pairs, so that a bin needs one address.
+    /// Each bin has an entry for extension and one for compression, so that one address serves both.
     pub(crate) bins: [[u8; 2]; BINS],
     pub(crate) pieces: [Piece<T>; 2 * PIECES],
 }

@@ -8,7 +8,8 @@ use dashpot_files::track::{self, IrregularityParameters, TrackParameters};
 use dashpot_rail::track::{Band, Track};
 use libfuzzer_sys::fuzz_target;
 
-/// Builds the track, except with irregularity that is read from a file or takes long to generate.
+/// Builds the track; returns `None` if its irregularity is read from a file or takes long to generate, or if the build
+/// fails.
 fn built(parameters: &TrackParameters) -> Option<Track> {
     match &parameters.irregularity {
         IrregularityParameters::Measured { .. } => return None,

@@ -9,8 +9,8 @@ use crate::damper::Damper;
 use crate::error::{Outcome, refuse};
 use crate::overrides::path;
 
-/// Reads a dictionary from dampers of a vehicle to their replacements: a name, a path or a `Damper`. Without a
-/// dictionary, the result is empty.
+/// Reads a dictionary that maps dampers of a vehicle to their replacements, each a name, a path or a `Damper`. Without
+/// a dictionary, the result is empty.
 pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement>> {
     let Some(given) = given else {
         return Ok(Vec::new());

@@ -359,7 +359,7 @@ mod tests {
         assert_eq!(found.len(), 50);
         let unknown = found.iter().filter(|(x, _)| x.is_nan()).count();
         assert_eq!(unknown, 40);
-        // Samples that are regular but farther apart than the ticks are not gaps.
+        // Regular intervals longer than a tick are not gaps.
         let slow: String = (0..20)
             .map(|row| format!("{},0.5,100\n", 0.01 * f64::from(row)))
             .collect();

@@ -117,7 +117,7 @@ pub struct History {
     pub model: HealthModel,
     /// Readings in order of time; the last follows the last sample.
     pub readings: Vec<Reading>,
-    /// Each alarm that was raised, and when it first was (s).
+    /// Each alarm that was raised, and when it was first raised (s).
     pub alarms: Vec<(HealthStatus, f64)>,
 }
 

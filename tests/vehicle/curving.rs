@@ -50,8 +50,9 @@ fn the_rails_balance_weight_and_centrifugal_force() {
         let centripetal = speed * speed / radius;
         let outward = 9.81 * sine - centripetal * cosine;
         let down = 9.81 * cosine + centripetal * sine;
-        // Mass, height, and lateral offset of the track from its tangent at the vehicle's middle.
+        // Lateral offset of the track from its tangent at the vehicle's middle.
         let aside = |x_m: f64| 0.5 * x_m * x_m / radius;
+        // Mass, height and lateral offset of each body.
         let bodies: Vec<[f64; 3]> = parameters
             .bodies
             .iter()

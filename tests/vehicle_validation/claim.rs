@@ -9,9 +9,9 @@ use crate::rows::interval;
 pub enum Claim {
     /// It rises by more than [`NONE_PERCENT`].
     Rises,
-    /// It rises by any amount.
+    /// It rises, however little.
     RisesSlightly,
-    /// It falls by any amount.
+    /// It falls, however little.
     FallsSlightly,
     /// It changes by this amount (%).
     By(f64),

@@ -292,7 +292,7 @@ impl Run {
     /// if it ended.
     ///
     /// # Errors
-    /// None are known: [`Self::new`] builds the dampers of faults.
+    /// No case is known in which this fails: [`Self::new`] has already built the dampers of all faults.
     pub fn step(&mut self) -> Result<Option<Ending>, VehicleRunError> {
         if self.is_over() {
             return Ok(Some(Ending::Completed));

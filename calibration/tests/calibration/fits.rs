@@ -362,7 +362,7 @@ fn intervals_of_95_percent_contain_the_truth() {
         }
     }
     println!("of {seeds}: {within:?}");
-    // By chance, fewer than 10 of 12 such intervals contain the truth once in 50 times, and fewer than 42 of 48 almost
-    // never.
+    // Once in 50 times, by chance, fewer than 10 of 12 such intervals contain the truth; fewer than 42 of 48 almost
+    // never do.
     assert!(within.iter().sum::<usize>() >= 42, "{within:?}");
 }

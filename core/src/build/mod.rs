@@ -104,8 +104,8 @@ impl CheckedParameters {
     /// Samples both branches into a table.
     fn assemble<T: Real>(&self, branches: &[Branch<'_>; 2], step_s: f64) -> Damper<T> {
         let max_move = self.limits.rate_m_per_s * step_s;
-        // The last stage reaches at most `sqrt(2) * (largest stretch) + max_move`. A step ends at most an eighth of its
-        // travel beyond the yield point.
+        // The last stage reaches at most `sqrt(2) * (largest stretch) + max_move`. A step that passes the yield point
+        // ends beyond it by at most an eighth of the step's travel.
         let yields = branches.map(|branch| branch.deflection(branch.force_limit));
         let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * max_move) + max_move;
         let first_knot = first_knot(reach);

@@ -28,7 +28,8 @@ impl Fmu {
     pub(super) fn description(&self) -> String {
         let mut xml = Xml::new();
         let version = concat!("Dashpot ", env!("CARGO_PKG_VERSION"));
-        // The names of a vehicle's bodies and dampers come from its file.
+        // Only the run of a vehicle may end. Its variables contain names from the vehicle file, which need not follow
+        // the structured convention.
         let naming = if self.may_end { "flat" } else { "structured" };
         let (number, token, state) = match self.interface {
             Interface::Two => ("2.0", "guid", "FMUstate"),

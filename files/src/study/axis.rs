@@ -77,7 +77,7 @@ pub struct Axis {
     pub parameter: String,
     /// Values, in the order of the cases.
     pub values: Vec<Value>,
-    /// Overrides `table.key=value` of a worn damper.
+    /// Overrides of a worn damper, each `table.key=value`.
     pub set: Vec<String>,
     /// Label of the axis in figures.
     pub label: String,

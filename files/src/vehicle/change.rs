@@ -11,7 +11,7 @@ use crate::{damper, overrides};
 pub(super) struct DamperOverride<'a> {
     /// Direction or name of the dampers.
     dampers: &'a str,
-    /// Override `table.key=value` to apply to each of them.
+    /// Override of each of these dampers, `table.key=value`.
     change: &'a str,
 }
 

@@ -282,7 +282,7 @@ fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
     );
     let cost = cost.get();
 
-    // The first step after a reset, and unusual steps under force.
+    // The first step after a reset, then unusual steps while the damper is under force.
     let state = &mut damper.at_rest(0.0);
     let mut stack = 0;
     let mut unusual = |damper: &Damper<f32>, displacement: f32| {

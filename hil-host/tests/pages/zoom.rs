@@ -75,7 +75,7 @@ fn check_loops(width: u32) {
             .filter_map(|text| text.replace('−', "-").parse::<f64>().ok());
         numbers.fold(0.0, f64::max)
     };
-    // Displacement up to 8 mm and force up to 10 kN; the selection is a part of both.
+    // The whole plot goes up to 8 mm in displacement and 10 kN in force; the zoomed area covers a part of each range.
     assert!(
         last(&zoomed) < 0.7 * last(&whole),
         "{width}: {zoomed:?} of {whole:?}"

@@ -11,8 +11,8 @@ use crate::driven;
 /// indices.
 const TICKS: u64 = 5200;
 
-/// Middles of the windows of counted ticks: ticks at which a list doubles its capacity, the curves of a page are
-/// merged, or a window of 5 s of the ride indices ends.
+/// Instructions are counted in windows of ticks with these middles: ticks at which a list doubles its capacity, the
+/// curves of a page are merged, or a 5 s interval of the ride indices ends.
 const WINDOWS: [u64; 5] = [512, 1024, 2048, 4096, 5000];
 
 /// Number of counted ticks before the middle of a window, and from the middle on.

@@ -135,7 +135,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
     }
 
     /// Computes the forces like [`forces`](WheelsetContact::forces), and writes them over those of the previous step,
-    /// which saves a copy.
+    /// which avoids a copy.
     ///
     /// Does not allocate if the source is [`Tables`].
     #[inline]

@@ -161,8 +161,8 @@ impl RollingRadiusDifference {
         Some(0.5 * CONTACT_DISTANCE_M * radius_m * (tau / wavelength).powi(2))
     }
 
-    /// Finds the left and right turning points of the motion about `centre` whose distance is closest to `distance`, by
-    /// bisection.
+    /// Finds, by bisection, the left and the right turning point of the motion about `centre` for which the distance
+    /// between them is closest to `distance`.
     fn turning_points(&self, centre: f64, distance: f64) -> Option<(f64, f64)> {
         let (mut low, mut high) = (0.0, centre - self.lateral[0]);
         let mut turning = None;

@@ -77,7 +77,7 @@ impl<'a, C: Clock> Pass<'a, C> {
         }
     }
 
-    /// True if ticks or time are left. If the time is limited, the first tick always runs.
+    /// True if ticks or time are left. With a time limit, always true before the first tick.
     fn has_ticks_left(&self) -> bool {
         match self.length {
             Length::Ticks(ticks) => self.ticks < ticks,

@@ -37,7 +37,7 @@ impl RealtimeOptions {
     /// Applies the options to the calling thread.
     ///
     /// # Errors
-    /// At least one option is set; all options need Linux.
+    /// An option is set: every option needs Linux.
     pub fn apply(&self) -> Result<(), RealtimeError> {
         let options = [
             self.fifo_priority.map(RealtimeOption::FifoPriority),

@@ -120,7 +120,7 @@ impl Mdf {
     }
 
     /// Returns the declared number of rows of a group. The library silently reads fewer rows if data are missing, so
-    /// this compares both numbers.
+    /// this compares the declared number with the number that the library finds.
     fn check_rows(&self, group: &ChannelGroup) -> Result<u64, FileError> {
         let offset = group.block_offset() + CYCLE_COUNT;
         let bytes = self.file.read_raw(offset, 8);

@@ -178,7 +178,7 @@ impl Lines {
         })
     }
 
-    /// Line of the last record if no record follows and it has no line end.
+    /// Line of the record read last, if the file ends after it without a line end.
     fn unended_line(&self) -> Option<u64> {
         self.is_unended.then(|| self.line())
     }

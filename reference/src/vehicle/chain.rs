@@ -77,7 +77,7 @@ impl Chain {
         }
     }
 
-    /// Force (N) at a displacement from the piston (m).
+    /// Force (N) at a displacement relative to the piston (m).
     pub(super) fn force(&self, range: usize, from_piston: f64) -> f64 {
         let (direction, sign) = self.working(range);
         let stretch = sign * from_piston - self.half_clearance;

@@ -149,8 +149,8 @@ fn maxwell_element_under_harmonic_motion() {
         let ratio = (omega * tau).powi(2);
         let in_phase = stiffness * ratio / (1.0 + ratio);
         let dynamic = damping / (1.0 + ratio);
-        // Linear interpolation at w dt = 2 pi/5000 weakens the harmonic by (w dt)^2/12. Aliases from beyond the
-        // sampling rate, where the element is a spring, add an error of the same size.
+        // Linear interpolation at w dt = 2 pi/5000 weakens the harmonic by (w dt)^2/12. Frequencies above the sampling
+        // rate, at which the element acts as a spring, alias and add an error of the same size.
         let allowed = stiffness * (2.0 * PI / per_cycle as f64).powi(2) / 6.0;
         let (k, c) = (scale * sine, scale * cosine / omega);
         assert!((k - in_phase).abs() < allowed, "{frequency} Hz: {k} N/m");

@@ -17,7 +17,8 @@ fn an_undisturbed_wagon_does_not_move() {
             .enumerate()
         {
             for k in 0..5 {
-                // The axles start with the rotation of their most loaded patches and settle without moment.
+                // The axles start with free rolling of their most loaded patches; then their rotation settles until the
+                // moment about the axle is zero.
                 let allowed = if body > 0 && k == 3 { 1e-5 } else { 1e-8 };
                 let largest = q[k].abs().max(v[k].abs());
                 assert!(

@@ -86,8 +86,8 @@ pub fn fitted_share(
 /// Returns the radius (m) of round bosses for the correction factor `factor`; the hole has `hole_share` of this radius.
 ///
 /// # Errors
-/// Returns an error if no radius has this correction factor, from nearly zero to where the bosses meet the clamp, the
-/// edge or each other.
+/// Returns an error if no radius has this correction factor. The radii range from nearly zero to the one at which the
+/// bosses meet the clamp, the edge or each other.
 pub fn fitted_boss_radius_m(
     stack: &Stack,
     bosses: RoundBosses,

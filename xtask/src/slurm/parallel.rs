@@ -53,7 +53,7 @@ fn run(trial: &Trial) -> Outcome<bool> {
     Ok(output.status.success())
 }
 
-/// Reads parallel's log: the shards in the order in which they ended, each with `true` if it failed.
+/// Reads GNU parallel's log: the shards in the order in which they ended, each with `true` if it failed.
 fn runs(log: &str) -> Outcome<Vec<(u64, bool)>> {
     let run = |line: &str| {
         let columns: Vec<&str> = line.split('\t').collect();
@@ -62,7 +62,7 @@ fn runs(log: &str) -> Outcome<Vec<(u64, bool)>> {
         Some((job.checked_sub(1)?, *columns.get(6)? != "0"))
     };
     let runs: Option<Vec<(u64, bool)>> = log.lines().skip(1).map(run).collect();
-    runs.ok_or_else(|| format!("this is not a log of parallel: {log}"))
+    runs.ok_or_else(|| format!("this is not a log of GNU parallel: {log}"))
 }
 
 #[cfg(test)]

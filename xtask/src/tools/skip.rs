@@ -10,8 +10,8 @@ use crate::target_toolchain::TargetToolchain;
 /// Environment variable that names the file in which skipped tests are listed.
 pub const SKIPPED: &str = "DASHPOT_SKIPPED";
 
-/// Returns true if all of `tools` are installed. A test that gets `false` returns without testing `skipped`, which is
-/// printed at once and in the summary of `cargo xtask test`.
+/// Returns true if all of `tools` are installed. A test that gets `false` returns. `skipped` describes what it then
+/// leaves untested; this is printed at once and in the summary of `cargo xtask test`.
 ///
 /// # Panics
 /// A tool is missing and the variable `CI` is set: CI must not skip tests.

@@ -56,7 +56,7 @@ pub enum ImageError {
     /// A number in the table's piece with this index (from 0) is not finite.
     #[error("piece {0} of the table has a number that is not finite")]
     Piece(u32),
-    /// The revision does not match the constants, so no build produced them.
+    /// The revision does not match the constants, so they do not come from the build of a damper.
     #[error("the revision does not match the constants: no build produced them")]
     Revision,
     /// A constant outside the table is not finite or is out of range.

@@ -313,7 +313,7 @@ impl HealthReport {
             writeln!(
                 out,
                 "warning: the force contradicted the damper model for a long time and the estimate was restarted: \
-                 check that the force is of this damper"
+                 check that the force belongs to this damper"
             )?;
         }
         writeln!(out, "wrote {}", self.page)

@@ -94,7 +94,7 @@ impl<S: Simd> Contact<f64x4<S>> {
     /// [`is_loaded`](super::is_loaded).
     #[inline(always)]
     pub(super) fn are_loaded(&self, load: f64x4<S>) -> bool {
-        // Two negative semi-axes have a negative sum, and a product that overflows is infinite.
+        // `mean_axis` is negative if both semi-axes are, and `length` is infinite if their product overflows.
         let min = load.min(self.force).min(self.length).min(self.mean_axis);
         let max = self.force.max(self.length).max(self.mean_axis);
         are_within(min, 0.0, f64::MAX) & are_within(max, 0.0, f64::MAX)
