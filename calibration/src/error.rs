@@ -81,8 +81,8 @@ pub enum CalibrationError {
     },
     /// The bounds are not in order or out of range.
     #[error(
-        "{key}: bounds {} to {}, allowed: the lower bound first, within {allowed}, and above 0 on a logarithmic scale; \
-         default: {:e} to {:e}",
+        "{key}: bounds {} to {}; the lower bound must come first, both must be within {allowed}, and both must be \
+         above 0 if the parameter has a logarithmic scale; default: {:e} to {:e}",
         bounds[0],
         bounds[1],
         plausible[0],
@@ -99,7 +99,7 @@ pub enum CalibrationError {
         plausible: [f64; 2],
     },
     /// The start is outside the bounds.
-    #[error("{key}: the damper has {start}, outside the bounds {} to {}", bounds[0], bounds[1])]
+    #[error("{key}: the damper has the value {start}, outside the bounds {} to {}", bounds[0], bounds[1])]
     Start {
         /// Key of the parameter.
         key: String,
@@ -109,7 +109,7 @@ pub enum CalibrationError {
         bounds: [f64; 2],
     },
     /// The mean of a prior is outside the bounds.
-    #[error("{key}: prior mean {mean} outside the bounds {} to {}", bounds[0], bounds[1])]
+    #[error("{key}: the prior mean {mean} is outside the bounds {} to {}", bounds[0], bounds[1])]
     Prior {
         /// Key of the parameter.
         key: String,

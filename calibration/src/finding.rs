@@ -102,7 +102,8 @@ impl fmt::Display for Finding {
             } => write!(
                 f,
                 "{test}: a motion of +-{amplitude_m:.3} m at {velocity_m_per_s:.3} m/s; a damper moves by at most \
-                 {MAX_AMPLITUDE_M} m, and this one follows at most {max_velocity_m_per_s} m/s (limits.rate_m_per_s)"
+                 {MAX_AMPLITUDE_M} m, and this one follows motions of at most {max_velocity_m_per_s} m/s \
+                 (limits.rate_m_per_s)"
             ),
             Self::Missed {
                 test,

@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut forces_n = [0.0; 12];
     let mut check = Check::START;
     for tick in 0..1000 {
-        // 0.02 m/s for the first damper, less for each following one.
+        // The velocity is 0.02 m/s for the first damper and smaller for each following one.
         let displacements_m =
             core::array::from_fn(|index| 0.02e-3 * tick as f32 / (1.0 + index as f32));
         step_bank(&dampers, &mut states, &displacements_m, &mut forces_n);

@@ -58,9 +58,9 @@ impl<T: Real> Damper<T> {
 
     /// Returns a state at rest at `displacement` (m), centred in the clearance, without force.
     ///
-    /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected, counted and latched
-    /// as [`Status::INPUT_HELD`]. The state then starts at an end of the range. The first good displacement is usually
-    /// too far from that end to catch up with, so the damper restarts at this displacement without force.
+    /// A displacement that is not finite, or larger than [`Damper::largest_displacement_m`], is rejected, counted and
+    /// latched as [`Status::INPUT_HELD`]. The state then starts at an end of the range. The first good displacement is
+    /// usually too far from that end to catch up with, so the damper restarts at this displacement without force.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
         if self.is_displacement(displacement) {
             let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
@@ -72,8 +72,8 @@ impl<T: Real> Damper<T> {
         DamperState::new(numbers, self.revision, Status::INPUT_HELD, 1)
     }
 
-    /// Largest displacement from zero that a step follows (m). A larger displacement is held, like one that is not
-    /// finite.
+    /// Largest displacement from zero that a step follows (m). In place of a larger one, or of one that is not finite,
+    /// the step holds the last displacement.
     pub fn largest_displacement_m(&self) -> T {
         self.scalars.max_displacement()
     }
@@ -98,8 +98,8 @@ impl<T: Real> Damper<T> {
         self.scalars.half_clearance + self.scalars.half_clearance
     }
 
-    /// Force at which the element yields (N). No step returns more. At most [`MAX_FORCE_N`], even with damaged
-    /// constants.
+    /// Force at which the element yields (N). No step returns more. The limit is at most [`MAX_FORCE_N`], even with
+    /// damaged constants.
     pub fn force_limit_n(&self) -> T {
         let limit = self.scalars.half_force_limit + self.scalars.half_force_limit;
         let max = T::from_f64(MAX_FORCE_N);

@@ -1,5 +1,5 @@
-//! A slow check that finds bits flipped in a damper's constants while they are in use. Each call checks one slice in
-//! constant time.
+//! A slow check that finds flipped bits in the constants of a damper while the damper runs. Each call checks one slice
+//! in constant time.
 
 use crate::damper::Damper;
 use crate::real::Real;

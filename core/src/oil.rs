@@ -52,7 +52,7 @@ impl Oil {
 }
 
 impl OilColumn {
-    /// Relative loss of volume of the mixture under a gauge pressure P (Pa), from its volume at atmospheric pressure:
+    /// Loss of volume of the mixture under a gauge pressure P (Pa), relative to its volume at atmospheric pressure:
     /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` (1).
     pub fn compression(&self, pressure_pa: f64) -> f64 {
         (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa

@@ -69,7 +69,7 @@ pub(crate) trait Scalar: Lanes<Self, 1> {
     #[cfg(feature = "builder")]
     const ZERO_TABLE: Table<Self>;
 
-    /// Returns the number whose bits are twice the bits of this one, which must be a magnitude below 1.5.
+    /// Doubles the bits of this number, read as an integer; the number must not be negative and must be below 1.5.
     ///
     /// The result lets the step compare the magnitude of another number with this one in one instruction instead of
     /// three.

@@ -5,7 +5,7 @@ use crate::real::Real;
 
 /// Largest bound on moves and stretches (m), which covers the longest range of displacement.
 ///
-/// Doubling the bits of a number above 1.5 would give NaN.
+/// It must be below 1.5, because doubling the bits of a larger number would give NaN.
 pub(crate) const MAX_BOUND_M: f64 = 1.45;
 
 /// Constants of a damper outside its table, in SI units and in the order in which the step reads them.
@@ -22,14 +22,14 @@ pub struct Scalars<T> {
     pub(crate) rest_rounder: T,
     /// Step (s).
     pub(crate) step_s: T,
-    /// Largest stretch without flow (m): half the clearance plus the held stretch.
+    /// Largest stretch without flow (m): half the clearance plus the stretch that seal friction holds.
     pub(crate) offset: T,
     /// Start of the first piece of each side (m), a power of two.
     pub(crate) first_knot: T,
     /// Half the clearance, a (m).
     pub(crate) half_clearance: T,
-    /// Half the force at which the element yields (N). The step doubles it, because a sum is never a signalling NaN:
-    /// compilers then compute the minimum of the sum and the force in one instruction.
+    /// Half the force at which the element yields (N). The step adds it to itself to get the limit. A sum is never a
+    /// signalling NaN, so compilers can compute the minimum of limit and force in one instruction.
     pub(crate) half_force_limit: T,
     /// Stretch of the mount under seal friction (m).
     pub(crate) held: T,

@@ -44,7 +44,7 @@ impl DamperState<f32> {
 }
 
 impl<T: Real> Default for DamperState<T> {
-    /// At rest at 0, without a damper. The first damper that steps it adopts it.
+    /// At rest at 0, without a damper. The first damper that steps this state adopts it.
     fn default() -> Self {
         Self::new([T::ZERO; 4], 0, Status::empty(), 0)
     }
@@ -108,7 +108,7 @@ impl<T: Real> DamperState<T> {
         Status::from_bits_truncate(self.status_word)
     }
 
-    /// Number of ticks at which the displacement was held or limited or the damper restarted, up to 65535.
+    /// Number of ticks at which the displacement was held or limited, or at which the damper restarted; up to 65535.
     pub fn rejected_inputs(&self) -> u16 {
         self.rejected_inputs
     }

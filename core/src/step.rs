@@ -3,11 +3,11 @@
 //! With the stretch `u = x - x_r` of clearance and springs, the chain `x = g + delta(F) + x_r`, `dx_r/dt = v_h(F)` is
 //! the single equation `du/dt = dx/dt - f(u)`, where `f = v_h(F(u))` is zero in the clearance and increases beyond it.
 //!
-//! A step has two implicit stages (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the
-//! tick). It then corrects the flow by the difference between its exact mean along the straight path of the step and
-//! the quadrature of the stages. The correction vanishes for linear f, so the stages determine stability and order. If
-//! f has a root (orifice) or a corner (clearance edge) inside the step, the correction removes the leading error. See
-//! docs/numerics.md.
+//! A step has two implicit stages. They are Alexander's SDIRK2 with gamma = 1 - 1/sqrt 2, which has second order, is
+//! L-stable and has its last stage at the tick. The step then corrects the flow: the correction is the exact mean of
+//! the flow along the straight path of the step, minus the quadrature of the stages. For linear f the correction is
+//! zero, so the stages alone determine stability and order. If f has a root (orifice) or a corner (clearance edge)
+//! inside the step, the correction removes the leading error. See docs/numerics.md.
 
 use crate::damper::Damper;
 use crate::math::Lanes;
@@ -141,8 +141,8 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     let change = travel - quadrature;
     let end = start + change;
 
-    // The potential gives the mean flow along the straight path. The square of `bend` corrects it, because the first
-    // stage is not on the path.
+    // The change of the potential gives the mean flow along the straight path. The square of `bend` corrects this mean,
+    // because the first stage is not on the path.
     let end_potential = last.potential();
     let area = end_potential - potential + bend * bend;
     let max_correction = (change * V::splat(MAX_CORRECTION)).abs();

@@ -3,8 +3,8 @@
 //! The knots are at the corners of the law, with more between them where the law is curved, so they are not equally
 //! spaced. The reach of a stage is its stretch plus gamma times its flow. Bins find the piece that contains a reach.
 //! The exponent and the leading bits of the fraction of the reach select a bin, with 128 bins for each doubling. A bin
-//! contains the index of the piece at its lower border. At most [`KNOTS_PER_BIN`] knots lie within a bin, so this
-//! number of comparisons finds the piece.
+//! contains the index of the piece at its lower border. At most [`KNOTS_PER_BIN`] knots lie within a bin, so that many
+//! comparisons find the piece.
 
 use crate::bins::{BINS, bin_shift};
 use crate::checksum;

@@ -66,7 +66,7 @@ impl<const N: usize> Telemetry<N> {
             let _ = self.samples.pop_front();
             self.overwritten = self.overwritten.saturating_add(1);
         }
-        // There is room, unless N is 0: then no sample is kept.
+        // There is room unless N is 0, in which case no sample is kept.
         let _ = self.samples.push_back(sample);
     }
 

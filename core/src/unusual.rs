@@ -6,20 +6,21 @@ use crate::stages::state_at_force;
 use crate::state::DamperState;
 use crate::status::Status;
 
-/// Longest time in which the damper may catch up with its input, at its largest rate (s). If the input is farther away,
-/// the force falls from its limit to zero in the same time.
+/// Longest time that the damper may take, at the largest rate, to catch up with its input (s). If the input is farther
+/// away, the force falls from its limit to zero in the same time.
 const CATCH_UP_S: f64 = 0.01;
 
-/// Smallest decrease of the force in a step, as a fraction of the force limit (1). It is that of the shortest step.
+/// Smallest decrease of the force in a step, as a fraction of the force limit (1). It is the decrease in a step of the
+/// shortest allowed length.
 const MIN_FALL: f64 = 1e-4;
 
 /// Makes the state valid for the damper and returns the travel (m) of this step towards the displacement (m).
 ///
 /// - An impossible state restarts at rest; a state of another damper is adopted.
-/// - A displacement that is not finite or out of range is held.
+/// - In place of a displacement that is not finite or out of range, the last one is held.
 /// - A displacement that is too fast is followed at the largest rate if it can be reached within [`CATCH_UP_S`].
-/// - A displacement farther away is held while the force falls to zero; then the damper restarts at rest at the
-///   displacement.
+/// - For a displacement farther away, the last one is held while the force falls to zero; then the damper restarts at
+///   rest at the new displacement.
 ///
 /// The status latches each of these; the last three are counted.
 #[inline(never)]
@@ -85,7 +86,7 @@ fn restart<T: Real>(
         (Status::empty(), 0)
     };
     *state = damper.at_rest(displacement);
-    // `at_rest` counts a displacement that it rejects, but `hold` counts it too.
+    // `at_rest` counts a displacement that it rejects, which `hold` counts too. The old count is therefore restored.
     state.rejected_inputs = count;
     state.latch(status | cause);
 }

@@ -65,7 +65,7 @@ pub enum LinkError {
     #[error("the target computes in f64, but this host computes in f32")]
     DoublePrecision,
     /// The target was replaced during the run.
-    #[error("the target that answers is not the one at the start")]
+    #[error("the target that answers now is not the one that answered at the start")]
     OtherTarget,
 }
 

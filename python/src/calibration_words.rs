@@ -45,8 +45,8 @@ fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
     let tried = "no sign, unit, bound or preset that was tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
-            "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit \
-             anyway, {}",
+            "{what}\n  {tried}: this damper model lacks an effect that the recordings contain; to accept the \
+             closest fit anyway, {}",
             said.join(", or ")
         ),
         Finding::AtBound { .. } => format!(

@@ -25,8 +25,8 @@ pub struct Channels {
 /// Selection of one channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channel {
-    /// Name in the file, with or without its unit, or number from 1. If a channel has the name `2`, write the number as
-    /// `#2`.
+    /// Name in the file, with or without its unit, or number from 1. If the name of a channel is `2`, write `#2` for
+    /// channel number 2.
     pub name: Option<String>,
     /// Unit; replaces the unit stated in the file.
     pub unit: Option<Unit>,

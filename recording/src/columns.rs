@@ -87,7 +87,7 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     })
 }
 
-/// Returns for each column whether all its cells are numbers or empty and at least one is a number.
+/// For each column, returns true if at least one cell is a number and all others are numbers or empty.
 fn numbers(from: &Path, texts: &[&str]) -> Result<Vec<bool>, FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;

@@ -50,7 +50,7 @@ pub struct ChannelOverview {
     pub rows: u64,
     /// Number of rows that are marked invalid or have no finite number.
     pub invalid: u64,
-    /// First number, in the unit of the file (like `last`, `min` and `max`).
+    /// First number. It is in the unit of the file, as are `last`, `min` and `max`.
     pub first: Option<f64>,
     /// Last number.
     pub last: Option<f64>,
@@ -98,8 +98,8 @@ struct TimeScan {
     regular: RegularIntervals,
 }
 
-/// Mean and spread of the regular intervals (up to [`super::GAP_IN_MEDIANS`] times the running mean), computed with
-/// Welford's method.
+/// Mean and spread of the regular intervals (those up to [`super::GAP_IN_MEDIANS`] times the running mean), computed
+/// with Welford's method.
 #[derive(Default)]
 struct RegularIntervals {
     count: u64,

@@ -138,7 +138,7 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         Ok(())
     }
 
-    /// Reads the next row and checks that it is not too long after the previous row and the first row.
+    /// Reads the next row and checks that its time is not too long after that of the previous row, or of the first row.
     fn read_row(&mut self) -> Result<Option<Row<N>>, FileError> {
         let Some(next) = self.rows.next_row()? else {
             return Ok(None);

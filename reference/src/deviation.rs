@@ -31,7 +31,7 @@ pub fn errors(actual: &[f64], expected: &[f64]) -> impl Iterator<Item = f64> {
     actual.iter().zip(expected).map(|(a, e)| a - e)
 }
 
-/// NRMSE (1): root mean square of [`errors`] over root mean square of `expected`.
+/// NRMSE (1): root mean square of [`errors`], divided by root mean square of `expected`.
 ///
 /// NaN if both are zero.
 ///

@@ -113,7 +113,7 @@ pub enum ReferenceError {
          {along} x {strips} not empty"
     )]
     RollingContact {
-        /// Semi-axis in the rolling direction over the lateral semi-axis.
+        /// Semi-axis in the rolling direction, divided by the lateral semi-axis.
         a_over_b: f64,
         /// Poisson's ratio.
         poisson_ratio: f64,
@@ -124,7 +124,7 @@ pub enum ReferenceError {
     },
     /// The tractions of a rolling contact do not converge.
     #[error(
-        "reference: the tractions do not converge at the creepages {creepage:?}, divided by mu N / (G a b)"
+        "reference: the tractions do not converge at the creepages {creepage:?} (each divided by mu N / (G a b))"
     )]
     RollingDiverges {
         /// Scaled longitudinal, lateral and spin creepage.

@@ -167,8 +167,8 @@ pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
         ),
         (
             HealthStatus::SEVERAL_CHANGED,
-            "do not trust the estimates: two or more of flow, stiffness and clearance have changed together, as with a \
-             wrong scale or sign of a sensor or a stuck displacement; check the sensors",
+            "do not trust the estimates: two or more of flow, stiffness and clearance have changed together, as \
+             they do if a sensor has the wrong scale or sign, or if the displacement is stuck; check the sensors",
         ),
         (
             HealthStatus::MISFIT,

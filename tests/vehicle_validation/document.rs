@@ -39,9 +39,10 @@ absolute values.
   including its interval, is less than a quarter of the slope below. **Limited fluctuation** holds if the range of the means is
   within {LIMITED_PERCENT} % of their mean; it has no interval. *Not shown* means that the interval includes the bound.
 
-Of {} claims tested with an interval, {holds} hold and {not} do not (not shown: {not_shown}). One in twenty fails by chance, and all
-share the same irregularities. Of {} more claims of limited fluctuation, {} hold. This is an easy test for a vehicle whose
-lateral dampers have little effect in a curve.
+Of {} claims tested with an interval, {holds} hold and {not} do not (not shown: {not_shown}). One claim in twenty fails by chance, and all
+claims are tested on the same irregularities.
+Of {} more claims of limited fluctuation, {} hold. This is an easy test for a vehicle whose lateral dampers have
+little effect in a curve.
 
 {}
 {}
@@ -235,7 +236,7 @@ also resist pitch.
 **12d: above 2.5 mm** the index keeps rising, because our dampers move further than that on class 6. [Out of
 service](out-of-service.md) continues to 12 mm, where a damper has hardly any effect.
 
-**15a, 15b, vertical index: the point is decisive.** Lateral dampers cause no vertical motion on the centre line of a symmetric
+**15a, 15b, vertical index: the measurement point is decisive.** Lateral dampers cause no vertical motion on the centre line of a symmetric
 vehicle; the coupling that the paper reports is roll. At points 1 m to the side of the pivots, as in the rules for coaches, the
 vertical index rises with C and Vr of the lateral dampers, for long and short waves.
 
@@ -245,11 +246,11 @@ that.
 **15d:** the paper reports a slight fall. Here it is a slight rise, and a slight fall on track with the German spectrum.
 
 **17d is not reproduced:** {} % instead of +9.28 %. With friction 0.2 and 0.4 it is {} and {} %; at 80 and 90 km/h {} and {} %; with the stops 20 mm
-further out {} %; in curves of 300 m and 600 m at 70 km/h {} and {} %. The two lateral dampers of a bogie exert at most 12.6 kN
-and, 1 m ahead of and behind its middle, 12.6 kN m (C Vr is 6.3 kN), with a mean of zero. The curve requires about 100 kN, so
-steering determines Y/Q. A play of 1.5 mm changes the fluctuation of Y/Q, not its root mean square; flutter of the flange at 60 to
-120 Hz decides the sign of such a small change. The maxima change in the published direction: the maximum over all wheels of Y/Q
-averaged over 2 m changes by {} % at 2 mm and {} % at 3 mm. Fig. 18a shows the same: larger coefficients occur more often.
+further out {} %; in curves of 300 m and 600 m at 70 km/h {} and {} %. A lateral damper exerts at most C Vr, 6.3 kN.
+The two of a bogie therefore exert at most 12.6 kN and, 1 m ahead of and behind its middle, a moment of at most 12.6 kN m; both have
+a mean of zero. The curve requires about 100 kN, so steering determines Y/Q. A play of 1.5 mm changes the fluctuation of Y/Q, not its root mean square; flutter of the flange at 60 to
+120 Hz decides the sign of such a small change. The maxima change in the published direction: the maximum over all wheels of Y/Q,
+averaged over 2 m, changes by {} % at 2 mm and {} % at 3 mm. Fig. 18a shows the same: larger coefficients occur more often.
 ",
         of_row(compared, "17d", "RMS_Dc"),
         of_17d("17d friction", Some("0.2")),
@@ -302,7 +303,7 @@ fn coupling(paper: &Kept) -> String {
     format!(
         "## Other influences
 
-- The vertical index is {over:.2} over the bogies and {middle:.2} in the middle, so a published value must state its point.
+- The vertical index is {over:.2} over the bogies and {middle:.2} in the middle, so a published value must state its measurement point.
 - The normal damping of the contact is 5 s/m, and the locomotive has no yaw dampers. Its flanges strike the rails at 180 km/h on
   class 6 ([vehicle.md](vehicle.md)), which raises the lateral index.
 "

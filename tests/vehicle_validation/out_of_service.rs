@@ -144,11 +144,11 @@ pub fn text(kept: &Kept) -> String {
         "# When should a damper be taken out of service?
 
 `cargo xtask vehicle-validation` writes this page from the {} runs in `data/studies/rows/out-of-service.csv`. `dashpot sweep
-out-of-service` draws the figures over 8 seeds. Ride: straight track of class 6 at 180 km/h for 5 s, seeds 1 to {SEEDS}. Hunting: ideal
-track after a push to the flange. The vehicle is the public stand-in of [the validation](vehicle-validation.md). Other vehicles
-have other limits, so run the study with yours (`vehicle = \"...\"`).
+out-of-service` draws the figures over 8 seeds. The ride is computed on straight track of class 6 at 180 km/h for 5 s, with seeds
+1 to {SEEDS}; hunting is computed on ideal track after a push to the flange. The vehicle is the public
+stand-in of [the validation](vehicle-validation.md). Other vehicles have other limits, so run the study with yours (`vehicle = \"...\"`).
 
-As new: clearance 2a of 0.5 mm, effective stiffness Ke of 8 MN/m (lateral dampers 7 MN/m), oil at 20 °C. Our criterion is a **ride**
+A damper as new has a clearance 2a of 0.5 mm, an effective stiffness Ke of 8 MN/m (lateral 7 MN/m), and oil at 20 °C. Our criterion is a **ride**
 {WORSE_PERCENT} % worse than new (Sperling's index, maximum of three points; {WORSE_PERCENT} % correspond to 18 % more acceleration). Brackets contain
 the limits for the two ends of the index's confidence interval. Each limit is for a single fault.
 
@@ -167,13 +167,13 @@ the limits for the two ends of the index's confidence interval. Each limit is fo
   and the effects add up: 3 MN/m alone {} %, 2 mm alone {} %, together {} %. If both faults are present, the limits above
   are too wide.
 - **A single worn vertical damper is not felt:** {} % at 12 mm, {} % at 0.25 MN/m. Only an inspection or its own force reveals it.
-- **A bogie with all vertical dampers loose** changes the maximum over the points by {} % (rear, 12 mm) or {} % (front), and the
+- **A bogie with all vertical dampers loose** changes the maximum of the index over the points by {} % (rear, 12 mm) or {} % (front), and the
   middle by {} and {} %. The rougher rear masks a worn front bogie in the maximum, so compare the point above each bogie.
-- **The index scatters from track to track:** by {scatter:.1} % between windows of 5 s (standard deviation over the seeds). Detecting {WORSE_PERCENT} %
-  takes about {windows:.0} windows before and the same number after; a single record of 5 s is not sufficient. The intervals here are
+- **The index scatters from track to track:** by {scatter:.1} % between windows of 5 s (standard deviation over the seeds). Detecting a change of {WORSE_PERCENT} %
+  takes about {windows:.0} windows before the change and the same number after it; a single record of 5 s is not sufficient. The intervals here are
   narrow only because both runs have the same irregularities.
 - **Wear of lateral dampers affects the wheels, not the ride.** At 12 mm the lateral index changes by {} %, the leading
-  wheelset's Y/Q (rms) by {} % and its lateral force (rms) by {} %; at 0.25 MN/m by {}, {} and {} %. The maximum of
+  wheelset's Y/Q (rms) by {} % and its lateral force (rms) by {} %; at 0.25 MN/m these change by {}, {} and {} %. The maximum of
   Y/Q exceeds Nadal's limit in {} runs as new, in {} at 12 mm, and in {} at 0.25 MN/m.
 - **Lateral clearance permits hunting:** above the critical speed the wheelsets move by about half the clearance, even as new, and
   more at higher speed (table below); at 180 km/h they do not hunt. Choose the permitted clearance for the maximum speed, with a

@@ -89,7 +89,7 @@ impl fmt::Display for Warning {
             } => write!(
                 f,
                 "{wheelset}, {side} wheel: no load for {duration_s:.3} s from {time_s:.3} s on, {distance_m:.1} m \
-                 along the track; {} of more than {WARN_LIFT_S} s: the vehicle was near derailment",
+                 along the track; in all {} of more than {WARN_LIFT_S} s, so the vehicle was near derailment",
                 counted(*times, "lift")
             ),
         }

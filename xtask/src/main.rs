@@ -27,7 +27,7 @@ Commands:
                          package and check the bounds of the command's build
   firmware               build the images for the target
   target [--format json] measure the core on emulated processors against its budget
-  bench                  measure time per step, next to that of the yardstick and of a bare table look-up
+  bench                  measure time per step, compared with a plain Newton step and with a bare table look-up
   bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
   c-library [--target NAME]... [--output FOLDER]
                          build the C library into an install tree for each target: cortex-m4f, cortex-m7, cortex-m33,
@@ -41,12 +41,12 @@ Commands:
   kalker-book            compute the tables of the recommended creep law from exact theory (about fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md and write it (about six minutes)
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
-  python                 install the Python packages that tests need in target/python, and maturin in target/maturin
+  python                 install into target/python the Python packages that tests need, and maturin into target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
-  fuzz [--seconds N]     run each fuzz target from its kept seeds for N seconds, 60 by default (needs a nightly
-                         compiler)
-  slurm                  run shards of a study on a real Slurm, started for this with one node, and on GNU parallel (two
-                         minutes; installs Debian's slurm-wlm, munge and parallel, or prints how to)
+  fuzz [--seconds N]     run each fuzz target for N seconds, 60 by default, starting from its kept seeds (needs a
+                         nightly compiler)
+  slurm                  start a Slurm with one node, and run shards of a study on it and on GNU parallel (two minutes;
+                         installs Debian's slurm-wlm, munge and parallel, or prints how to)
   help                   print this text
 
 Example: cargo xtask test

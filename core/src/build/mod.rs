@@ -155,7 +155,7 @@ fn first_knot(reach: f64) -> f64 {
     end / f64::from(1_u32 << DOUBLINGS)
 }
 
-/// Returns the span (m) whose unit in the last place is the grid of positions.
+/// Returns a power of two (m), the span, whose unit in the last place is the grid of positions.
 ///
 /// Moves are at most half of the span. The span is at least 2^-7 m, which gives a grid of 2^-30 m in `f32`.
 fn position_span(max_move: f64) -> f64 {

@@ -26,8 +26,8 @@ pub(super) struct Stage<'a> {
     pub(super) branch: &'a Branch<'a>,
     pub(super) step_s: f64,
     pub(super) first_knot: f64,
-    /// Flow at low force times the step (m). It is added to the scale of relative errors, because smaller errors hardly
-    /// matter at higher forces.
+    /// Flow at low force times the step (m). Errors are divided by a scale that includes this flow, because errors far
+    /// below it hardly matter at higher forces.
     floor: f64,
 }
 

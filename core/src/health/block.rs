@@ -15,7 +15,7 @@ pub(crate) struct Gathered {
     travels: f32,
     positions: f32,
     forces: f32,
-    /// Sum of force times ticks from the centre of the block (N).
+    /// Sum of the forces, each times its distance in ticks from the centre of the block (N).
     moment: f32,
     slopes: f32,
     lowest: f32,

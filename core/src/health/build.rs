@@ -10,13 +10,13 @@ use crate::parameters::Element;
 /// Duration of a block, whose samples form one measurement (s). It is short compared with the motion of a vehicle. At
 /// 1 kHz a block has eight ticks, one for each part of the filter's work.
 const BLOCK_S: f64 = 8e-3;
-/// Longest time without contact after which the estimate still uses a crossing of the clearance (s).
+/// Longest crossing of the clearance, without contact, that the estimate still uses (s).
 const MAX_CROSSING_S: f64 = 0.5;
 /// Force above which the ends are in contact, in standard deviations of the force noise (1).
 const CONTACT_DEVIATIONS: f64 = 4.0;
 /// Fraction of the yield force below which the element certainly does not yield (1).
 const UNYIELDING: f64 = 0.98;
-/// Ratio of the memory of the lag to that of the other parameters (1). The lag hardly changes with age.
+/// The lag is remembered longer than the other parameters by this factor (1), because it hardly changes with age.
 const LAG_MEMORY: f64 = 20.0;
 
 /// Prior standard deviation of the force offset (N).

@@ -19,7 +19,8 @@ const OUTLIER: f32 = 900.0;
 const OUTLIER_SURPRISE: f32 = 25.0;
 /// Largest number of consecutive outliers. One more restarts the estimate.
 const MAX_OUTLIERS: u16 = 12;
-/// The filter forgets only after a block whose information exceeds this multiple of the usual forgetting (1).
+/// The filter forgets only after an informative block: the share of its expected variance that is due to the parameters
+/// exceeds this multiple of the usual growth of their variances (1).
 const MIN_INFORMATION_SHARE: f32 = 0.25;
 /// Contact is certain if the squared excess of the force over the contact threshold is at least this multiple of the
 /// variance of the force offset (1).
@@ -160,7 +161,7 @@ impl Health {
         }
     }
 
-    /// Leaves out a sample. Its block gives no measurement.
+    /// Leaves out a sample; the block of this sample gives no measurement.
     #[cold]
     #[inline(never)]
     fn reject(&mut self, displacement: f32, model: &HealthModel) {
@@ -192,7 +193,7 @@ impl Health {
             + model.law_variance * (block.travel * block.travel);
         let zero_slip = flow * (block.slope * model.block_s);
         let friction_slip = zero_slip.copysign(block.force);
-        // The block was corrected with the estimates at its start.
+        // The block was already corrected with the estimates at its start, so only their changes since then count.
         let (zero, friction) = (zero - block.zero, friction - block.friction);
         self.filter
             .travel(block.travel, [zero_slip, friction_slip], variance);

@@ -45,7 +45,8 @@ impl Follow {
         beyond: 0,
     };
 
-    /// Resets to the state before the first block. No force is near this value, so the first block starts a run.
+    /// Resets to the state before the first block. No real force is near the force set here, so the first block starts
+    /// a run.
     pub(crate) fn begin(&mut self) {
         self.force = f32::MAX;
     }

@@ -30,8 +30,8 @@ pub(crate) struct Piece {
 /// Healthy state of a damper with its uncertainty.
 ///
 /// These are plain numbers, which you can store with the documents of the damper.
-/// [`HealthReading::as_baseline`](super::HealthReading::as_baseline) returns the baseline of a run with the new damper;
-/// [`HealthModel::set_baseline`] uses it.
+/// [`HealthReading::as_baseline`](super::HealthReading::as_baseline) returns the baseline from a run with the damper
+/// when it is new; [`HealthModel::set_baseline`] uses it.
 #[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[non_exhaustive]
 #[repr(C)]
@@ -98,7 +98,7 @@ impl Default for HealthLimits {
 /// negative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "a baseline must be finite, its flow factor and compliance positive, its deviations not negative"
+    "a baseline must be finite, with a positive flow factor, a positive compliance and no negative deviation"
 )]
 #[non_exhaustive]
 pub struct BaselineError;
@@ -151,7 +151,8 @@ pub struct HealthModel {
     pub(crate) per_block_s: f32,
     /// Centre of a block in ticks from its first tick.
     pub(crate) block_centre: f32,
-    /// Factor that converts the sum of force times ticks from the centre into the rate of the force (1/s).
+    /// Factor (1/s) that gives the rate of the force from the sum of the forces, each times its distance in ticks from
+    /// the centre.
     pub(crate) rate_scale_per_s: f32,
     /// Force above which both ends are in contact in spite of noise (N).
     pub(crate) contact_force_n: f32,

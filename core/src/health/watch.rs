@@ -18,7 +18,8 @@ const FITS_AGAIN: f32 = 0.2;
 const CONVERGING: f32 = 1.0;
 /// Correlation that occurs by chance (1).
 const CHANCE: f32 = 0.1;
-/// Factor that converts the remaining correlation into variance inflation (1). Correlated errors do not average out.
+/// Increase of the variance inflation per unit of correlation above chance (1), because correlated errors do not
+/// average out.
 const REPEATED: f32 = 6.0;
 /// Largest ratio of a standard deviation to its alarm limit (1). Above it, there is too little excitation.
 const KNOWN: f32 = 0.5;

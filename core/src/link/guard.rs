@@ -4,7 +4,7 @@ use super::limits::MAX_DAMPERS;
 use super::loaded::Loaded;
 use crate::integrity::Check;
 
-// There is one bit for each damper.
+// The masks of damaged dampers have one bit for each damper.
 const _: () = assert!(MAX_DAMPERS <= u16::BITS as usize);
 
 /// Progress of the check, damaged dampers (one bit each), and forces from before any damage.

@@ -225,7 +225,7 @@ pub struct Forces {
     pub forces_n: Reals,
     /// Latched [`Status`](crate::Status) bits of each damper.
     pub status: PerDamper<u16>,
-    /// Duration of stepping the bank in clock ticks.
+    /// Time that the step of all dampers took, in clock ticks.
     pub clock_ticks: u32,
 }
 

@@ -1,4 +1,4 @@
-//! A bank of dampers served over a serial link: commissioning and processor-in-the-loop.
+//! A bank of dampers served over a serial link, for commissioning and processor-in-the-loop tests.
 //!
 //! Messages are encoded with postcard and framed with COBS and a CRC-32; docs/link.md has the tables and the rules. The
 //! module does not depend on the processor: firmware adds a UART, a tick and a clock.

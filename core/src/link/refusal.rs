@@ -44,7 +44,7 @@ pub enum Refusal {
     NeedsRebuild,
     /// A value is not finite or is out of range.
     #[error(
-        "the target refused a value that is not finite or out of range; allowed: a clearance of {clearance}, \
+        "the target refused a value that is not finite, or is out of range; allowed: a clearance of {clearance}, \
          finite displacements, a loss of link after 1 tick or more, 1 to {MAX_MEASURED} whole samples",
         clearance = Mount::RANGES.clearance_m.allowed
     )]
@@ -69,8 +69,8 @@ pub enum Refusal {
     /// The link was lost. The safe outputs remain until the next run.
     #[error("the target lost the link; its outputs stay safe until you run it again")]
     LinkLost,
-    /// Memory of this damper was damaged. The safe outputs remain until the next run. Load damaged constants again
-    /// before that run.
+    /// Memory of this damper was damaged. The safe outputs remain until the next run. If its constants were damaged,
+    /// load the damper again before that run.
     #[error(
         "the memory of damper {0} was damaged; the outputs stay safe until you load the damper again and run the target"
     )]

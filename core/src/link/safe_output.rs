@@ -72,7 +72,7 @@ impl<const N: usize> Watch<N> {
         self.silent_ticks = 0;
     }
 
-    /// Starts again when the free-running tick starts or stops.
+    /// Sets both counts to zero when the free-running tick starts or stops.
     pub(crate) fn restart(&mut self) {
         self.alive();
         self.safe_ticks = 0;

@@ -154,7 +154,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 return Ok(Response::Welcome(self.welcome()));
             }
             Request::Hello { .. } => return Err(Refusal::Protocol(PROTOCOL)),
-            // `load_slice` then loads the image.
+            // The image itself is loaded later, by `load_slice`.
             Request::Load { damper, .. } => self.loaded.require_damper(*damper)?,
             Request::Set {
                 damper,
@@ -245,7 +245,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 self.loaded.clear_status();
                 return Ok(cleared);
             }
-            // `load_slice` then loads the image.
+            // The image itself is loaded later, by `load_slice`.
             Request::LoadHealth { damper, .. } => {
                 self.loaded.require_damper(*damper)?;
                 self.watched.require_slot(*damper)?;

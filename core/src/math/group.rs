@@ -134,7 +134,7 @@ macro_rules! group {
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                // One instruction on x86-64. On other processors `max` would return NaN if a number is NaN.
+                // On x86-64, `max` is one instruction. On other processors it would return NaN if a number is NaN.
                 if cfg!(target_arch = "x86_64") {
                     self.zip(other, |v, other| v.max(other))
                 } else {

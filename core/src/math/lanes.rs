@@ -71,7 +71,7 @@ macro_rules! single_lane {
             fn abs(self) -> Self {
                 $float::abs(self)
             }
-            // One instruction on each machine. The variants differ only for NaN and signed zeros.
+            // Each variant is one instruction on its processors. The variants differ only for NaN and signed zeros.
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 if cfg!(target_arch = "arm") {

@@ -183,7 +183,7 @@ parameters! {
         /// Largest credible rate of the displacement input (m/s); a faster input is followed at this rate and flagged.
         rate_m_per_s: f64 = 2, 1e-3 to 100 "m/s";
         /// Largest credible displacement from zero in either direction (m): half the stroke plus the offset of the
-        /// sensor's zero from mid-stroke. An input beyond it is held and flagged.
+        /// sensor's zero from mid-stroke. In place of an input beyond it, the last input is held and a flag is set.
         displacement_m: f64 = 0.5, 1e-3 to 0.7 "m";
     }
 }

@@ -70,7 +70,10 @@ fn main() -> ! {
 
 fn measure(watch: &Watch<'_>, printer: &mut Printer) {
     let Ok(model) = HealthModel::from_image(watch.model) else {
-        let _ = writeln!(printer, "the samples have no health model of this core");
+        let _ = writeln!(
+            printer,
+            "the samples contain no valid health model for this core"
+        );
         return;
     };
     let call = timed(nothing as *const (), [0; 5]);

@@ -256,7 +256,10 @@ fn main() -> ! {
 fn measure(experiment: &Experiment<'_>, printer: &mut Printer) {
     let read = |image| Damper::<f32>::from_image(image);
     let (Ok(damper), Ok(other)) = (read(experiment.damper), read(experiment.other)) else {
-        let _ = writeln!(printer, "the experiment has no damper of this core");
+        let _ = writeln!(
+            printer,
+            "the experiment contains no valid damper for this core"
+        );
         return;
     };
     let call = timed(nothing as *const (), [0; 5], 0.0).ticks;

@@ -238,7 +238,7 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
     if let Some((gaps, longest)) = gaps.and_then(|gaps| Some((gaps, gaps.longest?))) {
         writeln!(
             out,
-            "warning: {} (over {GAP_IN_MEDIANS} times the median interval); the longest lasts {} s from {} s",
+            "warning: {} (over {GAP_IN_MEDIANS} times the median interval); the longest lasts {} s and begins at {} s",
             counted(gaps.count, "gap"),
             longest.duration_s,
             nearest_nanosecond(longest.start_s)

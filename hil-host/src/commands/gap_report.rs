@@ -24,7 +24,7 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
     writeln!(
         out,
         "warning: {} in the recording (intervals over {GAP_IN_MEDIANS} times the median of {median_s} s); the longest \
-         lasts {} s from {} s (before {}); the motion is interpolated linearly",
+         lasts {} s and begins at {} s (before {}); the motion is interpolated linearly",
         counted(gaps.count, "gap"),
         longest.duration_s,
         longest.start_s,

@@ -18,7 +18,8 @@ pub struct LineArguments {
 /// Link options that apply to all kinds of links.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args)]
 pub struct LineOptions {
-    /// First timeout for a response, ms; doubles after each timeout, up to eight times the first and 12 s.
+    /// First timeout for a response, ms. It doubles after each timeout, but does not grow beyond eight times the first
+    /// or beyond 12 s.
     #[arg(
         long,
         default_value_t = TIMEOUT_MS,

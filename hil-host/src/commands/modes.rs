@@ -29,7 +29,8 @@ pub struct ModesArguments {
     /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3. May be repeated.
     #[arg(long = "set", value_name = "PART.KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// Speed on straight track, km/h [default: standstill]. S1002 wheels on UIC 60 rails at 1:40.
+    /// Speed on straight track, km/h [default: standstill]. The wheels have the profile S1002, the rails UIC 60 at an
+    /// inclination of 1:40.
     #[arg(long, value_name = "KM/H")]
     pub speed_km_h: Option<f64>,
     /// Search up to 500 km/h for the linear critical speed, at which a mode becomes unstable, and for the nonlinear

@@ -79,7 +79,7 @@ fn the_commands_report_gaps() {
         let output = dashpot(&arguments, &root).success();
         let text = text_of(&output);
         let expected = "warning: 1 gap in the recording (intervals over 5 times the median of 0.002 s); \
-                        the longest lasts 0.0422 s from 1.9979 s (before line 1009)";
+                        the longest lasts 0.0422 s and begins at 1.9979 s (before line 1009)";
         assert!(text.contains(expected), "{text}");
         let output = dashpot(&[&arguments[..], &["--format", "json"]].concat(), &root);
         let gaps = &json_of(&output)["gaps"];

@@ -44,7 +44,7 @@ fn jitter_gaps_and_repeated_times_are_reported() {
         "3  note               text                7         7",
         "time t: 0.104 s, from 0 s to 0.104 s; 1000 Hz, intervals deviate by 0 s rms",
         "warning: the time does not increase at 1 row; `replay` rejects this",
-        "warning: 1 gap (over 5 times the median interval); the longest lasts 0.1 s from 0.003 s",
+        "warning: 1 gap (over 5 times the median interval); the longest lasts 0.1 s and begins at 0.003 s",
         "to replay: dashpot replay --input run.csv --time t --displacement x --output force.csv",
     ] {
         assert!(text.contains(expected), "{text} lacks {expected}");

@@ -3,7 +3,7 @@
 use crate::math::dual::Dual;
 use crate::math::number::Number;
 
-/// Position and velocity of a wheelset: yawed first, then rolled about the rail's direction.
+/// Position and velocity of a wheelset, which is first yawed and then rolled about the rail's direction.
 ///
 /// The fields are the complete rigid-body state over the rails; none will be added.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -136,7 +136,8 @@ impl TurnedWheel<'_> {
         zone: Range<f64>,
         softness: f64,
     ) -> Option<Summit> {
-        // A sample represents the wheel halfway to its neighbours, as far as that lies within the zone.
+        // A sample represents the stretch of the wheel that reaches halfway to each of its neighbours, as far as this
+        // stretch lies within the zone.
         let points = self.pair().wheel().points();
         let middle = |i: usize, j: usize| 0.5 * (points[i].y_m + points[j].y_m);
         let left = |i: usize| middle(i.saturating_sub(1), i);

@@ -17,7 +17,7 @@ use crate::creep::CreepLaw;
 use crate::math::each::Each;
 use crate::math::number::{Number, load, rows};
 
-/// Sign in each lane of quantities that change sign when mirrored about the track centre.
+/// Factor of each lane for quantities that change sign when mirrored about the track centre.
 const SIDES: [f64; 4] = [-1.0, 1.0, -1.0, 1.0];
 
 #[inline(always)]

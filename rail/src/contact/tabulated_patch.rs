@@ -6,12 +6,13 @@ use super::patches::Patch;
 use crate::creep::{KalkerCoefficients, KalkerTable};
 
 /// Minimum transverse curvature of a patch, 1/m. Where the surfaces fit more closely, as in a flange root, the load
-/// spreads over the whole width, which equals that of an ellipse with this curvature.
+/// spreads over the whole width of the fit, which is the width of an ellipse with this curvature.
 pub const MIN_CURVATURE_PER_M: f64 = 0.5;
 
 /// Load fraction below which a patch is raised off the rail, so that the step need not evaluate it.
 const LIGHT_FRACTION: f64 = 1e-3;
-/// Amount by which a patch is raised for each factor of `e` by which its load fraction is below [`LIGHT_FRACTION`], m.
+/// Height by which a patch is raised if its load fraction is [`LIGHT_FRACTION`] divided by `e`, m; with each further
+/// division by `e` it is raised by this height again.
 const LIFT_M: f64 = 0.1e-3;
 
 /// Length of a packed [`PatchNumbers`]: three vectors of four.

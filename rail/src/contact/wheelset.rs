@@ -156,8 +156,8 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
     /// Computes the forces like [`update`](WheelsetContact::update), and returns the derivatives of force and moment on
     /// the left and the right wheel with respect to every field of [`Motion`].
     ///
-    /// The derivatives with respect to the lateral and vertical displacement and velocity of a wheel's own rail are the
-    /// negatives of those with respect to the wheelset's.
+    /// For the lateral and vertical displacement and velocity of a wheel's own rail, the derivatives are the negatives
+    /// of those for the displacement and velocity of the wheelset.
     #[inline]
     pub fn update_with_derivatives(
         &self,

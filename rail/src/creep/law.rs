@@ -46,8 +46,8 @@ pub trait CreepLaw: Send + Sync {
         )
     }
 
-    /// `[longitudinal force, lateral force, moment]` of four contacts, each lane as [`CreepLaw::forces`]; zero in lanes
-    /// that are not `used`.
+    /// `[longitudinal force, lateral force, moment]` of four contacts, in each lane equal to [`CreepLaw::forces`]; zero
+    /// in lanes that are not `used`.
     ///
     /// The default evaluates the lanes one after the other. Override it only for speed.
     #[inline(always)]

@@ -11,8 +11,8 @@ const RATE_HZ: [f64; 2] = [400.0, 1e6];
 /// Applies a [`Weighting`] to an acceleration sample by sample.
 ///
 /// Each factor of the transfer function is discretised by the bilinear transform, exact at its corner frequency. At 1
-/// kHz the gain is within 0.5 % of that of the weighting up to 40 Hz. The filter starts in the steady state of the
-/// first sample.
+/// kHz the gain is within 0.5 % of that of the weighting up to 40 Hz. The filter starts in the steady state for a
+/// constant input that equals the first sample.
 ///
 /// ```
 /// use dashpot_rail::indices::{Weighting, WeightingFilter};

@@ -57,7 +57,8 @@ pub(crate) fn level() -> Level {
 
 #[inline(always)]
 fn is_fused<S: Simd>(simd: S) -> bool {
-    // Fused multiply-add leaves a residual of the square that separate rounding loses.
+    // Fused multiply-add keeps the rounding error of the square, which is lost if product and sum are rounded
+    // separately.
     let factor = f64x4::splat(simd, 1.0 + f64::EPSILON);
     let square = f64x4::splat(simd, -1.0 - 2.0 * f64::EPSILON);
     <[f64; 4]>::from(simd.mul_add_f64x4(factor, factor, square))[0] != 0.0

@@ -4,8 +4,8 @@
 use nalgebra::linalg::{Hessenberg, balancing::balance_parlett_reinsch};
 use nalgebra::{Complex, DMatrix};
 
-/// Interval of exceptional shifts, in iterations for one eigenvalue. The usual shifts can make the iteration cycle; an
-/// exceptional shift breaks the cycle.
+/// Number of iterations for one eigenvalue from one exceptional shift to the next. The usual shifts can make the
+/// iteration cycle; an exceptional shift breaks the cycle.
 const EXCEPTIONAL_EACH: usize = 10;
 
 /// Maximum iterations for one eigenvalue, per row of the matrix; an eigenvalue usually takes three in all.
@@ -316,7 +316,7 @@ mod tests {
         let oscillator = DMatrix::from_row_slice(2, 2, &[-0.4, -100.0, 1.0, 0.0]);
         let rate = (100.0 - 0.04_f64).sqrt();
         check(&oscillator, &[[-0.2, -rate], [-0.2, rate]], 1e-13);
-        // Overdamped by eight decades: the slow eigenvalue has no cancellation error.
+        // The motion is strongly overdamped. Its slow eigenvalue must not have a cancellation error.
         let stiff = DMatrix::from_row_slice(2, 2, &[-1e8, -1.0, 1.0, 0.0]);
         let found = sorted(&stiff);
         assert!((found[0][0] / -1e8 - 1.0).abs() < 1e-15, "{found:?}");

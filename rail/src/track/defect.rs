@@ -170,8 +170,8 @@ impl Defect {
 
     /// Checks the bounds of all values.
     pub(super) fn check(&self, place: Place) -> Result<(), TrackError> {
-        // A rounding must not be longer than the straight line it joins: the roundings at the two ends of the line each
-        // take up to half of it.
+        // A rounding must not be longer than the straight line that it joins, because the roundings at the two ends of
+        // the line each take up to half of it.
         let rounding = |value: f64, straight_m: f64| {
             within(place, "rounding_m", value, [1e-3, straight_m.max(1e-3)])
         };

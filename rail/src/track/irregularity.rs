@@ -107,7 +107,7 @@ impl Irregularity {
         if position < 0.0 || position >= last as f64 {
             return [Channels::default(); 2];
         }
-        // The index of NaN is 0; `t` stays NaN.
+        // For a NaN distance, the index is 0 and `t` is NaN.
         let index = (position as usize).min(last - 1);
         let (from, to) = (&self.nodes[index], &self.nodes[index + 1]);
         let t = position - index as f64;

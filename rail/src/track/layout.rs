@@ -164,7 +164,7 @@ impl Layout {
             let start = match part.constant() {
                 Some(constant) => {
                     let before_m = end.map_or(constant.cant_m, |end| end.cant_m);
-                    // The end of a transition differs by rounding only.
+                    // The tolerance allows for rounding errors at the end of a transition.
                     if (before_m - constant.cant_m).abs() > 1e-9 {
                         return Err(TrackError::CantJump {
                             place,

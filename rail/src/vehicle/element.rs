@@ -119,8 +119,8 @@ pub enum Law {
     },
     /// A hydraulic damper along one direction. Both ends are at the same point.
     ///
-    /// In the linear equations it is a Maxwell element for small motion with its clearance taken up: the secant of its
-    /// characteristic in series with the stiffness of its mounts.
+    /// In the linear equations it is a Maxwell element: a dashpot in series with the stiffness of the mounts. The
+    /// dashpot has the secant of the damper characteristic in small motion, with the clearance taken up.
     Damper {
         /// Direction of the axis.
         direction: Direction,

@@ -25,8 +25,8 @@ pub struct Running {
 const DISPLACEMENT_FIELDS: [Option<usize>; COORDINATES.len()] =
     [Some(1), Some(2), Some(3), None, Some(4)];
 
-/// Index of the field of [`Motion`](crate::contact::Motion) for the rate of each coordinate, and its sign: rolling
-/// forward is nose down.
+/// Index of the field of [`Motion`](crate::contact::Motion) for the rate of each coordinate, and its sign. The spin
+/// rate has the opposite sign, because rolling forward is a rotation nose down.
 const RATE_FIELDS: [(usize, f64); COORDINATES.len()] =
     [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 

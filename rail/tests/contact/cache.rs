@@ -72,7 +72,7 @@ fn a_wrong_or_damaged_file_is_replaced() {
         assert!(same(&computed, &again));
         assert_eq!(fs::read(&file).unwrap(), whole);
     }
-    // A complete file with this key but other nodes, as from another method: the tables of another load.
+    // A complete file with this key but the nodes of another load, as if another method had computed them.
     let other = tempfile::tempdir().unwrap();
     Tables::cached(other.path(), geometry(90e3), grid()).unwrap();
     let [strange] = <[PathBuf; 1]>::try_from(files(other.path())).unwrap();

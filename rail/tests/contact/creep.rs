@@ -30,8 +30,9 @@ fn laws_follow_the_creep_curve_of_exact_theory() {
             worst = worst.max(off.abs());
         }
         println!("{name}: within {:.1} % of exact theory", worst * 100.0);
-        // The literature states "about 5 %". The errors are inherent in the formulas of the laws, for FASTSIM on any
-        // mesh (its closed form is in `fastsim.rs`). Relative to the friction limit they are 4.2, 5.5 and 3.6 %.
+        // The literature states errors of "about 5 %". They are inherent in the formulas of the laws. FASTSIM has them
+        // on any mesh; its closed form is in `fastsim.rs`. Relative to the friction limit the errors are 4.2, 5.5 and
+        // 3.6 %.
         let known = match name {
             "FASTSIM 80 x 81" => 0.054,
             "Polach" => 0.059,
@@ -49,7 +50,8 @@ fn small_creepages_are_linear() {
             let cases = [
                 (1e-7, 0.0, 0.0),
                 (0.0, -1e-7, 0.0),
-                // Polach couples sliding and spin; each alone is linear.
+                // Spin is tested alone, because Polach's law is linear in sliding alone and in spin alone, but not in
+                // both together.
                 (0.0, 0.0, 1e-5),
             ];
             for (longitudinal, lateral, spin) in cases {

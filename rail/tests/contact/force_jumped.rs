@@ -84,7 +84,7 @@ fn a_worn_wheel_whose_force_jumps_is_rejected_with_its_pose() {
     let size = format!("jumps by {jump_n:.0} N under a load of {load_n:.0} N");
     let text = error.to_string();
     assert!(text.contains(&place) && text.contains(&size), "{text}");
-    // The force from the geometry itself.
+    // The same change of the force, computed from the geometry itself.
     let found = change_n(&geometry, &pose, load_n);
     assert!(
         (found / jump_n - 1.0).abs() < 0.6 && found > 0.1 * load_n,

@@ -148,7 +148,7 @@ fn the_rigid_search_agrees_with_the_dense_search() {
             found.interpenetration_m,
             found.wheel_y_m
         );
-        // The error of the position of a flat maximum is the square root of the error of its height.
+        // At a flat maximum, the error of the position grows with the square root of the error of the height.
         let width = (2.0 * 0.3e-6 / found.curvature_per_m.max(0.5)).sqrt() + 20e-6;
         assert!(
             (found.wheel_y_m - s).abs() < width,

@@ -220,7 +220,7 @@ fn the_recommended_law_is_exact_theory() {
 
 #[test]
 fn tables_keep_their_bounds() {
-    // The penetration of a wheel is about 60 um; 20 um of its radius matter for the conicity.
+    // The penetration of a wheel is about 60 um. An error of 20 um in its radius would matter for the conicity.
     let errors = table_errors();
     assert!(errors[0].1 < 0.5 && errors[0].2 < 10.0, "{errors:?}");
     assert!(errors[1].1 < 80.0, "{errors:?}");

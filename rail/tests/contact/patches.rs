@@ -27,7 +27,7 @@ fn changed(profile: &Profile, name: &str, change_mm: impl Fn(f64) -> f64) -> Pro
     Profile::through(name, &points, 0.0).unwrap()
 }
 
-/// A hump of `height_mm` at `at_mm`; raises the surface of a rail.
+/// A hump of `height_mm` at `at_mm`, which raises the surface of a rail.
 fn hump(y_mm: f64, at_mm: f64, height_mm: f64) -> f64 {
     -height_mm * (-((y_mm - at_mm) / 3.0).powi(2)).exp()
 }

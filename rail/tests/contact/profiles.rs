@@ -56,8 +56,8 @@ fn splines_follow_the_definitions_with_their_curvatures() {
     for i in -6900..6000 {
         let s = f64::from(i) * 0.01;
         let off = wheel.at(s * 1e-3).z_m * 1e3 - s1002::depth_mm(s);
-        // The error of linear interpolation between samples 0.1 mm apart is h^2 / 8 R, more on the steep back of the
-        // flange.
+        // The error of linear interpolation between samples 0.1 mm apart is h^2 / 8 R. It is larger on the steep back
+        // of the flange.
         assert!(off.abs() < 2e-3, "{s}: {off} mm");
     }
     for sample in wheel.points() {
@@ -134,7 +134,7 @@ fn invalid_points_are_rejected() {
         refused(&nan, 0.0),
         CurveError::Point { index: 0, .. }
     ));
-    // Millimetres instead of metres.
+    // The points are in millimetres instead of metres.
     assert!(matches!(
         refused(&arc(1.0), 0.0),
         CurveError::TooLong { .. }

@@ -171,7 +171,7 @@ fn power_is_taken<L: CreepLaw>(
         .map(|k| (forces.force_n[k] * v[k]).abs() + (forces.moment_n_m[k] * turn[k]).abs())
         .sum();
     if motion.speed_m_per_s.abs() > 5.0 && forces.status <= Status::Climbing {
-        // Creepages are divided by hypot(V, 0.05 m/s), a difference of 5e-5 at 5 m/s.
+        // Creepages are divided by hypot(V, 0.05 m/s) instead of V. At 5 m/s the two differ by a fraction of 5e-5.
         assert!(
             (whole - normal_power + friction_power).abs() < 1e-4 * scale + 1e-3,
             "{motion:?}: {whole} {normal_power} {friction_power}"

@@ -160,7 +160,7 @@ fn normal_damping_is_that_of_hunt_and_crossley_and_never_pulls() {
         let expected = still * (1.0 + 3.0 * velocity * angle.cos());
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
     }
-    // Separating faster than 1/3 m/s: no load, but no pull either.
+    // If the surfaces separate faster than 1/3 m/s, the rail carries no load, but does not pull either.
     assert_eq!(load(&damped, -0.5), None);
     let apart = Motion {
         vertical_velocity_m_per_s: -0.5,

@@ -27,7 +27,8 @@ fn a_centred_wheelset_rests_level_at_hertz_s_penetration() {
     assert!((forces.force_n[2] + load).abs() < 1.0);
     assert!(forces.force_n[1].abs() < 1e-6 * load, "{forces:?}");
     let patch = single_patch(&forces.wheels[1]);
-    // The contact angle there is 1.9 degrees, the transverse curvature of the tread 1.2 per m.
+    // At the contact point of the centred wheel, the contact angle is 1.9 degrees and the transverse curvature of the
+    // tread 1.2 per m.
     let steel = Steel::default();
     let wheel = geometry().pair().turned(0.0, 0.0);
     let patches = wheel.patches(
@@ -57,7 +58,8 @@ fn a_centred_wheelset_rests_level_at_hertz_s_penetration() {
 #[test]
 fn a_shifted_wheelset_is_steered_back_and_friction_opposes_yaw() {
     // In free rolling at V / r, a shift to the right gives the right wheel the larger radius. Its surface slides
-    // backwards on the rail and is pushed forwards, the left wheel backwards, so the moment turns the nose to the left.
+    // backwards on the rail and is pushed forwards; the left wheel is pushed backwards. The moment therefore turns the
+    // nose to the left.
     let contact = polach();
     let motion = at_height_under_load(
         contact,

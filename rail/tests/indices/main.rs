@@ -123,7 +123,8 @@ fn the_filter_has_the_published_gains() {
             (Weighting::Horizontal, horizontal),
         ] {
             let mut filter = WeightingFilter::new(weighting, RATE_HZ).unwrap();
-            // Sine and cosine components over whole periods, after the corner at 0.4 Hz has settled.
+            // Finds the sine and cosine components over whole periods, after the filter (with its lowest corner at 0.4
+            // Hz) has settled.
             let period = (RATE_HZ / frequency).round();
             let settled = 20_000_u32;
             let cycles = (40.0 * frequency).ceil();

@@ -135,8 +135,8 @@ fn a_mirror_changes_the_side_in_the_axes_of_the_file() {
         assert!(deeper_at(&EXACT, file), "{}", file.0);
         assert!(!deeper_at(&mirrored(Mirror::Y), file), "{}", file.0);
     }
-    // A MiniProf rail may be either way up: a rotation by 180 degrees changes nothing, one mirrored axis swaps the
-    // sides.
+    // A MiniProf rail may be either way up. A rotation by 180 degrees therefore changes nothing, but one mirrored axis
+    // swaps the sides.
     assert!(deeper_at(&mirrored(Mirror::Yz), RAILS[1]));
     assert!(!deeper_at(&mirrored(Mirror::Z), RAILS[1]));
     let over = |mirror| {
@@ -179,7 +179,8 @@ fn the_steps_of_a_simpack_file_are_applied_in_order() {
         measured::parse("uic60.prr", &text, Body::Rail, &EXACT).unwrap()
     };
     let points = with("comment", "'none'").1.points;
-    // Bounds apply after the rotation, in the unit of the file, m: the field side ends at 20 mm.
+    // Bounds apply after the rotation and are in the unit of the file, the metre. The field side therefore ends at 20
+    // mm.
     let text_of_bounds = "-1\n  bound.y.max = 0.020\n  bound.y.min";
     let (cut, reading) = with("bound.y.min", &format!("{text_of_bounds} = -1"));
     let last = cut.points()[cut.points().len() - 1];

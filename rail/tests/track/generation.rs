@@ -111,7 +111,7 @@ fn deviations_start_and_end_smoothly_at_zero() {
             }
         }
     }
-    // The ramp itself, as the ratio of a long to a short one.
+    // The weight of the ramp follows from the ratio between a track with a long ramp and one with a short ramp.
     let ramped = |ramp_m| generation().with_ramp_m(ramp_m).irregularity().unwrap();
     let (short, long) = (ramped(1.0), ramped(200.0));
     for (distance_m, weight) in [

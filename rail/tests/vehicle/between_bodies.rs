@@ -27,7 +27,8 @@ fn pair(at: [f64; 3], law: Law) -> VehicleParameters {
         .with_elements([Element::new("link", ends, law)])
 }
 
-/// Lateral displacement, roll, and their rates of both bodies when a moment `link(roll, roll rate)` acts between them.
+/// Equations of motion of both bodies in lateral displacement and roll, with a moment `link(roll, roll rate)` between
+/// them.
 ///
 /// The load of the springs couples lateral and roll by half the weight: see the pendulum in `closed_forms`.
 fn lateral_and_roll(link: impl Fn(f64, f64) -> f64) -> impl Fn(&[f64; 8]) -> [f64; 8] {
@@ -98,8 +99,8 @@ fn a_bush_resists_and_damps_each_rotation_of_one_body_relative_to_the_other() {
     let rolling = [0.0, 5e-3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     let expected = runge_kutta(rolling, rate, 0.25e-3, 4, found.len());
     compare(&found, 2, expected.iter().map(|y| [y[1], y[3]]), 5e-3);
-    // Pitch and yaw of each body are oscillators. Springs 3 m ahead and behind hold both; those 1 m beside hold yaw as
-    // well.
+    // Pitch and yaw of each body are oscillators. The springs resist both, because they are 3 m ahead of and behind the
+    // centre. Their distance of 1 m to each side adds resistance to yaw.
     for (coordinate, inertia, springs, stiffness, damping, start) in [
         (3, PITCH_KG_M2, 9.0 * SPRINGS, 30e6, 200e3, 2e-3),
         (4, YAW_KG_M2, 10.0 * SPRINGS, 40e6, 300e3, -3e-3),

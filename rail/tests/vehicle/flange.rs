@@ -11,7 +11,7 @@ use dashpot_rail::vehicle::{
 use crate::support::{contact, run};
 
 /// Distance of the wheelset ahead of its body, m. The body follows the curve, so the angle of attack is this distance
-/// over the radius.
+/// divided by the radius.
 const AHEAD_M: f64 = 6.0;
 
 /// A wheelset guided by a body; an external force in place of a damper pushes it.

@@ -69,7 +69,7 @@ proptest! {
 
     #[test]
     fn modes_are_found_and_decay(vehicle in vehicle()) {
-        // A body beside its springs is rejected, or it falls over; then it does not oscillate.
+        // A body beside its springs is either rejected, or falls over without oscillating.
         let Ok(standstill) = Standstill::new(&vehicle) else { return Ok(()) };
         let modes = standstill.modes().unwrap();
         prop_assert!(modes.len() <= 10);

@@ -207,7 +207,7 @@ fn an_external_force_replaces_that_of_a_damper() {
     assert!(state.damper_displacements_m()[0].abs() < 1e-4);
 }
 
-/// Rails sink by the additional load over their stiffness.
+/// Rails sink by the additional load divided by their stiffness.
 #[test]
 fn supported_rails_sink_by_force_over_stiffness() {
     let support = RailSupport::new(60.0)

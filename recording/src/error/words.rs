@@ -9,7 +9,7 @@ const MAX_NAMES: usize = 12;
 /// Maximum length of a name in a message, in characters.
 const MAX_NAME_CHARACTERS: usize = 40;
 
-/// Returns a hint for a row with the wrong number of cells: decimal commas if it has twice the expected number.
+/// Returns a hint for a row with the wrong number of cells. Twice the expected number suggests decimal commas.
 pub(super) fn decimal_comma(cells: u64, expected: u64, separator: Separator) -> String {
     if cells == 2 * expected && separator == Separator::Comma {
         "; if the numbers have a decimal comma, quote them or separate the cells by another character".into()

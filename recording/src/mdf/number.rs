@@ -1,5 +1,5 @@
-//! Decoding of numbers in MDF4 channels. The library decodes most formats, but reads 16-bit floats as zeros and counts
-//! the rows of virtual channels from the wrong start.
+//! Decoding of numbers in MDF4 channels. The library decodes most formats, but reads 16-bit floats as zeros, and
+//! restarts the row numbers of virtual channels in each block of rows.
 
 use falcon_mdf::blocks::DataType;
 use falcon_mdf::{Channel, ChannelGroup, Conversion, Mf4Error, Signal, SignalValues};

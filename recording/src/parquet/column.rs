@@ -96,7 +96,7 @@ impl Column {
             Some(ColumnReader::Int64ColumnReader(reader)) if self.is_instant => {
                 let origin = &mut self.origin;
                 take(reader, present, count, values, |value| {
-                    // The difference wraps only if timestamps (in ns) are more than 292 years apart.
+                    // The difference of two timestamps (in ns) overflows only if they are more than 292 years apart.
                     value.wrapping_sub(*origin.get_or_insert(*value)) as f64
                 })
             }

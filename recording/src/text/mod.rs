@@ -53,9 +53,9 @@ struct Lines {
     /// Number of skipped lines before the first line of the reader.
     skipped: u64,
     count: Count,
-    /// Position of the end of the last record in bytes.
+    /// Position, in bytes, of the end of the record read last.
     end: u64,
-    /// True if no record follows and the last one has no line end.
+    /// True if the record read last is the last one of the text and has no line end.
     is_unended: bool,
 }
 
@@ -183,7 +183,7 @@ impl Lines {
         self.is_unended.then(|| self.line())
     }
 
-    /// Line of the last record.
+    /// Line of the record read last.
     fn line(&self) -> u64 {
         let (position, source) = (self.reader.position(), self.reader.get_ref());
         self.skipped + position.line() - u64::from(source.has_passed_line_feed(position.byte()))

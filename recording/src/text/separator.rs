@@ -44,8 +44,8 @@ fn share_of_numbers(head: &[u8], separator: Separator) -> Option<f64> {
     Some(numbers as f64 / cells.len().max(1) as f64)
 }
 
-/// Returns the separator with the most cells in the first row. Used if no separator fits all rows; reading then reports
-/// the row that does not fit.
+/// Returns the separator with the most cells in the first row. This is used if no separator fits all rows; reading then
+/// reports the row that does not fit.
 fn most_in_first_row(head: &[u8]) -> Separator {
     let cells = |separator| rows(head, separator).first().map_or(0, Vec::len);
     let mut best = (cells(Separator::Comma), Separator::Comma);

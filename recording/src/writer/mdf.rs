@@ -1,8 +1,8 @@
 //! Writes rows as MDF4: one group with the time as its master channel.
 //!
-//! The library can write only data that fit into memory. It therefore writes a file with one row; this module then
-//! replaces that row by all rows, and sets the row count in the two fields that contain it. Because the count precedes
-//! the rows, a temporary file keeps the rows until the count is known.
+//! The library can write only data that fit into memory. It is therefore used to write a file with a single row. This
+//! module then replaces that row by all rows, and sets the row count in the two fields that contain it. Because the
+//! count precedes the rows, a temporary file keeps the rows until the count is known.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Seek, Write};

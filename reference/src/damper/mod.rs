@@ -140,8 +140,9 @@ impl Reference {
 
     /// Returns the force (N) at a constant velocity (m/s) after the springs have settled; both are signed.
     ///
-    /// The force is the seal friction plus `A P`, where `v(P)` is the velocity, up to the force at which the damper
-    /// yields. At velocity 0 the result is 0, although any force up to the one that starts the piston is possible.
+    /// The force is the seal friction plus `A P`, where `P` is the pressure at which `v(P)` equals the velocity. It is
+    /// limited to the force at which the damper yields. At velocity 0 the result is 0, although any force up to the one
+    /// that starts the piston is possible.
     pub fn static_force(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;

@@ -10,8 +10,8 @@ use super::segment::{Integrator, Scales, Segment};
 use super::side::Side;
 use crate::error::ReferenceError;
 
-/// Seat velocity, relative to the typical velocity, below which the seats count as at rest: the equilibrium force and
-/// the neglected stretch are then below any tolerance.
+/// Seat velocity, relative to the typical velocity, below which the seats count as at rest, because the equilibrium
+/// force and the neglected stretch are then below any tolerance.
 const REST: f64 = 1e-8;
 
 /// Maximum number of mode changes within one linear piece; each side causes at most two, plus one per kink.

@@ -53,8 +53,7 @@ impl Fluid {
     }
 }
 
-/// Volume of air at gauge pressure over its volume at atmospheric pressure,
-/// `(p_a/(p_a + P))^(1/n)`.
+/// Volume of air at gauge pressure, divided by its volume at atmospheric pressure: `(p_a/(p_a + P))^(1/n)`.
 fn air_volume_ratio(column: &OilColumn, pressure: f64) -> f64 {
     (ATMOSPHERIC_PRESSURE_PA / (ATMOSPHERIC_PRESSURE_PA + pressure))
         .powf(1.0 / column.polytropic_exponent)
@@ -77,7 +76,7 @@ fn walther(oil: &Oil) -> f64 {
 /// One oil column as a spring under gauge pressure.
 #[derive(Clone, Debug)]
 pub(super) struct ColumnSpring {
-    /// Chamber volume over piston area (m).
+    /// Chamber volume divided by piston area (m).
     length: f64,
     column: OilColumn,
 }

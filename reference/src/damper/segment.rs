@@ -80,7 +80,7 @@ impl Segment {
         [distance, self.scaled_duration() - state[1]]
     }
 
-    /// Remaining time over its scale, a lower bound for the time on the clock.
+    /// Remaining time divided by its scale: a lower bound for the time on the clock.
     pub fn scaled_duration(&self) -> f64 {
         self.duration / self.scales.time
     }

@@ -231,8 +231,8 @@ impl Side {
     /// Derivatives of the coordinate, the time and the piston position with respect to the clock of [`super::segment`].
     ///
     /// The seats separate at `speed` (m/s); `knee` is the coordinate of the equilibrium at `speed`. The stretch `delta`
-    /// of the springs follows `d delta/dt = speed - v`. As `d delta/ds` vanishes with `s`, the clock
-    /// `dt/d tau = s/sqrt(s^2 + knee^2)` cancels this zero, and `s` passes 0 at a finite rate.
+    /// of the springs follows `d delta/dt = speed - v`. Where `s` is zero, `d delta/ds` is zero too. The clock
+    /// `dt/d tau = s/sqrt(s^2 + knee^2)` cancels this zero, so `s` passes 0 at a finite rate.
     pub(crate) fn rates(&self, y: f64, speed: f64, knee: f64) -> [f64; 3] {
         match &self.law {
             Law::Reduced { .. } => {

@@ -10,10 +10,11 @@ const ERROR_RATIO: f64 = 0.2;
 /// Rate of convergence above which an iteration counts as divergent.
 const MAX_RATE: f64 = 0.9;
 
-/// With new factors, the iteration assumes this ratio of error to last change until it knows a rate.
+/// Ratio of error to last change that the iteration assumes with new factors, until it knows its rate of convergence.
 const NEW_FACTORS: f64 = 20.0;
 
-/// With a new step length, the iteration assumes this ratio of error to last change until it knows a rate.
+/// Ratio of error to last change that the iteration assumes with a new step length, until it knows its rate of
+/// convergence.
 const NEW_LENGTH: f64 = 100.0;
 
 /// Exponent that reduces the assumed ratio from one stage to the next.

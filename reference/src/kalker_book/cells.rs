@@ -37,12 +37,12 @@ pub(super) fn direction(spin: usize, direction: usize) -> Direction {
     [cos_spin * cos, cos_spin * sin, sin_spin]
 }
 
-/// `(a + b)/2` over `sqrt(a b)`, the lever arm of spin if spin is large.
+/// `(a + b)/2` divided by `sqrt(a b)`: the lever arm of spin if spin is large.
 pub(super) fn spin_arm(a_over_b: f64) -> f64 {
     0.5 * (a_over_b.sqrt() + 1.0 / a_over_b.sqrt())
 }
 
-/// `(a^2 + b^2)/2` over `a b`, by which the book divides the scaled moments.
+/// `(a^2 + b^2)/2` divided by `a b`. The book divides the scaled moments by this ratio.
 pub(super) fn moment_arm(a_over_b: f64) -> f64 {
     0.5 * (a_over_b + 1.0 / a_over_b)
 }

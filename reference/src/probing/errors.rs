@@ -12,10 +12,10 @@ pub struct MotionErrors {
     pub largest_n: f64,
     /// Tick of the largest error.
     pub tick: usize,
-    /// RMS error over RMS force (1); the divisor is at least [`MIN_RMS_FORCE_RATIO`] of the force limit.
+    /// RMS error divided by RMS force (1); the divisor is at least [`MIN_RMS_FORCE_RATIO`] of the force limit.
     ///
-    /// For a motion in parts, this is the largest NRMSE of any part: no motion that joins and repeats these parts
-    /// exceeds it.
+    /// For a motion in parts, this is the largest NRMSE of any part, because no motion that joins and repeats these
+    /// parts can have a larger one.
     pub nrmse: f64,
     /// Largest force of the reference in extension and in compression (N).
     pub reference_peak_n: [f64; 2],

@@ -23,8 +23,8 @@ use crate::error::ReferenceError;
 pub const TOP_SPEED_M_PER_S: f64 = 0.6;
 
 /// Safety factor between [`Probing::largest_errors`] and the promised errors. The promise holds for every motion of the
-/// class defined in docs/numerics.md. The errors that the search for the worst motion (`cargo xtask search`) finds stay
-/// below it.
+/// class defined in docs/numerics.md. The search for the worst motion (`cargo xtask search`) finds only errors below
+/// the promised ones.
 pub const PROMISED_FACTOR: f64 = 3.0;
 
 /// Smallest promised error at a tick as a fraction of the force limit (1), in double and in single precision.

@@ -8,7 +8,8 @@ use crate::damper::side::Side;
 
 /// Number of halvings of the top speed.
 const OCTAVES: i32 = 11;
-/// Forces whose steady speeds the set includes, as fractions of the range from the closed force to the force limit.
+/// The set includes the steady speeds at these forces, given as fractions of the range from the closed force to the
+/// force limit.
 const FORCE_SHARES: [f64; 6] = [0.003, 0.03, 0.15, 0.4, 0.8, 1.0];
 /// Times between two turns of a saw, as fractions of the settling time of the force.
 const SAW_SHARES: [f64; 3] = [1.0, 0.35, 0.12];

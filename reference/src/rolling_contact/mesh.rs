@@ -16,7 +16,7 @@ pub(super) struct Element {
     pub(super) width: f64,
     /// Area of the element.
     pub(super) area: f64,
-    /// Load on the rectangle over its area.
+    /// Load on the rectangle, divided by its area.
     pub(super) pressure: f64,
 }
 

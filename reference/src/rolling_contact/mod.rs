@@ -2,10 +2,10 @@
 //! steady rolling, under Hertz pressure and Coulomb friction (Kalker, Three-Dimensional Elastic Bodies in Rolling
 //! Contact, 1990).
 //!
-//! The slip of the wheel's surface on the rail, over the speed, is `s = w - du/dx`, where `w = (xi - phi y, eta + phi
-//! x)` is the rigid slip and `u` the elastic displacement of the wheel's surface relative to the rail's. Without slip
-//! the traction is within the friction limit; with slip it has the magnitude of friction and opposes `s`. Axes and
-//! signs are those of [`dashpot_rail::creep`].
+//! The slip of the wheel's surface on the rail, divided by the speed, is `s = w - du/dx`, where
+//! `w = (xi - phi y, eta + phi x)` is the rigid slip and `u` the elastic displacement of the wheel's surface relative
+//! to the rail's. Without slip the traction is within the friction limit; with slip it has the magnitude of friction
+//! and opposes `s`. Axes and signs are those of [`dashpot_rail::creep`].
 //!
 //! It shares no law with the code that it checks: neither Kalker's coefficients nor a simplified elasticity.
 
@@ -22,10 +22,10 @@ use traction::traction;
 
 use crate::error::ReferenceError;
 
-/// Creepage over `mu N / (G a b)`: longitudinal, lateral, and spin times `sqrt(a b)`.
+/// Creepages divided by `mu N / (G a b)`: longitudinal, lateral, and spin times `sqrt(a b)`.
 pub type ScaledCreepage = [f64; 3];
 
-/// Longitudinal and lateral force over `mu N`, spin moment over `mu N sqrt(a b)`.
+/// Longitudinal and lateral force divided by `mu N`, and spin moment divided by `mu N sqrt(a b)`.
 pub type ScaledForces = [f64; 3];
 
 /// The iteration has converged if a sweep changes all tractions together by less than this fraction of `mu N`.
@@ -69,8 +69,8 @@ impl RollingContact {
 
     /// Number of elements per strip, and number of strips, that [`Self::new`] uses.
     ///
-    /// A strip must not be much wider than the contact is long, or the pole of spin jumps from strip to strip; an
-    /// element of a long contact is longer than its strip is wide.
+    /// A strip must not be much wider than the contact is long; otherwise the pole of spin jumps from strip to strip.
+    /// In a long contact, each element is longer than its strip is wide.
     pub fn usual_mesh(a_over_b: f64) -> [usize; 2] {
         let min_strips = 12.0 * (0.5 * a_over_b).max(1.0).powf(0.22);
         let strips = (10.0 / a_over_b).clamp(min_strips, 40.0).ceil();
@@ -225,7 +225,7 @@ impl RollingContact {
     }
 }
 
-/// Tractions of every element over `mu N / (a b)`.
+/// Tractions of every element, divided by `mu N / (a b)`.
 #[derive(Debug, Clone, Default)]
 pub struct Tractions {
     along: Vec<f64>,

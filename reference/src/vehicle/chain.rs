@@ -1,8 +1,8 @@
 //! A damper between two bodies: clearance, springs and velocity law of the reference damper. Its state is the position
 //! of its piston.
 //!
-//! Displacement and force are positive in extension. The displacement from the piston has seven ranges: yielding,
-//! flowing and held in compression, clearance, then held, flowing and yielding in extension.
+//! Displacement and force are positive in extension. The displacement relative to the piston has seven ranges:
+//! yielding, flowing and held in compression, clearance, then held, flowing and yielding in extension.
 
 use dashpot_core::DamperParameters;
 
@@ -24,7 +24,7 @@ const STEP_M: f64 = 1e-9;
 struct Direction {
     side: Side,
     yield_stretch: f64,
-    /// Slopes of force and velocity over stretch at the yield force (N/m, 1/s).
+    /// Derivatives of force and velocity with respect to stretch at the yield force (N/m, 1/s).
     slopes: [f64; 2],
 }
 
@@ -99,8 +99,8 @@ impl Chain {
         }
     }
 
-    /// Derivatives of the force (N/m) and of the piston velocity (1/s) with respect to the displacement from the
-    /// piston, and of the piston velocity with respect to the velocity of the ends (1).
+    /// Derivatives of the force (N/m) and of the piston velocity (1/s) with respect to the displacement relative to the
+    /// piston, and derivative of the piston velocity with respect to the velocity of the ends (1).
     ///
     /// Central differences are accurate enough for an iteration.
     pub(super) fn slopes(&self, range: usize, from_piston: f64) -> [f64; 3] {
@@ -126,7 +126,7 @@ impl Chain {
         self.ranges.margins(range, from_piston)
     }
 
-    /// Returns the new range, and the displacement from the piston, of a damper that was in `range`.
+    /// Returns, for a damper that was in `range`, the new range and the displacement relative to the piston.
     pub(super) fn settled(&self, range: usize, from_piston: f64, velocity: f64) -> (usize, f64) {
         let yields = |range: usize| {
             let (direction, sign) = self.working(range);

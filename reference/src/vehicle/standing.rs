@@ -21,7 +21,7 @@ pub(super) struct Standing {
     pub(super) vertical: f64,
     /// Load on the rails (N).
     pub(super) load: f64,
-    /// Speed over the rolling radius (rad/s).
+    /// Speed divided by the rolling radius (rad/s).
     pub(super) rotation: f64,
 }
 
@@ -101,7 +101,8 @@ impl Standing {
         let rails = [RailDisplacement::default(); 2];
         let mut rotation = speed / 0.5;
         let mut vertical = 0.0;
-        // The height depends slightly on the creep, and the rolling radius on the height.
+        // The height depends slightly on the creep, and the rolling radius on the height, so both are found by
+        // iteration.
         for _ in 0..4 {
             let at = |vertical: f64| Motion {
                 speed_m_per_s: speed,

@@ -42,7 +42,7 @@ pub const LAWS: [&str; 4] = [
     "Shen-Hedrick-Elkins",
 ];
 
-/// Y/Q of the right wheel for each friction and yaw by each of [`LAWS`].
+/// Y/Q of the right wheel according to each of [`LAWS`], for each friction and yaw.
 pub fn climbing() -> &'static [[[f64; 4]; YAWS_MRAD.len()]; FRICTIONS.len()] {
     static CLIMBING: OnceLock<[[[f64; 4]; YAWS_MRAD.len()]; FRICTIONS.len()]> = OnceLock::new();
     CLIMBING.get_or_init(|| {

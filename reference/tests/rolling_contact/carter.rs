@@ -6,8 +6,8 @@ use dashpot_reference::rolling_contact::RollingContact;
 
 const POISSON_RATIO: f64 = 0.28;
 
-/// Force over `mu N` of independent strips with `F/(mu P) = 1 - (1 - xi G/(2 mu p f))^2`, where `p` is the pressure at
-/// the middle of the strip and `f` is `1 - nu` for longitudinal and 1 for lateral creepage.
+/// Force, divided by `mu N`, of independent strips with `F/(mu P) = 1 - (1 - xi G/(2 mu p f))^2`, where `p` is the
+/// pressure at the middle of the strip and `f` is `1 - nu` for longitudinal and 1 for lateral creepage.
 fn carter(creepage: f64, flexibility: f64) -> f64 {
     let peak = 1.5 / PI;
     let count = 4000;

@@ -46,8 +46,8 @@ fn every_case_of_an_independent_solver() {
     let (force, moment) = ([rms(force[0]), force[1]], [rms(moment[0]), moment[1]]);
     println!("RMS and largest error, of friction: force {force:.4?}, moment {moment:.4?}");
     assert!(force[0] < 0.01 && moment[0] < 0.01, "{force:?} {moment:?}");
-    // The largest deviation is 1.7 %, or 2 % with five times as many elements. The mesh of the grid's solver explains
-    // it: Carter's closed form and Kalker's coefficients agree with ours within 1 %.
+    // The largest deviation is 1.7 %, or 2 % with five times as many elements. The mesh of the other solver is the
+    // cause, because Carter's closed form and Kalker's coefficients agree with our solver within 1 %.
     assert!(
         force[1] < 0.018 && moment[1] < 0.018,
         "{force:?} {moment:?}"

@@ -123,8 +123,8 @@ pub(super) fn check_arithmetic<'a>(
         Some(other) => {
             let (case, found) = (other.case, other.arithmetic);
             let reason = format!(
-                "case {case}: arithmetic {found}, allowed here: {expected}; rows of both kinds of \
-                 processors cannot be mixed"
+                "case {case}: arithmetic {found}, allowed here: {expected}; rows from processors \
+                 with different arithmetic cannot be mixed"
             );
             Err(RowsError::Foreign(FileError::in_file(path, reason)))
         }

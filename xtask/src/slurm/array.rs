@@ -49,7 +49,7 @@ pub fn resumed(trial: &Trial) -> Outcome<String> {
     }
     trial.merges_to_the_whole(ENDED)?;
     Ok(format!(
-        "of 6 cases each, {} and {} run now; the same bytes",
+        "6 cases per shard: {} and {} ran now; the same bytes",
         run[0], run[1]
     ))
 }
@@ -75,7 +75,7 @@ pub fn requeued(trial: &Trial) -> Outcome<String> {
     let run = resumes(trial, &job, 0, kept)?;
     trial.merges_to_the_whole(results)?;
     Ok(format!(
-        "of 6 cases, {kept} run before and {run} after; the same bytes"
+        "6 cases: {kept} ran before the requeue and {run} after it; the same bytes"
     ))
 }
 

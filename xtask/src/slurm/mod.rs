@@ -43,10 +43,13 @@ const CHECKS: [Check; 9] = [
         array::twice_at_once,
     ),
     (
-        "a task of 5 shards among 4: duplicate and missing cases named",
+        "one task with --shards 5 instead of 4: duplicate and missing cases named",
         array::wrong_count,
     ),
-    ("a task beyond the shards: refused", array::beyond),
+    (
+        "a shard number beyond the last shard: refused",
+        array::beyond,
+    ),
     (
         "GNU parallel with a failed shard: only that shard run again",
         parallel::one_failed,
@@ -81,7 +84,7 @@ pub fn slurm() -> Outcome {
     for (name, check) in CHECKS {
         failed += print_row(name, check(&trial));
     }
-    failed += print_row("Slurm stopped, nothing left", trial.node.end());
+    failed += print_row("Slurm stopped", trial.node.end());
     match failed {
         0 => Ok(()),
         _ => Err(format!(

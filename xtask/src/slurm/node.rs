@@ -70,7 +70,7 @@ impl Node {
         if !ended.success() || folder.exists() {
             return Err(format!("{ended}; {} remains", folder.display()));
         }
-        Ok("jobs, daemons and folder".into())
+        Ok("no job, daemon or folder is left".into())
     }
 
     /// Returns one of Slurm's commands.

@@ -30,7 +30,7 @@ const CHECK_BYTES: usize = 4;
 #[cfg_attr(feature = "link", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ImageError {
-    /// The bytes are truncated, too long, or from a core with another table.
+    /// The bytes are truncated, too long, or from a version of this crate with another table.
     #[error("{found} bytes, but a damper has {expected}")]
     Length {
         /// Number of bytes of an image.
@@ -60,7 +60,7 @@ pub enum ImageError {
     #[error("the revision does not match the constants: no build produced them")]
     Revision,
     /// A constant outside the table is not finite or is out of range.
-    #[error("a constant outside the table is not finite or out of range")]
+    #[error("a constant outside the table is not finite, or is out of range")]
     Scalars,
 }
 

@@ -66,7 +66,7 @@ pub struct CalibrateArguments {
     #[arg(long, value_name = "KEY=MEAN:DEVIATION")]
     prior: Vec<NamedPrior>,
     /// Use only the priors given by --prior, not the built-in ones (discharge coefficients, density and bulk modulus
-    /// of oil, steel).
+    /// of the oil, elastic modulus of steel).
     #[arg(long)]
     no_priors: bool,
     /// Assume that force and displacement were recorded simultaneously; otherwise the skew between them is identified.

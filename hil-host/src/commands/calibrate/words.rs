@@ -105,8 +105,8 @@ fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
     let tried = "no sign, unit, bound or preset that was tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
-            "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit \
-             anyway, {}",
+            "{what}\n  {tried}: this damper model lacks an effect that the recordings contain; to accept the \
+             closest fit anyway, {}",
             remedies.join(", or ")
         ),
         Finding::AtBound { .. } => format!(

@@ -30,9 +30,10 @@ pub(super) fn write(shown: &Demonstration) -> Outcome<String> {
         (figure(&figures::characteristics(&shown.benches), &characteristics)?)
         h2 { "Fixed step compared with reference" }
         p {
-            "Fixed step: two implicit stages from tables, with a fixed number of operations and only + − × ÷. \
-             Reference: an independent implementation of the same laws, with pressure and piston position as states, \
-             clearance and valve openings as events, and adaptive integration with a tolerance of 1e-12 per step. \
+            "The fixed step reads two implicit stages from tables, with a fixed number of operations and only + − × ÷. \
+             The reference is an independent implementation of the same laws. Its states are pressure and piston \
+             position, its events are the edges of the clearance and the valve openings, and it integrates \
+             adaptively with a tolerance of 1e-12 per step. \
              Both follow the synthetic motion, interpolated linearly between ticks."
         }
         (accuracy_table(&shown.accuracy))
@@ -44,8 +45,8 @@ pub(super) fn write(shown: &Demonstration) -> Outcome<String> {
             p {
                 b { "Two errata of the source paper." }
                 " " (description::erratum(&shown.benches)?)
-                " Second, the paper's equations with those tables do not reproduce its Table 5: they are progressive \
-                 in velocity, but the published energy per cycle requires a digressive curve. The " b { "paper" }
+                " Second, the paper's equations with those tables do not reproduce its Table 5. The equations are \
+                 progressive in velocity, but the published energy per cycle requires a digressive curve. The " b { "paper" }
                 " preset nevertheless follows the paper exactly and is not tuned, hence the difference in the table \
                  above. docs/validation.md gives the details of both errata."
             }

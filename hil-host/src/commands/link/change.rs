@@ -73,7 +73,7 @@ pub(super) fn set(set: &SetArguments, link: &LinkArguments) -> Outcome<()> {
 
 The target's own default is 100 ticks and a ramp of 100.")]
 pub(super) struct LossOfLinkArguments {
-    /// Number of ticks without a displacement that are tolerated.
+    /// Number of tolerated ticks without a displacement.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     after_ticks: u32,
     /// Outputs after a loss: hold (the last force), ramp=TICKS (to zero within this number of ticks) or zero.

@@ -306,7 +306,7 @@ impl HealthReport {
         if self.values.has(HealthStatus::LITTLE_EXCITATION) {
             writeln!(
                 out,
-                "note: too little motion in contact at the end to raise an alarm"
+                "note: at the end of the recording there is too little motion in contact to raise an alarm"
             )?;
         }
         if self.values.has(HealthStatus::RESTARTED) {

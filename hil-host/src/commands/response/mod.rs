@@ -62,7 +62,7 @@ pub struct ResponseArguments {
     /// Last frequency, Hz.
     #[arg(long, default_value_t = 20.0, value_name = "HZ")]
     to_hz: f64,
-    /// Number of frequencies, with equal ratios.
+    /// Number of frequencies; the ratio between neighbours is constant.
     #[arg(long, default_value_t = 41, value_name = "N", value_parser = clap::value_parser!(u16).range(2..=10_000))]
     points: u16,
     /// Also run a sweep through the frequencies.

@@ -108,7 +108,7 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
         Ok(())
     } else {
         Err(Failure::new(format!(
-            "--check: {}: out of bounds",
+            "--check: {}: a deviation is out of bounds",
             case.name
         )))
     }
@@ -181,7 +181,8 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(
             out,
             "over {} seeds of the irregularity, the means of all indices differ by at most {:.1} standard errors \
-             (allowed {STANDARD_ERRORS}): {}, {by_step:.4} with the step and {by_reference:.4} with the reference",
+             (allowed {STANDARD_ERRORS}); the largest difference is that of {}, {by_step:.4} with the step and \
+             {by_reference:.4} with the reference",
             found.seeds, found.greatest, found.index
         )?;
     }

@@ -52,7 +52,8 @@ pub struct VerifyArguments {
     /// Rate to verify, Hz: the step is its inverse. May be repeated and combined with --step-us.
     #[arg(long, value_name = "HZ", value_parser = rate, allow_negative_numbers = true)]
     rate_hz: Vec<StepSize>,
-    /// Top speed of the motions without --input, m/s [default: 0.6, but at most the damper's limits.rate_m_per_s].
+    /// Top speed of the fixed set of motions, which is used without --input, m/s [default: 0.6, but at most the
+    /// damper's limits.rate_m_per_s].
     #[arg(long, value_name = "V", value_parser = positive, allow_negative_numbers = true, conflicts_with = "input")]
     top_speed_m_per_s: Option<f64>,
     /// Fail if an NRMSE on ticks is above this value.

@@ -139,7 +139,7 @@ impl AxisReader {
             self.ends.map(|end| end[0]),
             self.cells_per_unit.map(|cells| cells[0]),
         );
-        // The ends of a part are whole numbers of cells, except for rounding.
+        // The ends of a part lie at whole numbers of cells, except for rounding errors.
         let cells_before = before * (second - first);
         if cell + 0.5 < cells_before {
             before

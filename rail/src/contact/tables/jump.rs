@@ -9,7 +9,7 @@ use crate::contact::zones::ZONES;
 /// Loads at which the force is compared, as fractions of the nominal load.
 const LOADS: [f64; 2] = [0.5, 1.0];
 
-/// Shift, m, for which the change of force due to the contact stiffness is not counted as part of a jump. It is the
+/// Shift over which the change of force due to the contact stiffness is not counted as part of a jump, m. It is the
 /// node distance in the fine part of the default [`Grid`](super::Grid), over which interpolation blurs a jump anyway.
 const ALLOWED_SHIFT_M: f64 = 30e-6;
 
@@ -163,7 +163,7 @@ impl Loaded {
         let force = |depth: f64| Vertical::new(&patches, depth).force_n;
         let (mut low, mut high) = (touch, touch + DEEPEST_M);
         let depth_m = (force(high) >= load_n).then(|| {
-            // Resolves a picometre.
+            // 32 halvings resolve a picometre.
             for _ in 0..32 {
                 let middle = 0.5 * (low + high);
                 if force(middle) < load_n {

@@ -147,7 +147,7 @@ impl CreepLaw for KalkerBook {
         let square = xi * xi + eta * eta + phi * phi;
         let bounded = are_within(square, -1.0, MAX_CREEPAGE * MAX_CREEPAGE);
         if !(contact.are_loaded(contacts.load) & bounded) {
-            // Passed by value, so that the contacts can stay in registers in the other case.
+            // Passed by value, so that the contacts can stay in registers if this branch is not taken.
             return self.one_by_one(*contacts, used);
         }
         let simd = square.simd;

@@ -69,8 +69,8 @@ pub enum ProfileError {
     },
     /// The curve folds back, and then emerges again or runs back over the surface.
     #[error(
-        "folded back by {fold_mm:.2} mm near y_mm {y_mm:.2}, allowed: {MAX_FOLD_MM} mm, or more if the curve stays \
-         inside the material up to its end"
+        "folded back by {fold_mm:.2} mm near y_mm {y_mm:.2}, allowed: {MAX_FOLD_MM} mm, or more if the curve then \
+         stays inside the material until the profile ends"
     )]
     FoldedBack {
         /// Line of the text, counted from 1.

@@ -55,7 +55,7 @@ struct BlocksShape {
 }
 
 impl VehicleState {
-    /// Number of bodies and lengths of all lists. A deserialised state may have any.
+    /// Number of bodies, and lengths of all lists. In a deserialised state these may have any value.
     #[inline(always)]
     pub(super) fn shape(&self) -> Shape {
         let state = self;

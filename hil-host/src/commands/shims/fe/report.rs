@@ -151,7 +151,8 @@ pub(in crate::commands::shims) fn print(
     {
         writeln!(
             out,
-            "\n*: lift above half the thickness; plate theory overstates it, by 3 % at half and 9 % at one thickness"
+            "\n*: lift above half the thickness; plate theory overstates it, by 3 % at half the thickness and by 9 % \
+             at all of it"
         )?;
     }
     Ok(())

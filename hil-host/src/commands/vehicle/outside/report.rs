@@ -153,8 +153,8 @@ fn of_effect(effect: &Effect) -> Vec<(String, String)> {
     )];
     for damper in &effect.dampers {
         let text = format!(
-            "{:.1} N rms of {:.1} N rms: force of {}",
-            damper.difference_rms_n, damper.force_rms_n, damper.damper
+            "{}: differs by {:.1} N rms, of {:.1} N rms",
+            damper.damper, damper.difference_rms_n, damper.force_rms_n
         );
         lines.push(("  force".into(), text));
     }
