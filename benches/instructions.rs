@@ -84,9 +84,9 @@ fn plain_newton((mut newton, motion): (NewtonDamper, Vec<f32>)) -> f32 {
 #[derive(Clone, Copy)]
 enum Loaded {
     None,
-    /// One on each wheel.
+    /// One patch on each wheel.
     Two,
-    /// Two on the outer wheel in a curve, one on the inner.
+    /// Two patches on the outer wheel in a curve, one on the inner.
     Three,
     /// Both rails pressed inward: tread and flange of both wheels.
     Four,
@@ -98,7 +98,7 @@ fn wheelset<L: CreepLaw>(law: L, loaded: Loaded) -> Wheelset<L> {
     let pair = Pair::standard(Installation::default()).expect("the standard pair is valid");
     let geometry =
         ContactGeometry::new(pair, Steel::default(), 100e3).expect("the default steel is valid");
-    // Fewer rolls and yaws than by default, because Valgrind is slow; the step takes the same path.
+    // The grid has fewer roll and yaw points than by default, because Valgrind is slow; the step takes the same path.
     let mut grid = Grid::default();
     grid.roll_rad.cells = [1, 2, 1];
     grid.yaw_squared_rad2.cells = [0, 2, 1];
@@ -182,7 +182,7 @@ fn contact_with_derivatives((contact, motion, rails): Wheelset<KalkerBook>) -> W
 
 type Running = (Vehicle<KalkerBook>, VehicleState, Track);
 
-/// The case's vehicle after `seconds`.
+/// Returns the vehicle of the case after `seconds`.
 fn running(case: Case, seconds: f64) -> Running {
     let (contact, ..) = wheelset(KalkerBook::new(), Loaded::Two);
     let vehicle =

@@ -90,7 +90,7 @@ def measure(name, xml):
     assert data.ncon == 36 and abs(data.qvel).max() < 0.1, (data.ncon, abs(data.qvel).max())
     print(
         f"{name}: {model.nv} degrees of freedom, {data.ncon} contacts, "
-        f"{times[ROUNDS // 2]:.1f} us a step (median of {ROUNDS}, least {times[0]:.1f})"
+        f"{times[ROUNDS // 2]:.1f} us per step (median of {ROUNDS}, minimum {times[0]:.1f})"
     )
 
 

@@ -1,7 +1,8 @@
-//! Time per step, compared in one run: ours, the yardstick, the floor, the reference solver.
+//! Time per step, compared in one run: our step, the yardstick (plain Newton), the floor (table look-up) and the
+//! reference solver.
 //!
-//! A motion is stepped from start to end; criterion's throughput is in steps, so the inverse of elements per second is
-//! the time per step. For the reference solver an element is a simulated millisecond.
+//! Each sample steps a motion from start to end. An element of criterion's throughput is a step, so the time per step
+//! is the inverse of the elements per second. For the reference solver an element is a simulated millisecond.
 #![allow(missing_docs)] // criterion's macros
 
 use std::hint::black_box;
@@ -60,7 +61,7 @@ fn bank(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Parameters to constants.
+/// Measures the build of constants from parameters.
 fn build(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("build");
     for (name, preset, overrides) in [

@@ -1,6 +1,6 @@
 //! Time of a millisecond tick of the six-axle locomotive, and of its parts in the same run.
 //!
-//! Elements are ticks. `contact` is the contact of six wheelsets in each of the four steps of a tick, with two loaded
+//! An element is a tick. `contact` is the contact of six wheelsets in each of the four steps of a tick, with two loaded
 //! patches each; `dampers` is the step of the twelve dampers; the rest of a tick is springs, track, factors and
 //! solution.
 #![allow(missing_docs)] // criterion's macros
@@ -19,7 +19,7 @@ use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};
 
 const STEP_S: f64 = 1e-3;
-/// Ticks from the same state in one sample.
+/// Number of ticks in one sample; each sample starts from the same state.
 const TICKS: usize = 200;
 const STEPS_A_TICK: usize = 4;
 const WHEELSETS: usize = 6;

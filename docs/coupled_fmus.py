@@ -66,7 +66,7 @@ def main():
             sys.exit(f"the vehicle steps {vehicle.step_s} s, the damper {damper.step_s} s: export it with --step-us")
         force, *others = vehicle.names("input")
         if others:
-            sys.exit(f"one damper outside is coupled here, the vehicle has {1 + len(others)}")
+            sys.exit(f"this script couples one external damper, but the vehicle has {1 + len(others)}")
         displacement = force.removesuffix("_force_n") + "_displacement_m"
         outputs = [*vehicle.names("output"), force]
         steps = round(float(vehicle.description.defaultExperiment.stopTime) / vehicle.step_s)

@@ -10,7 +10,8 @@ fn main() {
     } else {
         ("..", "0x20400000")
     };
-    // The measuring images have dampers or long frames on their stack, and data from the host behind their own data.
+    // The measuring images have dampers or long frames on their stack, and the host puts data behind their own data. So
+    // their stack starts at the end of the memory.
     for image in ["step-cost", "health-cost", "link-cost"] {
         println!("cargo::rustc-link-arg-bin={image}=--defsym=_stack_start={end_of_memory}");
     }

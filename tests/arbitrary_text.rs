@@ -1,4 +1,4 @@
-//! Arbitrary text and damaged files of ours never panic a parser. Smoke versions of fuzz/.
+//! No parser panics on arbitrary text or on damaged copies of our files. These are smoke versions of fuzz/.
 
 use std::io::Write;
 use std::path::Path;
@@ -10,7 +10,7 @@ use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::Options;
 use proptest::prelude::*;
 
-/// `text` with `patch` written over the bytes from `offset`, converted to text again.
+/// Returns `text` with its bytes from `offset` overwritten by `patch`, converted to text again.
 fn damaged(text: &str, offset: usize, patch: &str) -> String {
     let mut bytes = text.as_bytes().to_vec();
     let start = offset % bytes.len();

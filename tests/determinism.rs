@@ -1,4 +1,4 @@
-//! One digest for every damper and motion, because the force bits are the same on every machine.
+//! The force bits are the same on every machine, so every damper and motion has one digest.
 
 use std::fmt::Write;
 
@@ -16,7 +16,7 @@ fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64
     let mut digest = Digest::default();
     for tick in 0..=TICKS {
         let force = damper.step(&mut state, T::from_f64(motion(STEP_S * f64::from(tick))));
-        // Both zeros count as one force.
+        // Positive and negative zero count as the same force.
         let bits = if force == T::ZERO {
             0
         } else {

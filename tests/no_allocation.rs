@@ -1,5 +1,5 @@
-//! The step of a damper, a bank and a vehicle, a live change and telemetry do not allocate. The global allocator
-//! counts.
+//! The step of a damper, a bank and a vehicle, a live change and telemetry do not allocate memory. The global allocator
+//! of this test counts its calls.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -26,7 +26,7 @@ struct Counting;
 // SAFETY: every call goes to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        // The counter may be gone while a thread ends.
+        // While a thread ends, its counter may already be gone.
         let _ = ALLOCATIONS.try_with(|count| count.set(count.get() + 1));
         unsafe { System.alloc(layout) }
     }

@@ -18,7 +18,7 @@ name=$(basename "$toolchain")
 if [ ! -d "$folder/root/.rustup" ]; then
     debootstrap --variant=minbase --include=ca-certificates,gcc,libc6-dev "$suite" "$folder"
     mkdir -p "$folder/root/.rustup/toolchains" "$folder/root/.cargo/bin"
-    # The documentation is most of a toolchain and is not needed.
+    # The documentation is the largest part of a toolchain and is not needed.
     tar --create --directory "$(dirname "$toolchain")" --exclude "$name/share" "$name" |
         tar --extract --directory "$folder/root/.rustup/toolchains"
     cp -a "$(command -v rustup)" "$folder/root/.cargo/bin/rustup"
@@ -28,14 +28,14 @@ if [ ! -d "$folder/root/.rustup" ]; then
     fresh=yes
 fi
 
-# Only committed files: others would be missing on another machine.
+# Copies only committed files: others would be missing on another machine.
 mkdir -p "$folder/dashpot"
 git -C "$repository" archive HEAD | tar --extract --directory "$folder/dashpot"
-# Name servers, and certificate authorities in case the network has its own.
+# Copies the name servers, and the certificate authorities in case the network has its own.
 cp /etc/resolv.conf "$folder/etc/resolv.conf"
 cp /etc/ssl/certs/ca-certificates.crt "$folder/etc/ssl/certs/ca-certificates.crt"
 
-# A separate mount namespace leaves nothing mounted.
+# In a separate mount namespace, nothing stays mounted afterwards.
 in_folder() {
     unshare --mount --pid --fork sh -c '
         mount -t proc proc "$1/proc" && mount --rbind /dev "$1/dev" &&

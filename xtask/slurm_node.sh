@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs a Slurm of one node on this machine from Debian's packages slurm-wlm and munge, without systemd, as any user.
+# Runs a one-node Slurm cluster on this machine from Debian's packages slurm-wlm and munge, without systemd, as any user.
 #
 #   xtask/slurm_node.sh FOLDER [SLURMCTLD_PORT SLURMD_PORT]
 #
@@ -11,7 +11,7 @@ set -eu
 folder=${1:?"usage: xtask/slurm_node.sh FOLDER [SLURMCTLD_PORT SLURMD_PORT]"}
 slurmctld_port=${2:-26817}
 slurmd_port=${3:-26818}
-# Not every user's path has the folders of daemons.
+# The folders with daemons are not on every user's path.
 PATH=$PATH:/usr/sbin:/sbin
 SLURM_CONF=$folder/slurm.conf
 export PATH SLURM_CONF
@@ -110,7 +110,7 @@ start slurmd slurmd -D -f "$SLURM_CONF" -L "$folder/slurmd.log"
 idle() { [ "$(sinfo --noheader --format=%T)" = idle ]; }
 wait_until idle
 echo ready
-# Background commands get standard input only through another descriptor. Signals interrupt `wait`, but not `cat`.
+# A background command can read standard input only through another descriptor. Signals interrupt `wait`, but not `cat`.
 exec 3<&0
 cat <&3 >/dev/null &
 reader=$!

@@ -9,10 +9,10 @@ pub struct Determined {
     pub standard_deviation: f64,
     /// Variance inflation factor, at least 1, relative to independent samples of equal scatter.
     ///
-    /// It is computed from the gradients of whole stretches, because displacement errors act where the force changes
-    /// fast and last as long as that.
+    /// It is computed from the gradients of whole stretches, because the samples of a stretch are not independent: a
+    /// displacement error has an effect only while the force changes fast, but then on all samples.
     pub inflation: f64,
-    /// True if the parameter changes a force by more than the scatter.
+    /// True if a change of the parameter by its tolerance changes the forces by more than the scatter.
     #[serde(rename = "is_felt")]
     pub has_effect: bool,
     /// Keys of the parameters that could compensate for this one.
@@ -26,6 +26,6 @@ pub struct Determination {
     /// One entry per parameter.
     #[serde(rename = "numbers")]
     pub parameters: Vec<Determined>,
-    /// Correlation matrix, priors included.
+    /// Correlation matrix, including the priors.
     pub correlation: Vec<Vec<f64>>,
 }

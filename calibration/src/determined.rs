@@ -6,17 +6,17 @@ use super::CalibrationError;
 use super::determination::{Determination, Determined};
 use super::model::Model;
 
-/// Minimum singular value, as a share of the largest, of a direction that counts as known; the derivatives are finite
+/// A direction counts as known if its singular value is at least this share of the largest. The derivatives are finite
 /// differences and no more accurate than this.
 const MIN_SINGULAR_SHARE: f64 = 1e-3;
 
-/// Number of stretches per loop whose errors count as mutually independent.
+/// Number of stretches into which a loop is divided. The errors of different stretches count as independent.
 const STRETCHES: usize = 40;
 
-/// Information of an unknown direction, as a share of the minimum known one.
+/// Information assumed for an unknown direction, as a share of the minimum information of a known one.
 const UNKNOWN: f64 = 1e-12;
 
-/// Minimum component of a parameter in a direction for the parameter to be part of it.
+/// A parameter belongs to a direction if its component there exceeds this.
 const MIN_COMPONENT: f64 = 0.3;
 
 /// Correlation above which two parameters are reported.
@@ -43,7 +43,7 @@ impl Model<'_> {
         for (column, tolerance) in tolerances.iter().enumerate() {
             slopes.column_mut(column).scale_mut(*tolerance);
         }
-        // In units of the tolerances, so a singular value below 1 is an undetermined direction.
+        // The slopes apply to a change by one tolerance, so a singular value below 1 means an undetermined direction.
         let tests = slopes.transpose() * &slopes;
         let mut with_priors = tests.clone();
         for prior in self.prior_terms(coordinates) {
@@ -80,7 +80,8 @@ impl Model<'_> {
 }
 
 impl Model<'_> {
-    /// Returns the sum of squared gradients of all stretches of the loops; each index is a stretch of its own.
+    /// Returns the sum of squared gradients over all stretches of the loops; each index of an index test counts as one
+    /// stretch.
     fn squared_gradients(&self, slopes: &DMatrix<f64>, deviations: &[f64]) -> DMatrix<f64> {
         let mut sum = DMatrix::zeros(slopes.ncols(), slopes.ncols());
         let mut add = |rows: std::ops::Range<usize>| {
@@ -102,7 +103,7 @@ impl Model<'_> {
     }
 }
 
-/// Inverse of an information matrix by its eigenvalues, which are the squares of the singular values.
+/// Inverse of an information matrix, computed from its eigenvalues, which are the squares of the singular values.
 struct Scatter {
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
     deviations: Vec<f64>,
@@ -119,7 +120,7 @@ impl Scatter {
         let deviation = |parameter: usize| {
             let terms = eigen.eigenvalues.iter().enumerate().map(|(index, value)| {
                 let part = eigen.eigenvectors[(parameter, index)];
-                // A direction without a component of the parameter adds nothing, however unknown it is.
+                // A direction that does not change the parameter adds nothing to its variance, even if it is unknown.
                 if part.abs() < 1e-9 {
                     0.0
                 } else {

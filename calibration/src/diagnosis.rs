@@ -1,4 +1,5 @@
-//! Searches for the cause of an implausible fit: fits each cause that the user can remove, so that the advice works.
+//! Searches for the cause of an implausible fit. It removes each possible cause in turn and fits again, so that the
+//! advice is known to work.
 
 use super::finding::Finding;
 use super::loops::Factors;
@@ -11,11 +12,11 @@ use dashpot_files::damper::{Keyed, PRESETS, load};
 /// Penalty per change, as a misfit (1): of two causes that explain the recordings equally well, the simpler one wins.
 const COST_PER_CHANGE: f64 = 0.02;
 
-/// Penalty for moving all parameters across their whole range, as a misfit (1): if a fit cannot distinguish units, the
-/// one that stays closest to the start wins.
+/// Penalty, as a misfit (1), for moving all parameters across their whole range: if several units fit equally well, the
+/// unit whose fit stays closest to the start wins.
 const COST_OF_DISTANCE: f64 = 0.05;
 
-/// Difference in rank within which two causes are equally likely.
+/// Difference in rank within which two causes count as equally likely.
 const TIE: f64 = 5e-3;
 
 /// Maximum number of alternatives.
@@ -105,7 +106,7 @@ impl Calibration {
         candidates
     }
 
-    /// Returns the signs of displacement and force that agree with the sign of the work.
+    /// Returns the reversals of force and displacement with which the damper may dissipate energy.
     fn signs(&self) -> Vec<(Factors, Advice)> {
         let factors = |displacement, force| Factors {
             displacement,
@@ -125,7 +126,7 @@ impl Calibration {
         }
     }
 
-    /// Returns factors of displacement and force that correct a confusion of common units.
+    /// Returns factors that correct a displacement or a force that was read in the wrong unit.
     fn scales(&self, finding: &Finding) -> Vec<(Factors, Advice)> {
         let max = |value: &dyn Fn(&super::LoopTest) -> f64| {
             self.loops.iter().map(value).fold(0.0, f64::max)
@@ -234,7 +235,7 @@ impl Calibration {
         })
     }
 
-    /// Returns candidates that start from each other preset.
+    /// Returns a candidate for every other preset, starting from that preset.
     ///
     /// If the usual parameters of reduced dampers vary, all reduced presets are equivalent, so only one of them is
     /// tried, with and without saturation.
@@ -257,8 +258,8 @@ impl Calibration {
         presets
     }
 
-    /// Returns a candidate that starts from another preset and varies the same parameters, or its usual ones if it
-    /// lacks any.
+    /// Returns a candidate that starts from another preset and varies the same parameters; if the preset lacks one of
+    /// them, its usual parameters are varied instead.
     fn started_from_preset(&self, name: &str) -> Option<Candidate> {
         let damper = Keyed::new(name, &*load(name, &[]).ok()?).ok()?;
         if damper.name() == self.damper.name() {
@@ -331,7 +332,7 @@ impl Candidate {
         Some(linear)
     }
 
-    /// Updates the advice to the added parameters.
+    /// Lists in the advice the parameters that are added now, instead of those that were added before.
     fn update_advice(&mut self) {
         for remedy in &mut self.advice {
             match remedy {
@@ -362,7 +363,9 @@ impl Candidate {
         Some(share + COST_PER_CHANGE * changes as f64 + COST_OF_DISTANCE * distance)
     }
 
-    /// Returns the advice if it leads to a result, without added parameters that have no effect.
+    /// Returns the advice if it leads to a result.
+    ///
+    /// Added parameters that the tests do not determine are removed first.
     fn confirmed(mut self, is_cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Advice> {
         self.calibration.starts = 1;
         match self.calibration.attempt(&|_| {}, is_cancelled) {

@@ -26,7 +26,7 @@ pub enum CalibrationError {
     #[error("cancelled")]
     Cancelled,
     /// The parameter cannot be calibrated from forces.
-    #[error("{key}: measured on the part, not calibrated from forces")]
+    #[error("{key}: must be measured on the part, because it cannot be calibrated from forces")]
     NotVaried {
         /// Key of the parameter.
         key: String,
@@ -171,11 +171,11 @@ pub enum CalibrationError {
         reason: String,
     },
     /// No search converged.
-    #[error("no search converged; reason at the start: {0}")]
+    #[error("no search converged; error at the starting values: {0}")]
     NoFit(String),
-    /// The search for intervals kept finding better fits.
+    /// The search for the 95 % intervals kept finding better fits.
     #[error(
-        "the search for intervals kept finding better fits than those from {starts} starting points"
+        "the search for the 95 % intervals kept finding better fits than those from {starts} starting points"
     )]
     FewStarts {
         /// Number of starting points.
@@ -210,7 +210,7 @@ fn undetermined(parameters: &[(String, Determined)]) -> String {
                     "\n  {key}: its effect is too small compared with the scatter of the forces"
                 )
             }
-            (true, false) => format!("\n  {key}: only together with `{partners}`"),
+            (true, false) => format!("\n  {key}: only in combination with `{partners}`"),
         };
     }
     text

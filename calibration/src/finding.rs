@@ -13,7 +13,7 @@ pub(super) const MAX_AMPLITUDE_M: f64 = 0.5;
 pub enum Finding {
     /// The recorded force drives the damper instead of resisting the motion.
     Driven {
-        /// Work that the force takes from the motion; negative here (J).
+        /// Work that the force takes from the motion (J); negative in this error.
         work_j: f64,
     },
     /// The recorded motion is too fast or too large for the damper.
@@ -27,7 +27,7 @@ pub enum Finding {
         /// Velocity limit of the damper (m/s).
         max_velocity_m_per_s: f64,
     },
-    /// The residual of a test is larger than noise explains.
+    /// The residual of a test is larger than the noise explains.
     Missed {
         /// Name of the test.
         test: String,
@@ -37,7 +37,7 @@ pub enum Finding {
         noise_n: f64,
         /// Root mean square of the force about its mean (N).
         force_rms_n: f64,
-        /// Maximum residual beyond the noise, over `force_rms_n` (1).
+        /// Allowed residual beyond the noise, divided by `force_rms_n` (1).
         max: f64,
         /// Parameters that ended at a default bound, and their bounds.
         at_bounds: Vec<(String, [f64; 2])>,
@@ -54,7 +54,8 @@ pub enum Finding {
 }
 
 impl Finding {
-    /// Returns the changes that accept the best fit despite this finding; `None` if nothing can.
+    /// Returns the changes with which the calibration accepts the best fit despite this finding; `None` if there are
+    /// none.
     pub(super) fn acceptance(&self) -> Option<Advice> {
         match self {
             Self::Missed {
@@ -113,8 +114,8 @@ impl fmt::Display for Finding {
             } => {
                 write!(
                     f,
-                    "{test}: the model misses {missed_n:.3} N of {force_rms_n:.3} N (rms), and the noise of the force \
-                     is {noise_n:.3} N; allowed beyond the noise: {:.0} %",
+                    "{test}: the residual is {missed_n:.3} N rms, the force {force_rms_n:.3} N rms and its noise \
+                     {noise_n:.3} N rms; allowed beyond the noise: {:.0} % of the force",
                     100.0 * max
                 )?;
                 at_bounds

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::model::Model;
 use super::varied::{angle_at, coordinate_at, coordinate_slope};
 
-/// Relative change of the sum of squares and of the angles at which a search ends.
+/// A search ends when the relative change of the sum of squares, or of the angles, is at most this.
 const TOLERANCE: f64 = 1e-7;
 
 /// Spread of the starting points about the first, in normalised coordinates.
@@ -85,7 +85,7 @@ impl Model<'_> {
         self.fit_within(coordinates, free, TOLERANCE, 20)
     }
 
-    /// Runs a coarse fit of all parameters from the start, to compare causes: tolerance 1e-3, few steps.
+    /// Runs a coarse fit of all parameters from the start, to compare causes: with a tolerance of 1e-3 and few steps.
     pub(super) fn quick_fit(&self) -> Option<Fit> {
         let start = self
             .varied
@@ -130,7 +130,8 @@ impl Model<'_> {
         })
     }
 
-    /// Fits from the start and from `starts - 1` random points about it, in order of rising sum of squares.
+    /// Fits from the start and from `starts - 1` random points about it; returns the fits in order of rising sum of
+    /// squares.
     ///
     /// The result is reproducible. Calls `ended` after each fit.
     pub(super) fn fits(&self, starts: usize, ended: &(dyn Fn() + Sync)) -> Vec<Fit> {

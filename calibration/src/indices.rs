@@ -41,7 +41,7 @@ impl IndexTest {
     /// Reads the CSV table at `path`; its columns are the fields of this type.
     ///
     /// # Errors
-    /// The file cannot be read or is invalid; the error gives the line.
+    /// Returns an error, with the line, if the file cannot be read or is invalid.
     pub fn read(path: &Path) -> Result<Vec<Self>, FileError> {
         let text = input::read_text(path)?;
         let mut reader = csv::ReaderBuilder::new()
@@ -78,7 +78,7 @@ impl IndexTest {
     /// Checks the values.
     ///
     /// # Errors
-    /// Describes an invalid motion or index, or a test without any index.
+    /// Returns an error message for an invalid motion or index, or for a test without any index.
     pub(super) fn check(&self) -> Result<(), String> {
         self.motion().check().map_err(|error| error.to_string())?;
         let fields = [
@@ -131,7 +131,7 @@ impl IndexTest {
     }
 }
 
-/// Returns the line number of the row that starts at `from`, after any comments and empty lines there.
+/// Returns the line number of the first row at or after `from`, skipping comments and empty lines.
 fn line_of_row(text: &str, from: &csv::Position) -> u64 {
     let rest = text.get(from.byte() as usize..).unwrap_or_default();
     let before = rest

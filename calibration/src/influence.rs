@@ -7,7 +7,8 @@ use super::model::Model;
 use super::{Calibration, CalibrationError};
 use dashpot_files::damper::range;
 
-/// Default uncertainty of the oil temperature (K), half-width of the 95 % interval: an indoor bench whose oil warms up.
+/// Default uncertainty of the oil temperature (K), as the half-width of the 95 % interval: for an indoor bench whose
+/// oil warms up.
 pub const TEMPERATURE_UNCERTAINTY_K: f64 = 5.0;
 
 /// Key of the oil temperature.
@@ -16,7 +17,8 @@ pub const TEMPERATURE: &str = "oil.temperature_c";
 /// Key of the oil density.
 pub const DENSITY: &str = "oil.density_kg_per_m3";
 
-/// Minimum eigenvalue, as a share of the largest, of a direction that counts as known; others are not moved.
+/// A direction counts as known if its eigenvalue is at least this share of the largest. The step does not move along
+/// unknown directions.
 const MIN_EIGENVALUE_SHARE: f64 = 1e-6;
 
 /// Effect of an assumed parameter on the calibrated ones.
@@ -24,18 +26,18 @@ const MIN_EIGENVALUE_SHARE: f64 = 1e-6;
 pub struct Influence {
     /// Key of the assumed parameter.
     pub key: String,
-    /// Its value in the damper.
+    /// Value of the assumed parameter in the damper.
     pub value: f64,
-    /// Half-width of its 95 % interval.
+    /// Half-width of the assumed parameter's 95 % interval.
     pub uncertainty: f64,
-    /// Shift of each calibrated parameter with the assumed one at the lower and at the upper end of its interval.
+    /// Shift of each calibrated parameter if the assumed one is at the lower and at the upper end of its interval.
     pub shifts: Vec<[f64; 2]>,
-    /// Change of the sum of squares at the lower and at the upper end.
+    /// Change of the sum of squares at the lower and at the upper end of the interval.
     pub chi_square: [f64; 2],
 }
 
 impl Influence {
-    /// Returns the larger shift of a calibrated parameter, as a magnitude.
+    /// Returns the larger of the two shifts of a calibrated parameter, as a magnitude.
     pub fn shift(&self, parameter: usize) -> f64 {
         self.shifts[parameter]
             .map(f64::abs)
@@ -59,7 +61,7 @@ impl Calibration {
 
     /// Computes the effect of the assumed parameters on the parameters calibrated at `coordinates`.
     ///
-    /// Each end of an assumed interval shifts the minimum by one Gauss-Newton step.
+    /// For each end of an assumed parameter's interval, one Gauss-Newton step gives the shift of the minimum.
     ///
     /// # Errors
     /// Same errors as [`Model::deviations`].
@@ -108,7 +110,7 @@ struct Moved {
     chi_square: f64,
 }
 
-/// Gauss-Newton step from a minimum to that of a damper with a changed assumed parameter.
+/// Gauss-Newton step from the minimum to the new minimum after a change of an assumed parameter.
 struct Step<'a, 'm> {
     model: &'a Model<'m>,
     coordinates: &'a [f64],
@@ -178,7 +180,8 @@ impl<'a, 'm> Step<'a, 'm> {
     }
 }
 
-/// Widens a noise interval by the shifts from the assumed parameters; they are independent, so they add in quadrature.
+/// Widens an interval, which covers the noise, by the shifts due to the assumed parameters. The assumed parameters are
+/// independent, so the squares of their shifts add up.
 pub(super) fn widened(
     found: f64,
     [lower, upper]: [Option<f64>; 2],

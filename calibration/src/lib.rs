@@ -53,26 +53,27 @@ use dashpot_core::CheckedParameters;
 
 use dashpot_files::damper::Keyed;
 
-/// Number of alternating estimates of the scatter and the parameters; the second round changes both by about a percent.
+/// Number of rounds, each of which estimates the scatter and then the parameters. The second round changes both by
+/// about a percent.
 const ROUNDS: usize = 3;
 
 /// Distance from a bound, as a share of the range, within which a parameter counts as at the bound regardless of its
 /// interval.
 const CERTAINLY_AT_BOUND: f64 = 1e-3;
 
-/// Multiple of the allowed misfit beyond which no weighting of the tests can help.
+/// Multiple of the allowed misfit above which the fit is rejected at once, because no weighting of the tests can help.
 const HOPELESS_MISFIT: f64 = 2.0;
 
-/// Minimum scatter of a test over its peak force; no sensor is better.
+/// Minimum scatter of a test, divided by its peak force; no sensor is better.
 const MIN_SCATTER: f64 = 1e-4;
 
 /// Maximum number of restarts when a profile finds a better minimum.
 const MAX_RESTARTS: usize = 5;
 
-/// Tolerance within which two sums of squares belong to the same minimum, relative and absolute.
+/// Two sums of squares belong to the same minimum if they differ by at most this, relatively plus absolutely.
 const SAME_MINIMUM: f64 = 1e-3;
 
-/// Reason for a search without a result.
+/// Reason why a search has no result.
 const INVALID_COMBINATION: &str = "the combination of parameters is invalid for a damper";
 
 /// A calibration: the damper, the parameters to vary and the tests.
@@ -103,7 +104,7 @@ pub struct Assumed {
     pub temperature_uncertainty_k: f64,
     /// Half-width of the 95 % interval of the oil density (kg/m3).
     pub density_uncertainty_kg_per_m3: f64,
-    /// Maximum residual of a test beyond the noise, over the rms force (1).
+    /// Maximum residual of a test beyond the noise, divided by the rms force (1).
     pub max_misfit: f64,
 }
 
@@ -172,7 +173,7 @@ pub struct Calibrated {
     pub determination: Determination,
     /// Likelihood profiles, with intervals from the noise of the tests alone; the assumed parameters count as exact.
     pub profiles: Vec<Profile>,
-    /// 95 % intervals that include the uncertainty of the assumed parameters; `None` for an end beyond a bound.
+    /// 95 % intervals, including the uncertainty of the assumed parameters; `None` for an end beyond a bound.
     pub intervals: Vec<[Option<f64>; 2]>,
     /// Effect of each assumed parameter on the calibrated ones.
     pub influences: Vec<Influence>,
@@ -196,13 +197,13 @@ pub struct Searches {
 /// Fit of one recorded loop.
 #[derive(Clone)]
 pub struct LoopFit {
-    /// Forces of the start damper at the samples that count (N).
+    /// Forces of the damper at the start of the calibration, at the samples that count (N).
     pub before_n: Vec<f64>,
     /// Forces of the calibrated damper at these samples (N).
     pub after_n: Vec<f64>,
-    /// Root mean square of the start damper's residual (N).
+    /// Root mean square residual of the damper at the start (N).
     pub missed_before_n: f64,
-    /// Root mean square of the calibrated damper's residual (N).
+    /// Root mean square residual of the calibrated damper (N).
     pub missed_after_n: f64,
     /// Correlation length of the calibrated damper's residual in samples; 1 for white noise.
     pub correlation_samples: f64,
@@ -212,7 +213,8 @@ impl Calibration {
     /// Runs the calibration, reporting progress through `on_progress`.
     ///
     /// # Errors
-    /// Nothing to calibrate, an invalid damper, or parameters that the tests do not determine.
+    /// Returns an error if there is nothing to calibrate, if the damper is invalid, or if the tests do not determine
+    /// the parameters.
     pub fn run(
         &self,
         on_progress: &(dyn Fn(Progress) + Sync),
@@ -235,7 +237,7 @@ impl Calibration {
                 let _stage = Stage::new("causes", 1, on_progress);
                 let advice = self.advice(&finding, is_cancelled);
                 if advice.is_empty() && !is_cancelled() {
-                    // A parameter without effect is a cause that the user can remove.
+                    // The cause may be a parameter without effect, which the user can remove.
                     self.reject_without_effect(is_cancelled)?;
                 }
                 match is_cancelled() {
@@ -247,7 +249,7 @@ impl Calibration {
         }
     }
 
-    /// Builds the model of the tests; each test scatters by the noise of its force.
+    /// Builds the model of the tests; the scatter of each test is the noise of its force.
     fn model<'a>(&self, is_cancelled: &'a (dyn Fn() -> bool + Sync)) -> Model<'a> {
         let scatter = |test: &LoopTest| test.force_noise_n.max(MIN_SCATTER * test.peak_force_n);
         Model {
@@ -289,7 +291,7 @@ impl Calibration {
         }
     }
 
-    /// Rejects parameters that no force near the best coarse fit depends on.
+    /// Rejects parameters on which no force depends near the best coarse fit.
     fn reject_without_effect(
         &self,
         is_cancelled: &(dyn Fn() -> bool + Sync),
@@ -319,7 +321,7 @@ impl Calibration {
         let stage = Stage::new("searches", self.starts, on_progress);
         let fits = model.fits(self.starts, &|| stage.complete_one());
         let Some(first) = fits.first() else {
-            // An error at the start occurs everywhere.
+            // All searches failed; the error at the starting values is the reason.
             let reason = model
                 .deviations(&start)
                 .err()
@@ -444,7 +446,7 @@ impl Calibration {
         })
     }
 
-    /// Checks that there is something to calibrate, and every index test.
+    /// Checks that there is something to calibrate, and checks every index test.
     fn check(&self) -> Result<(), CalibrationError> {
         if self.varied.is_empty() {
             return Err(CalibrationError::Nothing("parameter to vary"));

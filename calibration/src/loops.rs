@@ -25,18 +25,18 @@ const MAX_TICKS: f64 = 4e6;
 /// Minimum number of samples per test.
 const MIN_SAMPLES: usize = 100;
 
-/// Share of half its range that the force must have reached in both directions before samples count; until then the
-/// force depends on the unknown initial position within the clearance.
+/// Samples count once the force has reached this share of half its range in each direction. Until then, the force
+/// depends on the unknown initial position within the clearance.
 const CONTACT_SHARE: f64 = 0.05;
 
-/// Time at the end of a recording that does not count, because the smoothed motion is inaccurate there (s).
+/// Time at the end of a recording in which samples do not count, because the smoothed motion is inaccurate there (s).
 const END_S: f64 = 0.05;
 
 impl Recorded {
     /// Builds a test from samples in memory; `name` is used in results.
     ///
     /// # Errors
-    /// Series of different lengths, values that are not finite, or times that do not rise.
+    /// Returns an error for series of different lengths, values that are not finite, or times that do not rise.
     pub fn new(
         name: String,
         times_s: Vec<f64>,
@@ -121,14 +121,14 @@ pub struct LoopTest {
     pub displacement_offset_m: f64,
 }
 
-/// Share of half its range by which the force must exceed its median in both directions for the median to be an
-/// estimate of zero force.
+/// The median counts as an estimate of zero force if the maximum and the minimum force differ from it by more than this
+/// share of half the range.
 const BALANCE_SHARE: f64 = 0.25;
 
-/// Estimates the reading of the sensor at zero force from forces between `min` and `max` (N).
+/// Estimates what the sensor reads at zero force, from forces between `min` and `max` (N).
 ///
-/// The estimate is the median, because a damper pulls and pushes for about the same time; it is 0 if the forces about
-/// the median are one-sided. It only decides where a test begins to count.
+/// The estimate is the median, because a damper pulls and pushes for about the same time. If the forces about the
+/// median are one-sided, the estimate is 0. It is used only to decide where a test begins to count.
 fn estimated_zero_n(forces: &[f64], min: f64, max: f64) -> f64 {
     let mut sorted = forces.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -141,7 +141,7 @@ fn estimated_zero_n(forces: &[f64], min: f64, max: f64) -> f64 {
     }
 }
 
-/// Factors of both signals.
+/// Factors that multiply both signals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Factors {
     pub(super) displacement: f64,
@@ -161,7 +161,7 @@ impl LoopTest {
     /// Splits a recording into tests at ticks of `step_s` (s), one per stretch without gaps.
     ///
     /// # Errors
-    /// Too few samples, too many ticks, or a force that never acts in both directions.
+    /// Returns an error for too few samples, too many ticks, or a force that acts in one direction only.
     pub fn from_recording(recorded: &Recorded, step_s: f64) -> Result<Vec<Self>, CalibrationError> {
         let (stretches, _) = recorded.tests();
         let count = stretches.len();
@@ -293,7 +293,7 @@ impl LoopTest {
         })
     }
 
-    /// Returns the forces that count (N).
+    /// Returns the forces at the samples that count (N).
     pub fn counted_forces_n(&self) -> &[f64] {
         &self.forces_n[self.counted.clone()]
     }

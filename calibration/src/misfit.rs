@@ -6,13 +6,14 @@ use super::model::Model;
 use super::residual::residual_rms_n;
 use super::{Calibration, CalibrationError};
 
-/// Default maximum residual beyond the noise, over the rms force (1).
+/// Default maximum residual beyond the noise, divided by the rms force (1).
 ///
-/// A quadratic law misses this much of a linear damper; the laws of real dampers miss a few percent.
+/// A quadratic law leaves a residual of this size on a linear damper; the laws of this model leave a few percent on
+/// real dampers.
 pub const MAX_MISFIT: f64 = 0.2;
 
-/// Net work over the sum of the magnitudes of its increments beyond which its sign is certain. It is near 1 for a
-/// damper and 0 for a spring.
+/// Net work, divided by the sum of the magnitudes of its increments, above which its sign is certain. The quotient is
+/// near 1 for a damper and near 0 for a spring.
 const CERTAIN_SHARE: f64 = 0.1;
 
 /// Misfit of a test.
@@ -21,7 +22,7 @@ pub(super) struct Misfit {
     test: usize,
     missed_n: f64,
     force_rms_n: f64,
-    /// Residual beyond the noise over the rms force (1).
+    /// Residual beyond the noise, divided by the rms force (1).
     pub(super) share: f64,
 }
 
@@ -55,7 +56,7 @@ impl Model<'_> {
     /// Rejects a fit whose largest misfit exceeds `max`.
     ///
     /// # Errors
-    /// [`Finding::Missed`].
+    /// Returns [`Finding::Missed`].
     pub(super) fn reject_misfit(
         &self,
         coordinates: &[f64],
@@ -88,11 +89,11 @@ impl Model<'_> {
 
     /// Rejects a parameter that is at a default bound, unless the bound is a physical limit.
     ///
-    /// `tolerance` is the distance from a bound that counts as at the bound, as a share of the range.
-    /// `is_suspect(parameter, is_lower)` selects the bounds to check.
+    /// `tolerance` is the maximum distance from a bound at which a value counts as at the bound, as a share of the
+    /// range. `is_suspect(parameter, is_lower)` selects the bounds to check.
     ///
     /// # Errors
-    /// [`Finding::AtBound`].
+    /// Returns [`Finding::AtBound`].
     pub(super) fn reject_bounds(
         &self,
         coordinates: &[f64],
@@ -173,7 +174,7 @@ impl Calibration {
     /// Rejects recordings that no damper can produce.
     ///
     /// # Errors
-    /// [`Finding::TooFast`] or [`Finding::Driven`].
+    /// Returns [`Finding::TooFast`] or [`Finding::Driven`].
     pub(super) fn reject_impossible(&self) -> Result<(), CalibrationError> {
         if let Some(finding) = self.too_fast() {
             return Err(CalibrationError::implausible(finding));

@@ -12,8 +12,8 @@ use super::varied::Varied;
 use dashpot_files::damper::Keyed;
 use dashpot_testbench::bench_test;
 
-/// Difference for a derivative, as a share of the tolerance: it changes a force by some percent, while tables of a
-/// built damper are accurate to 0.01 %.
+/// Step of the central differences, as a share of the tolerance. It changes a force by some percent, far more than the
+/// error of a built damper's tables, which is 0.01 %.
 const DIFFERENCE: f64 = 0.3;
 
 /// A damper, its varied parameters and the tests.
@@ -46,7 +46,7 @@ impl Model<'_> {
     /// Returns the damper with the varied parameters at `coordinates`.
     ///
     /// # Errors
-    /// Invalid combination of parameters.
+    /// Returns an error for an invalid combination of parameters.
     pub(super) fn damper_at(
         &self,
         coordinates: &[f64],
@@ -90,7 +90,7 @@ impl Model<'_> {
         found.map_or(held, |(varied, coordinate)| varied.value_at(*coordinate))
     }
 
-    /// Returns the reading of the force sensor at zero force (N).
+    /// Returns what the force sensor reads at zero force (N).
     pub(super) fn force_offset_n(&self, coordinates: &[f64]) -> f64 {
         self.varied_or(coordinates, FORCE_OFFSET, self.rig.force_offset_n)
     }
@@ -98,12 +98,12 @@ impl Model<'_> {
     /// Returns the model's forces as the sensor would show them at the samples that count (N), by loop.
     ///
     /// # Errors
-    /// Invalid combination of parameters, or cancelled.
+    /// Returns an error for an invalid combination of parameters, or if the caller cancelled the calibration.
     pub(super) fn forces_n(&self, coordinates: &[f64]) -> Result<Vec<Vec<f64>>, CalibrationError> {
         self.forces_of(&self.damper_at(coordinates)?, coordinates)
     }
 
-    /// Same as [`Model::forces_n`] for `damper`.
+    /// Same as [`Model::forces_n`], but for the damper `damper`.
     fn forces_of(
         &self,
         damper: &CheckedParameters,
@@ -116,7 +116,8 @@ impl Model<'_> {
         let delay = self.varied_or(coordinates, SKEW, self.rig.skew_s) / self.step_s;
         let offset_n = self.force_offset_n(coordinates);
         let forces = self.loops.iter().map(|test| {
-            // The force depends on the motion only, so every motion is centred on zero, whatever the sensor offset.
+            // The force depends only on how the displacement changes, so every motion is centred on zero, whatever the
+            // sensor offset.
             let middle = test.displacement_offset_m;
             let x = &test.displacements_m;
             let mut state = built.at_rest(x[0] - middle);
@@ -132,12 +133,12 @@ impl Model<'_> {
     /// Returns model minus test, in standard deviations: samples of the loops, then indices.
     ///
     /// # Errors
-    /// Same errors as [`Model::forces_n`], and a force that does not become periodic.
+    /// Same errors as [`Model::forces_n`]; also an error for a force that does not become periodic.
     pub(super) fn deviations(&self, coordinates: &[f64]) -> Result<Vec<f64>, CalibrationError> {
         self.deviations_of(&self.damper_at(coordinates)?, coordinates)
     }
 
-    /// Same as [`Model::deviations`] for `damper`.
+    /// Same as [`Model::deviations`], but for the damper `damper`.
     ///
     /// # Errors
     /// Same errors as [`Model::deviations`].

@@ -1,4 +1,4 @@
-//! Plausible range of each damper parameter, which gives the default bounds of a calibration, and default priors.
+//! Plausible range and default prior of each damper parameter; the range gives the default bounds of a calibration.
 
 use super::prior::Prior;
 
@@ -98,7 +98,7 @@ mod tests {
                 if let Some(prior) = plausible.prior {
                     assert!((min..max).contains(&prior.mean), "{key}");
                 }
-                // A preset may also turn a part off with zero.
+                // A parameter may also be 0: this is how presets turn parts off.
                 let parameter = damper.number(&key).unwrap();
                 assert!(
                     parameter == 0.0 || (min..=max).contains(&parameter),

@@ -10,10 +10,10 @@ use super::varied::Varied;
 /// Rise of the sum of squares at the ends of a 95 % interval: chi-square with one degree of freedom.
 pub const RISE_95: f64 = 3.841;
 
-/// Maximum number of fits per side; the rise is nearly a parabola.
+/// Maximum number of fits per side. A few suffice, because the rise is nearly a parabola.
 const MAX_FITS: usize = 6;
 
-/// A sum of squares lower by more than this is a different minimum, not rounding.
+/// A sum of squares that is lower by more than this belongs to a different minimum and is not due to rounding.
 const BETTER: f64 = 0.1;
 
 /// Relative tolerance of the square root of the rise at an end.
@@ -28,7 +28,7 @@ pub struct Profile {
     /// Upper end; `None` if it lies beyond the upper bound.
     #[serde(rename = "greatest")]
     pub upper: Option<f64>,
-    /// Values in rising order, each with the rise of the sum of squares over the variance inflation factor.
+    /// Values in rising order, each with the rise of the sum of squares divided by the variance inflation factor.
     pub points: Vec<(f64, f64)>,
 }
 
@@ -75,7 +75,7 @@ impl Model<'_> {
     /// Computes the likelihood profile of a parameter about `best`.
     ///
     /// # Errors
-    /// A better minimum found on the way.
+    /// Returns a better minimum if the search finds one.
     pub(super) fn profile(
         &self,
         best: &Fit,
@@ -130,7 +130,7 @@ impl Model<'_> {
                     points.push((value(coordinates[parameter]), rise.max(0.0)));
                     rise.max(1e-6)
                 }
-                // Invalid combination of parameters.
+                // An invalid combination of parameters lies outside the interval.
                 None => f64::INFINITY,
             };
             let reached = rise.sqrt();
@@ -147,7 +147,7 @@ impl Model<'_> {
             }
             let next = distance * (root / reached).clamp(0.2, 5.0);
             let limit = outside.unwrap_or(room);
-            // Bisects if the guess leaves the bracket.
+            // Bisects if the guess lies outside the bracket.
             distance = if next > inside && (next < limit || outside.is_none()) {
                 next.min(room)
             } else {

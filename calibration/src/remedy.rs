@@ -27,14 +27,14 @@ pub enum Remedy {
     OtherDamper {
         /// Name of the preset.
         name: String,
-        /// Parameters to vary instead, if the preset lacks any of the current ones; otherwise empty.
+        /// Parameters to vary instead if the preset lacks one of the current ones; otherwise empty.
         vary: Vec<String>,
     },
     /// Do not vary a parameter.
     Leave(String),
     /// Give a prior for a parameter.
     Know(String),
-    /// Give no prior for a parameter.
+    /// Remove the prior of a parameter.
     Forget(String),
     /// Hold a rig parameter.
     Hold(String),
@@ -49,7 +49,7 @@ pub enum Remedy {
     },
     /// Search from this number of starting points.
     Starts(u16),
-    /// Allow this misfit: residual over rms force (1).
+    /// Allow this misfit: the residual divided by the rms force (1).
     AllowMisfit(f64),
 }
 

@@ -34,8 +34,8 @@ impl Request {
     /// Returns the parameters that vary for `damper` and `loops`, and the values of the other rig parameters.
     ///
     /// # Errors
-    /// A parameter that does not exist, cannot be calibrated or is given twice; bounds that are not in order; a prior
-    /// of a parameter that does not vary; or a rig parameter without recorded loops.
+    /// Returns an error for a parameter that does not exist, cannot be calibrated or is given twice, for bounds that
+    /// are not in order, for a prior of a parameter that does not vary, or for a rig parameter without recorded loops.
     pub fn varied(
         &self,
         damper: &Keyed,
@@ -61,7 +61,7 @@ impl Request {
                 }
                 continue;
             }
-            // Rig parameters alone do not make a calibration.
+            // A calibration needs at least one damper parameter.
             if varied.iter().all(Varied::is_rig_parameter)
                 || self.hold.iter().any(|(held, _)| held == key)
             {

@@ -40,13 +40,13 @@ pub(super) fn residual_rms_n(test: &LoopTest, forces_n: &[f64]) -> f64 {
     (square / forces_n.len().max(1) as f64).sqrt()
 }
 
-/// Returns the correlation length of a series in samples: the highest octave mean of its spectral density, over the
-/// density of white noise with the same rms.
+/// Returns the correlation length of a series in samples: the mean of its spectral density in the octave where it is
+/// highest, divided by the density of white noise with the same rms.
 ///
-/// The effect of a parameter on the force lies in a band around the lines of the motion. The highest octave is taken
-/// wherever that band is, so intervals are too wide rather than too narrow.
+/// The effect of a parameter on the force lies in a band around the spectral lines of the motion. The highest octave is
+/// used even if it lies outside that band, so intervals are too wide rather than too narrow.
 fn correlation_samples(series: &[f64]) -> f64 {
-    /// Number of windows: enough for an octave that holds a single line.
+    /// Number of windows to average over: enough even for the lowest octave, which contains only one spectral line.
     const WINDOWS: usize = 8;
     /// Maximum samples per window.
     const MAX_WINDOW: usize = 1 << 14;

@@ -24,7 +24,7 @@ const MAX_FORCE_OFFSET_N: f64 = 1e7;
 pub struct HeldRig {
     /// Delay of the recorded force relative to the displacement (s).
     pub skew_s: f64,
-    /// Reading of the force sensor at zero force (N).
+    /// What the force sensor reads at zero force (N).
     pub force_offset_n: f64,
 }
 
@@ -55,7 +55,7 @@ pub(super) fn max_magnitude(key: &str) -> f64 {
 /// Checks the bounds of a rig parameter; `default` are its default bounds.
 ///
 /// # Errors
-/// The bounds are not in order or out of range.
+/// Returns an error if the bounds are not in order or are out of range.
 pub(super) fn check_bounds(
     key: &str,
     bounds: [f64; 2],

@@ -43,11 +43,11 @@ pub(super) struct Bound {
 }
 
 impl Varied {
-    /// Varies the parameter of `damper` at `key`; by default within its plausible range and with its default prior.
+    /// Varies the parameter of `damper` at `key`, by default within its plausible range and with its default prior.
     ///
     /// # Errors
-    /// An unknown parameter, one that cannot be calibrated from forces, invalid bounds, or a start or prior mean
-    /// outside them.
+    /// Returns an error for an unknown parameter, a parameter that cannot be calibrated from forces, invalid bounds, or
+    /// a start or prior mean outside the bounds.
     pub fn new(
         damper: &Keyed,
         key: &str,
@@ -100,7 +100,7 @@ impl Varied {
     /// The search starts at zero or, if that is out of bounds, at the nearest bound.
     ///
     /// # Errors
-    /// Invalid bounds, or a prior mean outside them.
+    /// Returns an error for invalid bounds, or for a prior mean outside the bounds.
     pub fn rig(
         key: &str,
         loops: &[LoopTest],
@@ -238,7 +238,7 @@ impl Varied {
         self.length() * if self.by_ratio { value } else { 1.0 }
     }
 
-    /// Returns the maximum standard deviation of the coordinate for the parameter to count as determined.
+    /// Returns the largest standard deviation of the coordinate with which the parameter counts as determined.
     ///
     /// It corresponds to 10 % of the value or, on a linear scale, at least 1 % of the range.
     pub(super) fn tolerance(&self, value: f64) -> f64 {
@@ -250,7 +250,8 @@ impl Varied {
     }
 }
 
-/// Returns the coordinate of an angle: the search runs over angles, because no angle leaves the bounds.
+/// Returns the coordinate of an angle. The search varies angles, because the coordinate of every angle is within the
+/// bounds.
 pub(super) fn coordinate_at(angle: f64) -> f64 {
     0.5 * (1.0 + angle.sin())
 }

@@ -7,16 +7,16 @@ use super::loops::LoopTest;
 use super::varied::Varied;
 use super::{Determination, HIGH_CORRELATION, LoopFit, Profile};
 
-/// Residual over noise above which the model lacks an effect of the test.
+/// Ratio of residual to noise above which the model counts as lacking an effect that the test shows.
 const MAX_RESIDUAL_OVER_NOISE: f64 = 2.0;
 
-/// Minimum noise for this comparison, as a share of the peak force.
+/// Smaller noise counts as this share of the peak force in the comparison.
 const MIN_NOISE: f64 = 0.01;
 
-/// Minimum mean residual for a zero that differs, in standard errors.
+/// Minimum mean residual, in standard errors, for the force zero of a test to count as different.
 const ZERO_STANDARD_ERRORS: f64 = 4.0;
 
-/// Minimum mean residual for a zero that differs, as a share of the peak force.
+/// Minimum mean residual, as a share of the peak force, for the force zero of a test to count as different.
 const ZERO_SHARE_OF_PEAK: f64 = 0.005;
 
 /// Significant decrease of the sum of squares: with one degree of freedom and no model error, chance causes it with a
@@ -73,7 +73,7 @@ pub enum Warning {
         assumed: String,
         /// Value of the assumed parameter.
         value: f64,
-        /// Half-width of its 95 % interval.
+        /// Half-width of the assumed parameter's 95 % interval.
         uncertainty: f64,
         /// Shift of the calibrated parameter over the interval (%).
         shift_percent: f64,

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Prepares the run. On false it has printed the reason. */
+/* Prepares the run. Returns false after it has printed the reason. */
 bool controller_start(void);
 
 /* Runs one tick: reads the sensors, steps the dampers and commands the forces. Call it in an interrupt. */

@@ -146,7 +146,7 @@
 #define DASHPOT_STATUS_DAMPER_SWAPPED 8
 
 /**
- * Memory was damaged: the state restarted at rest, or a check found damage in constants or state.
+ * Memory was damaged: the state restarted at rest, or a check found damage in the constants or the state.
  */
 #define DASHPOT_STATUS_CORRUPTED 16
 
@@ -242,7 +242,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_LENGTH = 4,
     /**
-     * The bytes do not start like an image or a saved state.
+     * The bytes do not start as an image or a saved state does.
      */
     DASHPOT_ERROR_MAGIC = 5,
     /**
@@ -250,7 +250,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_BYTE_ORDER = 6,
     /**
-     * The bytes have another version of the format.
+     * The bytes are in another version of the format.
      */
     DASHPOT_ERROR_VERSION = 7,
     /**
@@ -262,7 +262,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_CHECKSUM = 9,
     /**
-     * A constant or a number of a state is impossible.
+     * A constant or a value in a state is impossible.
      */
     DASHPOT_ERROR_VALUES = 10,
     /**
@@ -290,7 +290,7 @@ enum dashpot_error
      */
     DASHPOT_ERROR_HEADER = 16,
     /**
-     * The revision of an image does not match its constants, so they are not from a build.
+     * The revision of an image does not match its constants, so no build produced them.
      */
     DASHPOT_ERROR_REVISION = 17,
     /**
@@ -327,7 +327,7 @@ typedef struct {
 } dashpot_state;
 
 /**
- * Progress of the check of a damper: zeros before the first call.
+ * Progress of the check of a damper. Fill it with zeros before the first call.
  */
 typedef struct {
     /**
@@ -387,11 +387,11 @@ typedef struct {
  */
 typedef struct {
     /**
-     * Flow over nominal flow at the same force (1).
+     * Ratio of the flow to the nominal flow at the same force (1).
      */
     dashpot_estimate flow_factor;
     /**
-     * Compliance of the mount, one over its stiffness (m/N).
+     * Compliance of the mount, the inverse of its stiffness (m/N).
      */
     dashpot_estimate compliance_m_per_n;
     /**
@@ -438,7 +438,7 @@ typedef struct {
  */
 typedef struct {
     /**
-     * Flow over nominal flow at the same force (1). Its inverse is the damping factor.
+     * Ratio of the flow to the nominal flow at the same force (1). Its inverse is the damping factor.
      */
     dashpot_estimate flow_factor;
     /**
@@ -454,7 +454,7 @@ typedef struct {
      */
     dashpot_estimate lag_s;
     /**
-     * Compliance of the mount, one over its stiffness (m/N), the quantity that the filter estimates.
+     * Compliance of the mount, the inverse of its stiffness (m/N), the quantity that the filter estimates.
      */
     dashpot_estimate compliance_m_per_n;
     /**
@@ -506,16 +506,16 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * Checks a slice of a damper's constants and a state. Call it at every tick or more rarely.
+ * Checks a slice of a damper's constants and a state. Call it at every tick or less often.
  *
- * `DASHPOT_CHECK_SLICES` calls are one round, which checks all constants. A flipped bit is found in the next round.
- * To hold a force from before the damage, store the force at the first call of each round, and use the one stored in
- * the last round that ended without an error. Between calls the damper may be loaded and its clearance set. Some 370
- * instructions at most on a Cortex-M7.
+ * `DASHPOT_CHECK_SLICES` calls are one round, which checks all constants. A flipped bit is found in the next round. To
+ * hold a force from before the damage, store the force at the first call of each round, and use the one stored in the
+ * last round that ended without an error. Between calls you may load the damper again or set its clearance. A call
+ * takes at most about 370 instructions on a Cortex-M7.
  *
  * @param damper  initialised by `dashpot_damper_init`
  * @param state   a state of this damper
- * @param check   progress of the check of this damper: zeros before the first call; changed
+ * @param check   progress of the check of this damper, changed; fill it with zeros before the first call
  */
 dashpot_error dashpot_check_slice(const dashpot_damper *damper,
                                   const dashpot_state *state,
@@ -525,7 +525,7 @@ dashpot_error dashpot_check_slice(const dashpot_damper *damper,
  * Initialises a damper from an image, the bytes from `dashpot export --lang c` or `--lang bin`.
  *
  * The whole image is checked first and is not needed afterwards. The next step adopts states of the old damper and
- * keeps their force. Do not call it within a tick: it takes some 376 000 instructions on a Cortex-M7.
+ * keeps their force. Do not call it within a tick: it takes about 376 000 instructions on a Cortex-M7.
  *
  * @param damper  storage with any content; written
  * @param image   the bytes, at any alignment, outside the storage of the damper
@@ -546,8 +546,8 @@ dashpot_error dashpot_damper_describe(const dashpot_damper *damper, dashpot_damp
 /**
  * Sets the clearance of a damper in use. The next step of each state adopts it and keeps its force.
  *
- * On a Cortex-M7 this takes some 302 instructions, and the next step of each state some 1690 instructions instead of
- * the usual number.
+ * On a Cortex-M7 this takes about 302 instructions, and the next step of each state then takes about 1690 instructions
+ * instead of the usual number.
  *
  * @param damper       initialised by `dashpot_damper_init`; no step may use it during the call
  * @param clearance_m  clearance 2a, the total play (m), 0 to 0.1
@@ -564,7 +564,7 @@ const char *dashpot_error_text(int32_t code);
  * Initialises the constants of an estimator from an image, the bytes from `dashpot export --health --lang c` or
  * `HealthModel::to_image` of dashpot-core.
  *
- * Do not call it within a tick. It needs the size of the model on the stack.
+ * Do not call it within a tick. It needs as much stack as the size of the model.
  *
  * @param model   storage with any content; written
  * @param image   the bytes, at any alignment, outside the storage of the model
@@ -634,7 +634,7 @@ dashpot_error dashpot_health_read(const dashpot_health_model *model,
 dashpot_error dashpot_health_clear_status(dashpot_health *health);
 
 /**
- * Initialises a state at rest, centred in the clearance, without force and status bits.
+ * Initialises a state at rest, centred in the clearance, without force or status bits.
  *
  * @param state           storage with any content; written
  * @param damper          initialised by `dashpot_damper_init`
@@ -690,7 +690,7 @@ dashpot_error dashpot_state_restore(dashpot_state *state,
  * A displacement that is NaN, infinite, out of range or too fast is not an error: it is held or limited, latched in
  * the status and counted. If it is too far away to catch up with, the damper restarts there at rest. An impossible
  * state restarts at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and within the force limit, even
- * if damper or state are damaged. Some 195 instructions on a Cortex-M7.
+ * if the damper or the state is damaged. A step takes about 195 instructions on a Cortex-M7.
  *
  * @param damper          initialised by `dashpot_damper_init`
  * @param state           from `dashpot_state_init` or `dashpot_state_restore`, changed
@@ -703,7 +703,8 @@ dashpot_error dashpot_step(const dashpot_damper *damper,
                            float *force_n);
 
 /**
- * Steps several dampers with the same bits as `dashpot_step`. After an error, no damper has stepped.
+ * Steps several dampers. The forces are bit-identical to those of `dashpot_step`. After an error, no damper has
+ * stepped.
  *
  * @param dampers          `count` pointers to dampers; one damper can serve several states
  * @param states           `count` states, changed
@@ -718,7 +719,7 @@ dashpot_error dashpot_step_bank(const dashpot_damper *const *dampers,
                                 size_t count);
 
 /**
- * Returns the version of the library: 10000 major + 100 minor + patch. `DASHPOT_VERSION` is that of the header.
+ * Returns the version of the library: 10000 major + 100 minor + patch. `DASHPOT_VERSION` is the version of the header.
  */
 uint32_t dashpot_version(void);
 

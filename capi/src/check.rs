@@ -16,16 +16,16 @@ impl From<Corrupted> for DashpotError {
     }
 }
 
-/// Checks a slice of a damper's constants and a state. Call it at every tick or more rarely.
+/// Checks a slice of a damper's constants and a state. Call it at every tick or less often.
 ///
-/// `DASHPOT_CHECK_SLICES` calls are one round, which checks all constants. A flipped bit is found in the next round.
-/// To hold a force from before the damage, store the force at the first call of each round, and use the one stored in
-/// the last round that ended without an error. Between calls the damper may be loaded and its clearance set. Some 370
-/// instructions at most on a Cortex-M7.
+/// `DASHPOT_CHECK_SLICES` calls are one round, which checks all constants. A flipped bit is found in the next round. To
+/// hold a force from before the damage, store the force at the first call of each round, and use the one stored in the
+/// last round that ended without an error. Between calls you may load the damper again or set its clearance. A call
+/// takes at most about 370 instructions on a Cortex-M7.
 ///
 /// @param damper  initialised by `dashpot_damper_init`
 /// @param state   a state of this damper
-/// @param check   progress of the check of this damper: zeros before the first call; changed
+/// @param check   progress of the check of this damper, changed; fill it with zeros before the first call
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_check_slice(
     damper: *const DashpotDamper,
@@ -33,12 +33,13 @@ pub unsafe extern "C" fn dashpot_check_slice(
     check: *mut DashpotCheck,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let (damper, state) = unsafe { (made(damper)?, made_state(state)?) };
         crate::pointer::check(check)?;
         Memory::of(check).check_apart(Memory::of(damper))?;
         Memory::of(check).check_apart(Memory::of(state))?;
-        // SAFETY: checked, and the caller's promise; the storage is a Check's to the byte, any bytes are one.
+        // SAFETY: the pointer is checked, and the caller keeps the contract; the storage has the layout of `Check`, for
+        // which any bytes are valid.
         let check: &mut Check = unsafe { exclusive(check.cast()) }?;
         check.slice(damper)?;
         Check::state(damper, state)?;

@@ -9,11 +9,11 @@ use crate::types::{DashpotDamper, DashpotDamperInfo};
 /// Returns an initialised damper.
 ///
 /// # Safety
-/// The caller's promise must hold.
+/// The caller must keep the contract in the documentation of this crate.
 pub(crate) unsafe fn made<'a>(
     damper: *const DashpotDamper,
 ) -> Result<&'a Damper<f32>, DashpotError> {
-    // SAFETY: the caller's promise; the storage is a Damper's to the byte and any bytes are one.
+    // SAFETY: the caller keeps the contract; the storage has the layout of `Damper`, for which any bytes are valid.
     let damper: &Damper<f32> = unsafe { shared(damper.cast()) }?;
     if damper.revision() == 0 {
         Err(DashpotError::NoDamper)
@@ -25,7 +25,7 @@ pub(crate) unsafe fn made<'a>(
 /// Initialises a damper from an image, the bytes from `dashpot export --lang c` or `--lang bin`.
 ///
 /// The whole image is checked first and is not needed afterwards. The next step adopts states of the old damper and
-/// keeps their force. Do not call it within a tick: it takes some 376 000 instructions on a Cortex-M7.
+/// keeps their force. Do not call it within a tick: it takes about 376 000 instructions on a Cortex-M7.
 ///
 /// @param damper  storage with any content; written
 /// @param image   the bytes, at any alignment, outside the storage of the damper
@@ -38,11 +38,12 @@ pub unsafe extern "C" fn dashpot_damper_init(
 ) -> DashpotError {
     let done = || {
         check(damper)?;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let image = unsafe { bytes(image, length) }?;
         Memory::of(damper).check_apart(Memory::of_bytes(image))?;
         let mut loading = Damper::<f32>::check_image(image)?;
-        // SAFETY: checked, and the caller's promise; zeros are a Damper, so it may be referred to.
+        // SAFETY: the pointer is checked, and the caller keeps the contract; zeros are a valid `Damper`, so a reference
+        // to them is allowed.
         let damper: &mut Damper<f32> = unsafe {
             damper.write_bytes(0, 1);
             exclusive(damper.cast())
@@ -63,7 +64,7 @@ pub unsafe extern "C" fn dashpot_damper_describe(
     info: *mut DashpotDamperInfo,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let damper = unsafe { made(damper) }?;
         check(info)?;
         Memory::of(info).check_apart(Memory::of(damper))?;
@@ -73,7 +74,7 @@ pub unsafe extern "C" fn dashpot_damper_describe(
             force_limit_n: damper.force_limit_n(),
             revision: damper.revision(),
         };
-        // SAFETY: checked, and the caller's promise.
+        // SAFETY: the pointer is checked, and the caller keeps the contract.
         unsafe { info.write(read) };
         Ok(())
     };
@@ -82,8 +83,8 @@ pub unsafe extern "C" fn dashpot_damper_describe(
 
 /// Sets the clearance of a damper in use. The next step of each state adopts it and keeps its force.
 ///
-/// On a Cortex-M7 this takes some 302 instructions, and the next step of each state some 1690 instructions instead of
-/// the usual number.
+/// On a Cortex-M7 this takes about 302 instructions, and the next step of each state then takes about 1690 instructions
+/// instead of the usual number.
 ///
 /// @param damper       initialised by `dashpot_damper_init`; no step may use it during the call
 /// @param clearance_m  clearance 2a, the total play (m), 0 to 0.1
@@ -93,9 +94,9 @@ pub unsafe extern "C" fn dashpot_damper_set_clearance(
     clearance_m: f32,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the reference ends here.
+        // SAFETY: the caller keeps the contract; the reference ends with this statement.
         unsafe { made(damper) }?;
-        // SAFETY: the caller's promise; the storage is a Damper's to the byte.
+        // SAFETY: the caller keeps the contract; the storage has the layout of `Damper`.
         let damper: &mut Damper<f32> = unsafe { exclusive(damper.cast()) }?;
         let set = damper.set_clearance_m(clearance_m);
         set.map_err(|_: ClearanceError| DashpotError::Range)

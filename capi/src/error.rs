@@ -18,17 +18,17 @@ pub enum DashpotError {
     NoDamper = 3,
     /// A length or count is wrong, or an image is from a library with another table.
     Length = 4,
-    /// The bytes do not start like an image or a saved state.
+    /// The bytes do not start as an image or a saved state does.
     Magic = 5,
     /// The byte-order mark is not little-endian.
     ByteOrder = 6,
-    /// The bytes have another version of the format.
+    /// The bytes are in another version of the format.
     Version = 7,
     /// The bytes are not in single precision.
     Scalar = 8,
     /// The CRC-32 does not match: the bytes are damaged.
     Checksum = 9,
-    /// A constant or a number of a state is impossible.
+    /// A constant or a value in a state is impossible.
     Values = 10,
     /// The saved state belongs to another damper, or to this one before its clearance changed.
     WrongDamper = 11,
@@ -42,7 +42,7 @@ pub enum DashpotError {
     Overlap = 15,
     /// Header and library have different versions or different storage sizes.
     Header = 16,
-    /// The revision of an image does not match its constants, so they are not from a build.
+    /// The revision of an image does not match its constants, so no build produced them.
     Revision = 17,
     /// The storage contains no health model or estimate: call `dashpot_health_model_init`, then `dashpot_health_init`.
     NoHealth = 18,
@@ -77,15 +77,15 @@ impl DashpotError {
         match self {
             Self::None => c"success",
             Self::NullPointer => c"a pointer is null",
-            Self::Misaligned => c"a pointer does not have the alignment of its type",
+            Self::Misaligned => c"a pointer is not aligned for its type",
             Self::NoDamper => c"the storage contains no damper: call dashpot_damper_init first",
             Self::Length => c"a length or count is wrong",
             Self::Magic => c"the bytes are not an image or a saved state",
             Self::ByteOrder => c"the bytes are not little-endian",
-            Self::Version => c"the bytes have another version of the format",
+            Self::Version => c"the bytes are in another version of the format",
             Self::Scalar => c"the bytes are not in single precision",
             Self::Checksum => c"the CRC-32 does not match: the bytes are damaged",
-            Self::Values => c"a constant or a number of a state is impossible",
+            Self::Values => c"a constant or a value in a state is impossible",
             Self::WrongDamper => c"the saved state belongs to another damper",
             Self::Range => c"a number is outside its allowed range",
             Self::NoState => c"the storage contains no state: call dashpot_state_init first",
@@ -127,7 +127,7 @@ impl From<SavedStateError> for DashpotError {
     }
 }
 
-/// Converts the result of a function's body to its code.
+/// Converts the result inside a C function to the code that the function returns.
 impl From<Result<(), DashpotError>> for DashpotError {
     fn from(done: Result<(), DashpotError>) -> Self {
         done.err().unwrap_or(Self::None)

@@ -32,11 +32,12 @@ impl From<Estimate> for DashpotEstimate {
 /// Returns an initialised model.
 ///
 /// # Safety
-/// The caller's promise must hold.
+/// The caller must keep the contract in the documentation of this crate.
 unsafe fn made_model<'a>(
     model: *const DashpotHealthModel,
 ) -> Result<&'a HealthModel, DashpotError> {
-    // SAFETY: the caller's promise; the storage is a HealthModel's to the byte and any bytes are one.
+    // SAFETY: the caller keeps the contract; the storage has the layout of `HealthModel`, for which any bytes are
+    // valid.
     let model: &HealthModel = unsafe { shared(model.cast()) }?;
     if model.is_marked() {
         Ok(model)
@@ -48,9 +49,9 @@ unsafe fn made_model<'a>(
 /// Returns an initialised estimate for reading.
 ///
 /// # Safety
-/// The caller's promise must hold.
+/// The caller must keep the contract in the documentation of this crate.
 unsafe fn made_health<'a>(health: *const DashpotHealth) -> Result<&'a Health, DashpotError> {
-    // SAFETY: the caller's promise; the storage is a Health's to the byte and any bytes are one.
+    // SAFETY: the caller keeps the contract; the storage has the layout of `Health`, for which any bytes are valid.
     let health: &Health = unsafe { shared(health.cast()) }?;
     if health.is_marked() {
         Ok(health)
@@ -62,7 +63,7 @@ unsafe fn made_health<'a>(health: *const DashpotHealth) -> Result<&'a Health, Da
 /// Initialises the constants of an estimator from an image, the bytes from `dashpot export --health --lang c` or
 /// `HealthModel::to_image` of dashpot-core.
 ///
-/// Do not call it within a tick. It needs the size of the model on the stack.
+/// Do not call it within a tick. It needs as much stack as the size of the model.
 ///
 /// @param model   storage with any content; written
 /// @param image   the bytes, at any alignment, outside the storage of the model
@@ -75,11 +76,12 @@ pub unsafe extern "C" fn dashpot_health_model_init(
 ) -> DashpotError {
     let done = || {
         check(model)?;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let image = unsafe { bytes(image, length) }?;
         Memory::of(model).check_apart(Memory::of_bytes(image))?;
         let made = HealthModel::from_image(image)?;
-        // SAFETY: checked, and the caller's promise; the storage is a HealthModel's to the byte.
+        // SAFETY: the pointer is checked, and the caller keeps the contract; the storage has the layout of
+        // `HealthModel`.
         unsafe { model.cast::<HealthModel>().write(made) };
         Ok(())
     };
@@ -96,12 +98,12 @@ pub unsafe extern "C" fn dashpot_health_set_baseline(
     baseline: *const DashpotHealthBaseline,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the reference ends here.
+        // SAFETY: the caller keeps the contract; the reference ends with this statement.
         unsafe { made_model(model) }?;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let given = *unsafe { shared(baseline) }?;
         Memory::of(model).check_apart(Memory::of(baseline))?;
-        // SAFETY: the caller's promise; the storage is a HealthModel's to the byte.
+        // SAFETY: the caller keeps the contract; the storage has the layout of `HealthModel`.
         let model: &mut HealthModel = unsafe { exclusive(model.cast()) }?;
         let mut baseline = Baseline::new(
             given.flow_factor.value,
@@ -128,12 +130,12 @@ pub unsafe extern "C" fn dashpot_health_set_limits(
     limits: *const DashpotHealthLimits,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the reference ends here.
+        // SAFETY: the caller keeps the contract; the reference ends with this statement.
         unsafe { made_model(model) }?;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let given = *unsafe { shared(limits) }?;
         Memory::of(model).check_apart(Memory::of(limits))?;
-        // SAFETY: the caller's promise; the storage is a HealthModel's to the byte.
+        // SAFETY: the caller keeps the contract; the storage has the layout of `HealthModel`.
         let model: &mut HealthModel = unsafe { exclusive(model.cast()) }?;
         let mut limits = HealthLimits::default();
         limits.flow_factor = given.flow_factor;
@@ -157,10 +159,10 @@ pub unsafe extern "C" fn dashpot_health_init(
 ) -> DashpotError {
     let done = || {
         check(health)?;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let model = unsafe { made_model(model) }?;
         Memory::of(health).check_apart(Memory::of(model))?;
-        // SAFETY: checked, and the caller's promise; the storage is a Health's to the byte.
+        // SAFETY: the pointer is checked, and the caller keeps the contract; the storage has the layout of `Health`.
         unsafe { health.cast::<Health>().write(Health::new(model)) };
         Ok(())
     };
@@ -182,10 +184,10 @@ pub unsafe extern "C" fn dashpot_health_tick(
     force_n: f32,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the second reference ends here.
+        // SAFETY: the caller keeps the contract; the second reference ends with this statement.
         let model = unsafe { (made_model(model)?, made_health(health)?).0 };
         Memory::of(health).check_apart(Memory::of(model))?;
-        // SAFETY: the caller's promise; the storage is a Health's to the byte.
+        // SAFETY: the caller keeps the contract; the storage has the layout of `Health`.
         let health: &mut Health = unsafe { exclusive(health.cast()) }?;
         health.tick(model, displacement_m, force_n);
         Ok(())
@@ -206,7 +208,7 @@ pub unsafe extern "C" fn dashpot_health_read(
     reading: *mut DashpotHealthReading,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let (model, health) = unsafe { (made_model(model)?, made_health(health)?) };
         check(reading)?;
         Memory::of(reading).check_apart(Memory::of(model))?;
@@ -224,7 +226,7 @@ pub unsafe extern "C" fn dashpot_health_read(
             force_zero_n: read.force_zero_n.into(),
             added_friction_n: read.added_friction_n.into(),
         };
-        // SAFETY: checked, and the caller's promise.
+        // SAFETY: the pointer is checked, and the caller keeps the contract.
         unsafe { reading.write(read) };
         Ok(())
     };
@@ -237,9 +239,9 @@ pub unsafe extern "C" fn dashpot_health_read(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_health_clear_status(health: *mut DashpotHealth) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the reference ends here.
+        // SAFETY: the caller keeps the contract; the reference ends with this statement.
         unsafe { made_health(health) }?;
-        // SAFETY: the caller's promise; the storage is a Health's to the byte.
+        // SAFETY: the caller keeps the contract; the storage has the layout of `Health`.
         let health: &mut Health = unsafe { exclusive(health.cast()) }?;
         health.clear_status();
         Ok(())

@@ -3,12 +3,12 @@
 //! Each function first checks all its arguments, then does its work or nothing. The library is for targets, so it has
 //! single precision only. On a desktop use dashpot-core.
 //!
-//! The caller's promise for every function: a pointer that is neither null nor misaligned points to storage of its
-//! type, or to as many bytes or elements as the length or count says. During the call nothing else changes that
-//! storage, or uses storage that the call changes.
+//! The contract that the caller of every function keeps: a pointer that is neither null nor misaligned points to
+//! storage of its type, or to as many bytes or elements as the length or count says. During the call nothing else
+//! changes that storage, or uses storage that the call changes.
 #![no_std]
 #![warn(missing_docs)]
-#![allow(clippy::missing_safety_doc)] // the promise above and the header are the safety documentation
+#![allow(clippy::missing_safety_doc)] // the contract above and the header are the safety documentation
 
 mod check;
 mod damper;

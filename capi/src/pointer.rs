@@ -18,20 +18,20 @@ pub(crate) fn check<T>(pointer: *const T) -> Result<(), DashpotError> {
 /// Returns a reference for reading.
 ///
 /// # Safety
-/// A pointer that is not null and aligned must point to a `T` that nothing changes during `'a`.
+/// A pointer that is neither null nor misaligned must point to a `T` that nothing changes during `'a`.
 pub(crate) unsafe fn shared<'a, T>(pointer: *const T) -> Result<&'a T, DashpotError> {
     check(pointer)?;
-    // SAFETY: checked, and the caller's promise.
+    // SAFETY: the pointer is checked, and the caller keeps the contract.
     Ok(unsafe { &*pointer })
 }
 
 /// Returns a reference for writing.
 ///
 /// # Safety
-/// A pointer that is not null and aligned must point to a `T` that nothing else uses during `'a`.
+/// A pointer that is neither null nor misaligned must point to a `T` that nothing else uses during `'a`.
 pub(crate) unsafe fn exclusive<'a, T>(pointer: *mut T) -> Result<&'a mut T, DashpotError> {
     check(pointer)?;
-    // SAFETY: checked, and the caller's promise.
+    // SAFETY: the pointer is checked, and the caller keeps the contract.
     Ok(unsafe { &mut *pointer })
 }
 
@@ -45,7 +45,7 @@ pub(crate) unsafe fn bytes<'a>(
 ) -> Result<&'a [u8], DashpotError> {
     check(pointer)?;
     check_count::<u8>(length)?;
-    // SAFETY: checked, and the caller's promise.
+    // SAFETY: the pointer is checked, and the caller keeps the contract.
     Ok(unsafe { slice::from_raw_parts(pointer, length) })
 }
 
@@ -58,7 +58,7 @@ pub(crate) fn check_count<T>(count: usize) -> Result<(), DashpotError> {
     }
 }
 
-/// Memory of an argument.
+/// Memory that an argument occupies.
 #[derive(Clone, Copy)]
 pub(crate) struct Memory {
     address: usize,
@@ -66,7 +66,7 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// Memory of one `T`.
+    /// Memory of one `T` at a pointer.
     pub(crate) fn of<T>(pointer: *const T) -> Self {
         Self::array(pointer, 1)
     }
@@ -84,9 +84,10 @@ impl Memory {
         Self::array(bytes.as_ptr(), bytes.len())
     }
 
-    /// Checks that no byte belongs to both.
+    /// Checks that no byte belongs to both ranges.
     pub(crate) fn check_apart(self, other: Self) -> Result<(), DashpotError> {
-        // The offset of the last byte of `other` relative to `self`: one comparison covers both sides.
+        // `last` is the offset of the last byte of `other` from the start of `self`. It wraps, so one comparison is
+        // enough for an `other` on either side.
         let ahead = other.address.wrapping_sub(self.address);
         let last = ahead.wrapping_add(other.bytes).wrapping_sub(1);
         if last < (self.bytes + other.bytes).saturating_sub(1) {

@@ -10,11 +10,12 @@ use crate::types::{DASHPOT_SAVED_STATE_SIZE, DashpotDamper, DashpotReading, Dash
 /// Returns an initialised state for reading.
 ///
 /// # Safety
-/// The caller's promise must hold.
+/// The caller must keep the contract in the documentation of this crate.
 pub(crate) unsafe fn made_state<'a>(
     state: *const DashpotState,
 ) -> Result<&'a DamperState<f32>, DashpotError> {
-    // SAFETY: the caller's promise; the storage is a DamperState's to the byte and any bytes are one.
+    // SAFETY: the caller keeps the contract; the storage has the layout of `DamperState`, for which any bytes are
+    // valid.
     let state: &DamperState<f32> = unsafe { shared(state.cast()) }?;
     if state.is_marked() {
         Ok(state)
@@ -23,7 +24,7 @@ pub(crate) unsafe fn made_state<'a>(
     }
 }
 
-/// Initialises a state at rest, centred in the clearance, without force and status bits.
+/// Initialises a state at rest, centred in the clearance, without force or status bits.
 ///
 /// @param state           storage with any content; written
 /// @param damper          initialised by `dashpot_damper_init`
@@ -36,14 +37,15 @@ pub unsafe extern "C" fn dashpot_state_init(
 ) -> DashpotError {
     let done = || {
         check(state)?;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let damper = unsafe { made(damper) }?;
         Memory::of(state).check_apart(Memory::of(damper))?;
         let max = damper.largest_displacement_m();
         if !(-max..=max).contains(&displacement_m) {
             return Err(DashpotError::Range);
         }
-        // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.
+        // SAFETY: the pointer is checked, and the caller keeps the contract; the storage has the layout of
+        // `DamperState`.
         unsafe {
             state
                 .cast::<DamperState<f32>>()
@@ -64,7 +66,7 @@ pub unsafe extern "C" fn dashpot_state_read(
     reading: *mut DashpotReading,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let state = unsafe { made_state(state) }?;
         check(reading)?;
         Memory::of(reading).check_apart(Memory::of(state))?;
@@ -74,7 +76,7 @@ pub unsafe extern "C" fn dashpot_state_read(
             status: state.status().bits(),
             rejected_inputs: state.rejected_inputs(),
         };
-        // SAFETY: checked, and the caller's promise.
+        // SAFETY: the pointer is checked, and the caller keeps the contract.
         unsafe { reading.write(read) };
         Ok(())
     };
@@ -87,9 +89,9 @@ pub unsafe extern "C" fn dashpot_state_read(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn dashpot_state_clear_status(state: *mut DashpotState) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise; the reference ends here.
+        // SAFETY: the caller keeps the contract; the reference ends with this statement.
         unsafe { made_state(state) }?;
-        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
+        // SAFETY: the caller keeps the contract; the storage has the layout of `DamperState`.
         let state: &mut DamperState<f32> = unsafe { exclusive(state.cast()) }?;
         state.clear_status();
         Ok(())
@@ -110,14 +112,14 @@ pub unsafe extern "C" fn dashpot_state_save(
     length: usize,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let state = unsafe { made_state(state) }?;
         check(saved)?;
         if length != DASHPOT_SAVED_STATE_SIZE {
             return Err(DashpotError::Length);
         }
         Memory::array(saved, length).check_apart(Memory::of(state))?;
-        // SAFETY: checked, and the caller's promise; an array of bytes has no alignment.
+        // SAFETY: the pointer is checked, and the caller keeps the contract; an array of bytes needs no alignment.
         unsafe {
             saved
                 .cast::<[u8; DASHPOT_SAVED_STATE_SIZE]>()
@@ -143,12 +145,13 @@ pub unsafe extern "C" fn dashpot_state_restore(
 ) -> DashpotError {
     let done = || {
         check(state)?;
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let (damper, saved) = unsafe { (made(damper)?, bytes(saved, length)?) };
         Memory::of(state).check_apart(Memory::of(damper))?;
         Memory::of(state).check_apart(Memory::of_bytes(saved))?;
         let restored = damper.restore(saved)?;
-        // SAFETY: checked, and the caller's promise; the storage is a DamperState's to the byte.
+        // SAFETY: the pointer is checked, and the caller keeps the contract; the storage has the layout of
+        // `DamperState`.
         unsafe { state.cast::<DamperState<f32>>().write(restored) };
         Ok(())
     };

@@ -23,7 +23,7 @@ fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), Das
 /// A displacement that is NaN, infinite, out of range or too fast is not an error: it is held or limited, latched in
 /// the status and counted. If it is too far away to catch up with, the damper restarts there at rest. An impossible
 /// state restarts at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and within the force limit, even
-/// if damper or state are damaged. Some 195 instructions on a Cortex-M7.
+/// if the damper or the state is damaged. A step takes about 195 instructions on a Cortex-M7.
 ///
 /// @param damper          initialised by `dashpot_damper_init`
 /// @param state           from `dashpot_state_init` or `dashpot_state_restore`, changed
@@ -37,25 +37,26 @@ pub unsafe extern "C" fn dashpot_step(
     force_n: *mut f32,
 ) -> DashpotError {
     let done = || {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller keeps the contract.
         let damper = unsafe { made(damper) }?;
         check(state)?;
         check(force_n)?;
         Memory::of(state).check_apart(Memory::of(damper))?;
         Memory::of(force_n).check_apart(Memory::of(damper))?;
         Memory::of(force_n).check_apart(Memory::of(state))?;
-        // SAFETY: the caller's promise; the storage is a DamperState's to the byte.
+        // SAFETY: the caller keeps the contract; the storage has the layout of `DamperState`.
         let state: &mut DamperState<f32> = unsafe { exclusive(state.cast()) }?;
         check_state(damper, state)?;
         let force = damper.step(state, displacement_m);
-        // SAFETY: checked, and the caller's promise.
+        // SAFETY: the pointer is checked, and the caller keeps the contract.
         unsafe { force_n.write(force) };
         Ok(())
     };
     DashpotError::from(done())
 }
 
-/// Steps several dampers with the same bits as `dashpot_step`. After an error, no damper has stepped.
+/// Steps several dampers. The forces are bit-identical to those of `dashpot_step`. After an error, no damper has
+/// stepped.
 ///
 /// @param dampers          `count` pointers to dampers; one damper can serve several states
 /// @param states           `count` states, changed
@@ -87,16 +88,17 @@ pub unsafe extern "C" fn dashpot_step_bank(
             forces.check_apart(Memory::array(displacements_m, count))?;
         }
         for index in 0..count {
-            // SAFETY: within the caller's array; the caller's promise.
+            // SAFETY: the element is within the caller's array, and the caller keeps the contract.
             let damper = unsafe { made(*dampers.add(index)) }?;
             moving.check_apart(Memory::of(damper))?;
             forces.check_apart(Memory::of(damper))?;
-            // SAFETY: within the caller's array; the caller's promise; the reference ends here.
+            // SAFETY: the element is within the caller's array, and the caller keeps the contract; the reference ends
+            // with this statement.
             check_state(damper, unsafe { shared(states.add(index).cast()) }?)?;
         }
         for index in 0..count {
-            // SAFETY: within the caller's arrays, checked, and the caller's promise. Each displacement is read before
-            // its force is written, so displacements and forces can be the same array.
+            // SAFETY: the elements are within the caller's arrays and checked, and the caller keeps the contract. Each
+            // displacement is read before its force is written, so displacements and forces can be the same array.
             unsafe {
                 let damper = made(*dampers.add(index))?;
                 let state: &mut DamperState<f32> = exclusive(states.add(index).cast())?;

@@ -44,7 +44,7 @@ pub struct DashpotState {
     pub opaque: [u32; DASHPOT_STATE_WORDS],
 }
 
-/// Progress of the check of a damper: zeros before the first call.
+/// Progress of the check of a damper. Fill it with zeros before the first call.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct DashpotCheck {
@@ -101,7 +101,7 @@ pub const DASHPOT_STATUS_INPUT_LIMITED: u16 = 2;
 pub const DASHPOT_STATUS_SATURATED: u16 = 4;
 /// A different damper stepped this state; the force was carried over.
 pub const DASHPOT_STATUS_DAMPER_SWAPPED: u16 = 8;
-/// Memory was damaged: the state restarted at rest, or a check found damage in constants or state.
+/// Memory was damaged: the state restarted at rest, or a check found damage in the constants or the state.
 pub const DASHPOT_STATUS_CORRUPTED: u16 = 16;
 /// A displacement was too far away to catch up with. The damper restarted there at rest and without force.
 pub const DASHPOT_STATUS_RESTARTED: u16 = 32;
@@ -153,9 +153,9 @@ pub struct DashpotEstimate {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotHealthBaseline {
-    /// Flow over nominal flow at the same force (1).
+    /// Ratio of the flow to the nominal flow at the same force (1).
     pub flow_factor: DashpotEstimate,
-    /// Compliance of the mount, one over its stiffness (m/N).
+    /// Compliance of the mount, the inverse of its stiffness (m/N).
     pub compliance_m_per_n: DashpotEstimate,
     /// Clearance 2a (m).
     pub clearance_m: DashpotEstimate,
@@ -180,7 +180,7 @@ pub struct DashpotHealthLimits {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DashpotHealthReading {
-    /// Flow over nominal flow at the same force (1). Its inverse is the damping factor.
+    /// Ratio of the flow to the nominal flow at the same force (1). Its inverse is the damping factor.
     pub flow_factor: DashpotEstimate,
     /// Effective stiffness of the mount (N/m).
     pub stiffness_n_per_m: DashpotEstimate,
@@ -188,7 +188,7 @@ pub struct DashpotHealthReading {
     pub clearance_m: DashpotEstimate,
     /// Lag of the measured force behind the measured displacement (s).
     pub lag_s: DashpotEstimate,
-    /// Compliance of the mount, one over its stiffness (m/N), the quantity that the filter estimates.
+    /// Compliance of the mount, the inverse of its stiffness (m/N), the quantity that the filter estimates.
     pub compliance_m_per_n: DashpotEstimate,
     /// Number of usable samples: in contact, not yielding.
     pub samples: u32,

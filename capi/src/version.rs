@@ -10,11 +10,11 @@ const PATCH: u32 = number(env!("CARGO_PKG_VERSION_PATCH"));
 const fn number(digits: &str) -> u32 {
     match u32::from_str_radix(digits, 10) {
         Ok(number) => number,
-        Err(_) => panic!("cargo sets a number"),
+        Err(_) => panic!("cargo sets the version numbers"),
     }
 }
 
-/// Returns the version of the library: 10000 major + 100 minor + patch. `DASHPOT_VERSION` is that of the header.
+/// Returns the version of the library: 10000 major + 100 minor + patch. `DASHPOT_VERSION` is the version of the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn dashpot_version() -> u32 {
     10_000 * MAJOR + 100 * MINOR + PATCH

@@ -1,4 +1,5 @@
-//! The C functions, called as from C: they have the bits of the core, and each wrong call returns a code.
+//! Calls the C functions as a C program does: the results are bit-identical to those of the core, and each wrong call
+//! returns a code.
 
 mod common;
 
@@ -14,7 +15,7 @@ const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 const DONE: DashpotError = DashpotError::None;
 
-/// Under Miri, which is slow, the tests use one tick or one bit of this many.
+/// Under Miri, which is slow, the tests use only one of this many ticks or bits.
 const EVERY: usize = if cfg!(miri) { 50 } else { 1 };
 
 /// Initialises a damper from the image of `core`, in storage with arbitrary content.
@@ -23,7 +24,7 @@ fn made(core: &Damper<f32>) -> DashpotDamper {
         opaque: [0xdead_beef; DASHPOT_DAMPER_WORDS],
     };
     let image = core.to_image();
-    // SAFETY: the arguments are as the function requires.
+    // SAFETY: the arguments are what the function requires.
     let done = unsafe { dashpot_damper_init(&mut damper, image.as_ptr(), image.len()) };
     assert_eq!(done, DONE);
     damper
@@ -31,7 +32,7 @@ fn made(core: &Damper<f32>) -> DashpotDamper {
 
 fn at_rest(damper: &DashpotDamper, displacement_m: f32) -> DashpotState {
     let mut state = MaybeUninit::uninit();
-    // SAFETY: init writes the whole state.
+    // SAFETY: `dashpot_state_init` writes the whole state.
     unsafe {
         assert_eq!(
             dashpot_state_init(state.as_mut_ptr(), damper, displacement_m),
@@ -51,7 +52,7 @@ fn step(damper: &DashpotDamper, state: &mut DashpotState, displacement_m: f32) -
 
 fn read(state: &DashpotState) -> DashpotReading {
     let mut reading = MaybeUninit::uninit();
-    // SAFETY: read writes the whole reading.
+    // SAFETY: `dashpot_state_read` writes the whole reading.
     unsafe {
         assert_eq!(dashpot_state_read(state, reading.as_mut_ptr()), DONE);
         reading.assume_init()
@@ -71,14 +72,14 @@ fn restore(damper: &DashpotDamper, state: &mut DashpotState, saved: &[u8]) -> Da
     unsafe { dashpot_state_restore(state, damper, saved.as_ptr(), saved.len()) }
 }
 
-/// 2 mm at 2 Hz, with faulty values of a sensor and jumps within and beyond the range.
+/// 2 mm at 2 Hz, with faulty sensor values and with jumps within and beyond the range.
 fn displacement(tick: u32) -> f32 {
     match tick {
         200 => f32::NAN,
         300 => f32::NEG_INFINITY,
         400 => 5.0,
         600 => 0.01,
-        // Arcs of 2 mm, from operations with the same bits on every machine.
+        // Arcs of 2 mm, computed with operations that give the same bits on every machine.
         _ => {
             let phase = (tick % 500) as f32 / 250.0 - 1.0;
             8e-3 * phase * (1.0 - phase.abs())
@@ -128,7 +129,7 @@ fn a_bank_has_the_bits_of_its_dampers_also_in_place() {
             std::array::from_fn(|i| cores[i % 2].step(&mut expected[i], displacements[i]));
         let mut exchanged = displacements;
         let place = exchanged.as_mut_ptr();
-        // SAFETY: five of each; displacements and forces can be the same array.
+        // SAFETY: there are five of each; displacements and forces can be the same array.
         let done =
             unsafe { dashpot_step_bank(dampers.as_ptr(), states.as_mut_ptr(), place, place, 5) };
         assert_eq!(done, DONE);
@@ -147,7 +148,7 @@ fn a_bank_has_the_bits_of_its_dampers_also_in_place() {
     ] {
         let mut dampers = dampers;
         dampers[4] = last;
-        // SAFETY: five of each; the wrong pointer is not dereferenced.
+        // SAFETY: there are five of each; the wrong pointer is not dereferenced.
         let refused = unsafe {
             dashpot_step_bank(
                 dampers.as_ptr(),
@@ -232,7 +233,7 @@ fn a_wrong_image_leaves_the_damper_unchanged() {
     let mut damper = made(&core);
     let before = damper.opaque;
     let mut init = |image: &[u8], length: usize| {
-        // SAFETY: `length` is at most the image's.
+        // SAFETY: `length` is at most the length of the image.
         let code = unsafe { dashpot_damper_init(&mut damper, image.as_ptr(), length) };
         assert_eq!(damper.opaque, before);
         code
@@ -323,7 +324,7 @@ fn a_wrong_saved_state_changes_nothing() {
     assert_eq!(state.opaque, before);
 }
 
-/// Each pointer of each function is null and then misaligned, with the others valid.
+/// Makes each pointer of each function first null and then misaligned, while the others are valid.
 #[test]
 fn null_and_misaligned_pointers_are_codes() {
     let core = core_damper(120e3);

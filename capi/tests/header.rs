@@ -132,10 +132,11 @@ fn the_header_is_that_of_the_sources() {
         .position(|(a, b)| a != b);
     assert!(
         checked_in == generated,
-        "{} differs from the sources at line {}: DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test \
+        "{} differs from the sources at {}: DASHPOT_BLESS=1 cargo test --manifest-path capi/Cargo.toml --test \
          header",
         file.display(),
-        differs.map_or("of the shorter end".to_owned(), |line| (line + 1)
-            .to_string())
+        differs.map_or("the end of the shorter one".to_owned(), |line| {
+            format!("line {}", line + 1)
+        })
     );
 }

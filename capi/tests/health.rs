@@ -1,4 +1,5 @@
-//! The health estimator, called as from C: it has the bits of the core, and each wrong call returns a code.
+//! Calls the health estimator as a C program does: the results are bit-identical to those of the core, and each wrong
+//! call returns a code.
 
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
@@ -24,7 +25,7 @@ fn core_model() -> (Damper<f32>, HealthModel) {
 fn made(model: &HealthModel) -> DashpotHealthModel {
     let image = model.to_image();
     let mut made = MaybeUninit::uninit();
-    // SAFETY: init writes the whole model.
+    // SAFETY: `dashpot_health_model_init` writes the whole model.
     unsafe {
         let done = dashpot_health_model_init(made.as_mut_ptr(), image.as_ptr(), image.len());
         assert_eq!(done, DONE);
@@ -34,7 +35,7 @@ fn made(model: &HealthModel) -> DashpotHealthModel {
 
 fn begun(model: &DashpotHealthModel) -> DashpotHealth {
     let mut health = MaybeUninit::uninit();
-    // SAFETY: init writes the whole estimate.
+    // SAFETY: `dashpot_health_init` writes the whole estimate.
     unsafe {
         assert_eq!(dashpot_health_init(health.as_mut_ptr(), model), DONE);
         health.assume_init()
@@ -43,7 +44,7 @@ fn begun(model: &DashpotHealthModel) -> DashpotHealth {
 
 fn read(model: &DashpotHealthModel, health: &DashpotHealth) -> DashpotHealthReading {
     let mut reading = MaybeUninit::uninit();
-    // SAFETY: read writes the whole reading.
+    // SAFETY: `dashpot_health_read` writes the whole reading.
     unsafe {
         assert_eq!(
             dashpot_health_read(model, health, reading.as_mut_ptr()),
@@ -61,7 +62,7 @@ fn estimates_have_the_bits_of_the_core() {
     let mut expected = Health::new(&core);
     let mut state = damper.at_rest(0.0);
     for tick in 0..5000 {
-        // Arcs of 2 mm and 0.5 mm, from operations with the same bits on every machine.
+        // Arcs of 2 mm and 0.5 mm, computed with operations that give the same bits on every machine.
         let arc = |period: i32| {
             let phase = (tick % period) as f32 / (0.5 * period as f32) - 1.0;
             phase * (1.0 - phase.abs())
@@ -146,7 +147,7 @@ fn limits_decide_what_is_an_alarm() {
         clearance_m: 2e-3,
         deviations: limits.deviations,
     };
-    // SAFETY: references are valid pointers; the function checks the wrong arguments.
+    // SAFETY: references are valid pointers; the function checks its arguments and refuses wrong ones.
     unsafe {
         assert_eq!(dashpot_health_set_limits(&mut model, &wide), DONE);
         assert_eq!(alarms(&model), 0);
@@ -188,7 +189,7 @@ fn wrong_calls_are_codes() {
     };
     let mut storage = model;
     let mut reading = MaybeUninit::uninit();
-    // SAFETY: the functions check the wrong arguments.
+    // SAFETY: the functions check their arguments and refuse wrong ones.
     unsafe {
         let mut init =
             |bytes: &[u8], length| dashpot_health_model_init(&mut storage, bytes.as_ptr(), length);

@@ -1,4 +1,4 @@
-//! Memory that a call changes and that overlaps another argument: the call is refused and writes nothing.
+//! A call is refused and writes nothing if the memory that it changes overlaps another argument.
 
 mod common;
 
@@ -13,13 +13,13 @@ const DONE: DashpotError = DashpotError::None;
 const IMAGE: usize = DASHPOT_IMAGE_SIZE;
 const SAVED: usize = DASHPOT_SAVED_STATE_SIZE;
 
-/// Returns an image that is built only once, because it takes seconds under Miri.
+/// Returns an image that is built only once, because a build takes seconds under Miri.
 fn image() -> &'static [u8; IMAGE] {
     static MADE: LazyLock<[u8; IMAGE]> = LazyLock::new(|| core_damper(120e3).to_image());
     &MADE
 }
 
-/// Words for several objects, with a copy from before a call.
+/// Words for several objects, and a copy of the words from before a call.
 struct Arena {
     words: Vec<u32>,
     before: Vec<u32>,
@@ -32,7 +32,7 @@ impl Arena {
         let image = image();
         let damper: *mut DashpotDamper = words.as_mut_ptr().cast();
         let state = words[DASHPOT_DAMPER_WORDS..].as_mut_ptr().cast();
-        // SAFETY: room for a damper and a state behind it.
+        // SAFETY: there is room for a damper and a state behind it.
         unsafe {
             assert_eq!(dashpot_damper_init(damper, image.as_ptr(), IMAGE), DONE);
             assert_eq!(dashpot_state_init(state, damper, 0.0), DONE);
@@ -49,7 +49,7 @@ impl Arena {
 
     fn assert_refused(&self, code: DashpotError, call: &str) {
         assert_eq!(code, OVERLAP, "{call}");
-        assert!(self.words == self.before, "{call} has written");
+        assert!(self.words == self.before, "{call} wrote");
     }
 }
 
@@ -75,11 +75,11 @@ fn an_image_is_refused_inside_the_storage_and_accepted_next_to_it() {
     {
         arena.words.fill(7);
         let place: *mut u8 = arena.at(image_at);
-        // SAFETY: within the arena, which is large enough for every offset above.
+        // SAFETY: the bytes are within the arena, which is large enough for every offset above.
         unsafe { place.copy_from(image().as_ptr(), IMAGE) };
         arena.before.clone_from(&arena.words);
         let storage = arena.at(storage_at);
-        // SAFETY: within the arena.
+        // SAFETY: the pointers are within the arena.
         let code = unsafe { dashpot_damper_init(storage, arena.at(image_at), IMAGE) };
         assert_eq!(
             code, expected,
@@ -99,7 +99,7 @@ fn functions_on_a_state_refuse_overlap() {
     let (damper, state): (*mut DashpotDamper, *mut DashpotState) =
         (arena.at(0), arena.at(STATE_AT));
     let mut saved = [0; SAVED];
-    // SAFETY: every pointer is into the arena or to a whole object, and aligned.
+    // SAFETY: every pointer is aligned and points into the arena or to a whole object.
     unsafe {
         assert_eq!(dashpot_state_save(state, saved.as_mut_ptr(), SAVED), DONE);
         for at in [0, 4, STATE_AT - 4] {
@@ -132,7 +132,7 @@ fn a_step_refuses_overlap() {
     let (damper, state): (*mut DashpotDamper, *mut DashpotState) =
         (arena.at(0), arena.at(STATE_AT));
     let mut force = 0.0;
-    // SAFETY: every pointer is into the arena or to a whole object, and aligned.
+    // SAFETY: every pointer is aligned and points into the arena or to a whole object.
     unsafe {
         for at in [0, STATE_AT - 4, STATE_AT, FREE_AT - 4] {
             let code = dashpot_step(damper, state, 1e-3, arena.at(at));
@@ -152,13 +152,13 @@ fn a_bank_refuses_overlap_but_for_forces_in_place() {
     let damper: *mut DashpotDamper = arena.at(0);
     let state: *mut DashpotState = arena.at(STATE_AT);
     // Two states, side by side.
-    // SAFETY: within the arena.
+    // SAFETY: the pointers are within the arena.
     unsafe { state.add(1).write(state.read()) };
     let dampers = [damper.cast_const(); 2];
     let outside_at = STATE_AT + 2 * DASHPOT_STATE_SIZE;
-    // An aligned array of pointers between the states and forces.
+    // An aligned array of pointers behind the states and the displacements.
     let pointers_at = (outside_at + 64).next_multiple_of(align_of::<*const DashpotDamper>());
-    // SAFETY: within the arena; a pointer's bytes, read back as a pointer.
+    // SAFETY: the bytes are within the arena; they are the bytes of pointers and are read back as pointers.
     unsafe {
         arena
             .at::<[*const DashpotDamper; 2]>(pointers_at)
@@ -166,7 +166,7 @@ fn a_bank_refuses_overlap_but_for_forces_in_place() {
     };
     arena.before.clone_from(&arena.words);
     let bank = |dampers: *const *const DashpotDamper, states, x: *const f32, forces| {
-        // SAFETY: every pointer is into the arena or to two elements.
+        // SAFETY: every pointer points into the arena or to two elements.
         unsafe { dashpot_step_bank(dampers, states, x, forces, 2) }
     };
     let list = dampers.as_ptr();

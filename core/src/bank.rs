@@ -1,4 +1,4 @@
-//! Several dampers in one call: the same bits as single steps, in less time.
+//! Steps several dampers in one call: faster than stepping them one by one, with bit-identical forces.
 //!
 //! In one step each operation waits for the result of the previous one. Steps of different dampers are independent, so
 //! a bank steps eight dampers together on processors with vector instructions.
@@ -11,8 +11,8 @@ use crate::step::step;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.
 ///
-/// Displacements (m) and forces (N) have the signs of [`Damper::step`]. This cannot fail. One damper can serve several
-/// states.
+/// Displacements (m) and forces (N) have the signs of [`Damper::step`]. This cannot fail. Several states can share one
+/// damper.
 ///
 /// ```
 /// # #[cfg(feature = "builder")] {

@@ -17,7 +17,7 @@ pub enum ShimPackValve {
     FootCompression,
 }
 
-/// Laws of a damper at constant velocity: springs at rest, clearance taken up.
+/// Laws of a damper at constant velocity, when its springs have settled and its clearance is taken up.
 #[derive(Clone, Debug)]
 pub struct Characteristic {
     laws: ElementLaws,
@@ -64,7 +64,7 @@ impl Characteristic {
 
     /// Iterates over the corners of the law and their forces (N), positive in extension and negative in compression.
     ///
-    /// The order is that of the kinds, not of the forces. Seal friction and clearance are not included.
+    /// They are ordered by kind, not by force. Seal friction and clearance are not included.
     ///
     /// ```
     /// use dashpot_core::characteristic::{Characteristic, Corner};
@@ -95,8 +95,10 @@ impl Characteristic {
             })
     }
 
-    /// Returns the flow (m^3/s) through a shim-pack valve under a gauge pressure (Pa); the foot valve works against the
-    /// reservoir pressure `P_b`: `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`.
+    /// Returns the flow (m^3/s) through a shim-pack valve under a gauge pressure (Pa).
+    ///
+    /// `Q = Cd 2 pi r_w k_w (P - P_0)+ sqrt(2 (P - P_b)+/rho)`, where `P_b` is the reservoir pressure for the foot
+    /// valve and 0 for the piston valves.
     ///
     /// `None` for a reduced damper.
     ///

@@ -2,7 +2,8 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc, Table};
 
-/// Processes single bytes. Its table takes 1 KiB of flash and saves four fifths of the instructions.
+/// CRC-32 algorithm that processes one byte at a time. Its table takes 1 KiB of flash and saves four fifths of the
+/// instructions.
 static CHECK: Crc<u32, Table<1>> = Crc::<u32, Table<1>>::new(&CRC_32_ISO_HDLC);
 
 /// Returns the CRC-32 of bytes (ISO-HDLC, as in Ethernet and zip).
@@ -21,7 +22,7 @@ pub(crate) const fn continued(crc: u32, bytes: &[u8]) -> u32 {
     !with(!crc, bytes)
 }
 
-/// Updates the register of the algorithm, initially all ones. For code that takes single bytes.
+/// Updates the register of the algorithm, which starts as all ones. For code that receives one byte at a time.
 #[inline(always)]
 pub(crate) const fn with(register: u32, bytes: &[u8]) -> u32 {
     // The library takes the register with reversed bits and returns its inverse.

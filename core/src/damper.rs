@@ -36,9 +36,9 @@ pub struct Damper<T> {
     pub(crate) table_revision: u32,
     /// CRC-32 of the table in memory.
     pub(crate) table_check: u32,
-    /// Puts the `f32` table at an offset of 64 bytes, from which one instruction reaches each part of it.
+    /// Puts the `f32` table at an offset of 64 bytes, so that one instruction can address each part of it.
     pub(crate) padding: [u32; 2],
-    /// Results of an implicit stage over its reach beyond the offset.
+    /// Results of an implicit stage as functions of its reach beyond the offset.
     pub(crate) table: Table<T>,
 }
 
@@ -59,8 +59,8 @@ impl<T: Real> Damper<T> {
     /// Returns a state at rest at `displacement` (m), centred in the clearance, without force.
     ///
     /// A displacement that is not finite or beyond [`Damper::largest_displacement_m`] is rejected, counted and latched
-    /// as [`Status::INPUT_HELD`]. The state then starts at an end of the range. From there the first good displacement
-    /// is too far to catch up with, so the damper restarts at it without force.
+    /// as [`Status::INPUT_HELD`]. The state then starts at an end of the range. The first good displacement is usually
+    /// too far from that end to catch up with, so the damper restarts at this displacement without force.
     pub fn at_rest(&self, displacement: T) -> DamperState<T> {
         if self.is_displacement(displacement) {
             let numbers = [displacement, T::ZERO, T::ZERO, T::ZERO];
@@ -72,7 +72,7 @@ impl<T: Real> Damper<T> {
         DamperState::new(numbers, self.revision, Status::INPUT_HELD, 1)
     }
 
-    /// Largest displacement from zero that a step follows (m). A displacement beyond it is held, like one that is not
+    /// Largest displacement from zero that a step follows (m). A larger displacement is held, like one that is not
     /// finite.
     pub fn largest_displacement_m(&self) -> T {
         self.scalars.max_displacement()
@@ -88,7 +88,7 @@ impl<T: Real> Damper<T> {
         self.scalars.step_s
     }
 
-    /// Identifier of these constants, never 0: dampers with different constants have different revisions.
+    /// Identifier of these constants, never 0. Dampers with different constants have different revisions.
     pub fn revision(&self) -> u32 {
         self.revision
     }
@@ -110,15 +110,16 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// For each bin of the reach, the index of the piece at its lower border in extension and in compression. The
-    /// pieces of compression follow those of extension.
+    /// Bins of the reach: for each bin, the index of the piece at its lower border, in extension and in compression.
+    /// The pieces of compression follow those of extension.
     ///
     /// A step in another language needs these bins and [`Damper::to_words`].
     pub fn bins(&self) -> &[[u8; 2]] {
         &self.table.bins
     }
 
-    /// Sets the clearance 2a (m) while the damper runs: a few dozen operations; the table does not change.
+    /// Sets the clearance 2a (m) while the damper runs. This takes a few dozen operations and does not change the
+    /// table.
     ///
     /// # Errors
     /// A clearance outside 0 to [`MAX_CLEARANCE_M`]; the damper is unchanged.
@@ -154,7 +155,8 @@ impl<T: Real> Damper<T> {
     /// True if the numbers of a state could result from a step of this damper.
     pub(crate) fn could_leave(&self, state: &DamperState<T>) -> bool {
         let k = &self.scalars;
-        // Rounding to the grid of positions may exceed the range by less than a thousandth of it.
+        // Rounding to the grid of positions can move a displacement out of the range, by less than a thousandth of the
+        // range.
         let max = T::from_f64(1.001) * k.max_displacement();
         state.displacement.abs() <= max
             && state.potential.is_finite()
@@ -174,13 +176,13 @@ mod tests {
     use super::Damper;
     use crate::scalars::SCALARS;
 
-    /// `build` ends with this check.
+    /// Tests the check with which `build` ends.
     #[test]
     fn finds_a_non_finite_number_in_any_word() {
         let built: Damper<f64> = crate::example::reduced_vertical().build(1e-3).unwrap();
         assert!(built.is_finite());
         let words = built.to_words();
-        // The revisions are the two after the scalars.
+        // The two words after the scalars are the revisions.
         for word in (0..words.len()).filter(|word| !(SCALARS..SCALARS + 2).contains(word)) {
             for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 let mut damaged = words;

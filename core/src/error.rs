@@ -29,7 +29,7 @@ pub struct BuildError {
 }
 
 impl BuildError {
-    /// A field of a table whose value is outside the allowed range.
+    /// Creates the error for a field whose value is outside the allowed range.
     pub const fn new(
         section: &'static str,
         field: &'static str,

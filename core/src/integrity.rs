@@ -36,7 +36,8 @@ pub struct Check {
     /// Number of rows of the table that `crc` covers. The scalars come after the last row.
     row: u32,
     crc: u32,
-    /// Checksum of the table at the start of the round. Loading another damper starts a new round.
+    /// Checksum of the table at the start of the round. If it changes, another damper was loaded, and a new round
+    /// starts.
     expected: u32,
 }
 
@@ -56,7 +57,7 @@ impl Check {
         self.row == 0
     }
 
-    /// Checks the next slice: four numbers of the table, or the scalars. After the last slice a new round starts.
+    /// Checks the next slice: one row of the table, or the scalars. After the last slice a new round starts.
     ///
     /// Use one `Check` for each damper. Loading the damper or setting its clearance between two calls is allowed.
     ///
@@ -88,7 +89,7 @@ impl Check {
     /// Checks that a state could result from steps of the damper.
     ///
     /// # Errors
-    /// A number is not finite or out of range, or the memory was never initialised.
+    /// A number is not finite or is out of range, or the memory was never initialised.
     pub fn state<T: Real>(damper: &Damper<T>, state: &DamperState<T>) -> Result<(), Corrupted> {
         let is_from_other = state.revision != damper.revision;
         if state.is_marked() && (is_from_other || damper.could_leave(state)) {

@@ -12,8 +12,8 @@ const AIR_GAS_CONSTANT: f64 = 287.053;
 impl Oil {
     /// Density (kg/m^3) of oil with entrained air under a gauge pressure (Pa).
     ///
-    /// Mass balance: `rho = [(1 - alpha) rho_oil + alpha rho_air] / V(P)`, where V is the volume over the volume at
-    /// atmospheric pressure.
+    /// Mass balance: `rho = [(1 - alpha) rho_oil + alpha rho_air] / V(P)`, where V is the ratio of the volume to the
+    /// volume at atmospheric pressure.
     ///
     /// ```
     /// use dashpot_core::parameters::Oil;
@@ -59,7 +59,7 @@ impl OilColumn {
             + self.air_fraction * (1.0 - self.air_volume(pressure_pa))
     }
 
-    /// Volume of the air over its atmospheric volume, `(p_a/(p_a + P))^(1/n)` (1).
+    /// Ratio of the volume of the air to its volume at atmospheric pressure, `(p_a/(p_a + P))^(1/n)` (1).
     fn air_volume(&self, pressure_pa: f64) -> f64 {
         let ratio = ATMOSPHERIC_PRESSURE_PA / (ATMOSPHERIC_PRESSURE_PA + pressure_pa);
         if self.polytropic_exponent == 1.0 {
@@ -77,9 +77,8 @@ impl OilColumn {
                 / (self.polytropic_exponent * absolute)
     }
 
-    /// Bulk modulus of the mixture (Pa) at an absolute pressure p (Pa): its volume over its compressibility,
-    /// `E = E_l (1 + alpha (p_a/p)^(1/n)) / (1 + alpha p_a^(1/n) E_l/(n p^((n+1)/n)))` to first order
-    /// in alpha.
+    /// Bulk modulus of the mixture (Pa) at an absolute pressure p (Pa): its volume divided by its compressibility, `E =
+    /// E_l (1 + alpha (p_a/p)^(1/n)) / (1 + alpha p_a^(1/n) E_l/(n p^((n+1)/n)))` to first order in alpha.
     ///
     /// ```
     /// use dashpot_core::parameters::OilColumn;

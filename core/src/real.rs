@@ -69,9 +69,10 @@ pub(crate) trait Scalar: Lanes<Self, 1> {
     #[cfg(feature = "builder")]
     const ZERO_TABLE: Table<Self>;
 
-    /// Returns the number with the doubled bits of this one, which must be a magnitude below 1.5.
+    /// Returns the number whose bits are twice the bits of this one, which must be a magnitude below 1.5.
     ///
-    /// The step compares it with the bits of another number without the sign: one instruction instead of three.
+    /// The result lets the step compare the magnitude of another number with this one in one instruction instead of
+    /// three.
     fn doubled_bits(self) -> Self;
     /// Inverse of [`Scalar::doubled_bits`].
     fn halved_bits(self) -> Self;

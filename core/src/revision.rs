@@ -8,7 +8,7 @@ use crate::table::{Piece, Table};
 /// Initial value of the hash.
 pub(crate) const START: u32 = 0x811c_9dc5;
 
-/// Continues a hash over the bits of constants, zero-extended.
+/// Continues a hash with the bits of constants, each zero-extended to 64 bits.
 pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
     words.fold(hash, of_word)
 }

@@ -3,7 +3,7 @@
 use crate::bins::DOUBLINGS;
 use crate::real::Real;
 
-/// Largest bound of moves and stretches (m): the length of the largest range of displacement.
+/// Largest bound on moves and stretches (m), which covers the longest range of displacement.
 ///
 /// Doubling the bits of a number above 1.5 would give NaN.
 pub(crate) const MAX_BOUND_M: f64 = 1.45;
@@ -12,12 +12,13 @@ pub(crate) const MAX_BOUND_M: f64 = 1.45;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Scalars<T> {
-    /// Largest credible move of the input in a step (m), stored with doubled bits.
+    /// Largest credible move of the input in a step (m), stored with doubled bits (see
+    /// [`doubled_bits`](crate::real::Scalar)).
     pub(crate) move_bound: T,
-    /// Number (m) whose addition and subtraction rounds a travel to the grid of positions. Sums of such travels are
+    /// Adding and then subtracting this number (m) rounds a travel to the grid of positions. Sums of such travels are
     /// exact, so a piston at rest in its clearance does not drift.
     pub(crate) position_rounder: T,
-    /// Number (m) whose addition and subtraction rounds a stretch far below the grid to zero.
+    /// Adding and then subtracting this number (m) rounds a stretch far below the grid to zero.
     pub(crate) rest_rounder: T,
     /// Step (s).
     pub(crate) step_s: T,
@@ -27,14 +28,14 @@ pub struct Scalars<T> {
     pub(crate) first_knot: T,
     /// Half the clearance, a (m).
     pub(crate) half_clearance: T,
-    /// Half the force at which the element yields (N). The step doubles it: a sum is not a signalling NaN, so compilers
-    /// compute the minimum of it and the force in one instruction.
+    /// Half the force at which the element yields (N). The step doubles it, because a sum is never a signalling NaN:
+    /// compilers then compute the minimum of the sum and the force in one instruction.
     pub(crate) half_force_limit: T,
     /// Stretch of the mount under seal friction (m).
     pub(crate) held: T,
     /// Largest displacement from zero (m), stored with doubled bits.
     pub(crate) displacement_bound: T,
-    /// Largest stretch after a step (m), for which the next step stays within the table; stored with doubled bits.
+    /// Largest stretch after a step (m) for which the next step stays within the table; stored with doubled bits.
     pub(crate) stretch_bound: T,
 }
 
@@ -56,8 +57,8 @@ impl<T: Real> Scalars<T> {
 
     /// Computes [`Scalars::stretch_bound`] from the other constants.
     ///
-    /// From a stretch `u` beyond the offset the stages reach at most `sqrt(2) u` plus 1.12 moves, which must be in the
-    /// table. The stretch also cannot exceed the length of the range of displacement.
+    /// From a stretch of `u` beyond the offset, the stages reach at most `sqrt(2) u` plus 1.12 times the largest move.
+    /// This reach must lie within the table. The stretch also cannot exceed the length of the range of displacement.
     pub(crate) fn computed_stretch_bound(&self) -> T {
         let max_reach = self.max_reach_beyond_offset() - T::from_f64(1.12) * self.max_move();
         let in_table = self.offset + T::from_f64(0.7) * max_reach;

@@ -5,7 +5,7 @@ use crate::math::Lanes;
 use crate::real::Real;
 use crate::table::{Piece, Table, cubic, locate};
 
-/// Coefficient gamma of both stages: the implicit part of each.
+/// Coefficient gamma, the weight of the implicit part of each stage.
 pub(crate) const GAMMA: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
 
 /// Constants of the implicit stages.
@@ -19,7 +19,7 @@ pub(crate) struct Stages<'a, T, V, const L: usize> {
 
 /// A solved stage.
 pub(crate) struct Stage<'a, T, V, const L: usize> {
-    /// Flow times the step (m).
+    /// Flow `v_h` times the step (m).
     pub(crate) flow: V,
     pieces: [&'a Piece<T>; L],
     z: V,
@@ -42,10 +42,10 @@ impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
         }
     }
 
-    /// Solves the stage whose stretch and gamma times its flow sum to `reach` (m).
+    /// Solves the stage whose stretch plus gamma times its flow is `reach` (m).
     #[inline(always)]
     pub(crate) fn solve(&self, reach: V) -> Stage<'a, T, V, L> {
-        // Every compiler needs one instruction to compare with a constant, but up to eight to compare with a variable.
+        // The maximum with a constant takes one instruction with every compiler; with a variable it can take eight.
         let beyond = (reach.abs() - self.offset).max(V::splat(0.0));
         let (pieces, z) = locate(self.tables, beyond + self.first_knot, reach);
         let flow = cubic(pieces.map(|piece| piece.flow), z);
@@ -67,14 +67,14 @@ impl<T: Real, V: Lanes<T, L>, const L: usize> Stage<'_, T, V, L> {
         cubic(self.pieces.map(|piece| piece.potential), self.z)
     }
 
-    /// Force over stretch beyond the clearance (N/m).
+    /// Ratio of the force to the stretch beyond the clearance (N/m).
     #[inline(always)]
     pub(crate) fn stiffness(&self) -> V {
         cubic(self.pieces.map(|piece| piece.stiffness), self.z)
     }
 }
 
-/// Finds the stretch (m) and the flow potential (m^2) at which `damper` has a force (N), by bisection of its stages.
+/// Finds the stretch (m) and the flow potential (m^2) at which `damper` has a force (N), by bisection over the reach.
 pub(crate) fn state_at_force<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
     let stages: Stages<'_, T, T, 1> = Stages::new([damper]);
     let signed = |value: T| if force < T::ZERO { -value } else { value };

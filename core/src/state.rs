@@ -31,7 +31,7 @@ pub struct DamperState<T> {
 
 #[cfg(feature = "link")]
 impl DamperState<f32> {
-    /// Not a state yet: all bits are zero, so a static takes no flash.
+    /// Placeholder before the first state: all bits are zero, so a static variable takes no flash.
     pub(crate) const UNWRITTEN: Self = Self {
         displacement: 0.0,
         stretch: 0.0,
@@ -71,8 +71,8 @@ impl<T: Real> DamperState<T> {
 
     /// True for a state, false for uninitialised memory (with any usual fill pattern).
     ///
-    /// For programs whose states come from elsewhere than [`Damper::at_rest`](crate::Damper::at_rest), for example in
-    /// C.
+    /// For programs that get their states from elsewhere than [`Damper::at_rest`](crate::Damper::at_rest), for example
+    /// in C.
     ///
     /// ```
     /// assert!(dashpot_core::DamperState::<f32>::default().is_marked());

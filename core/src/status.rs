@@ -1,4 +1,4 @@
-//! Status bits that the step latches. It never returns errors.
+//! Status bits that the step latches. The step never returns errors.
 
 bitflags::bitflags! {
     /// Latched status bits of one damper.
@@ -23,8 +23,8 @@ bitflags::bitflags! {
         /// Memory was damaged. The step found an impossible state and restarted it at rest, or a slow check
         /// ([`integrity`](crate::integrity)) found impossible constants or an impossible state.
         const CORRUPTED = 1 << 4;
-        /// A displacement was too far from the previous one to catch up with. The damper restarted there at rest and
-        /// without force.
+        /// A displacement was too far from the previous one to catch up with. The damper restarted at this
+        /// displacement, at rest and without force.
         const RESTARTED = 1 << 5;
     }
 }

@@ -19,14 +19,14 @@ use crate::state::DamperState;
 use crate::status::Status;
 use crate::unusual;
 
-/// Largest correction over the change of the stretch in the step (1). A larger one could cancel the damping.
+/// Largest ratio of the correction to the change of the stretch in the step (1). A larger one could cancel the damping.
 const MAX_CORRECTION: f64 = 0.125;
 
 impl<T: Real> Damper<T> {
     /// Returns the force (N) at this tick for the displacement (m) of the tick.
     ///
     /// The displacement is positive in extension, the force when it resists extension. The displacement is interpolated
-    /// linearly since the last tick, which adds no delay.
+    /// linearly from the last tick to this one, which adds no delay.
     ///
     /// The step never fails: bad input is held or limited, and the status of the state latches it. The force is finite
     /// and at most [`Damper::force_limit_n`] in magnitude, even if the damper or the state is damaged.
@@ -42,11 +42,11 @@ impl<T: Real> Damper<T> {
 
     /// Takes over a state of another damper.
     ///
-    /// Displacement and force remain, within the limits of this damper. The stretch becomes that of this damper under
-    /// the same force; without force it remains, within the clearance.
+    /// Displacement and force remain, limited to the range of this damper. The stretch becomes the one at which this
+    /// damper has the same force. Without force the stretch remains, limited to the clearance.
     ///
-    /// [`Damper::step`] calls this when needed. Call it between ticks so that the next tick has its usual cost. The
-    /// work is fixed: 26 stages in `f32`, 55 in `f64`.
+    /// [`Damper::step`] calls this when needed. Call it between ticks so that the next tick has its usual cost. It
+    /// solves 26 stages in `f32` and 55 in `f64`, but none without force.
     pub fn adopt(&self, state: &mut DamperState<T>) {
         let a = self.scalars.half_clearance;
         let limit = self.force_limit_n();
@@ -102,7 +102,7 @@ fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
         && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
 }
 
-/// Steps if anything is unusual. This is a separate copy of the step, so that the usual one calls no function.
+/// Steps if anything is unusual. This is a separate copy of the step, so that the usual step calls no function.
 #[cold]
 #[inline(never)]
 fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(
@@ -140,7 +140,8 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     let change = travel - quadrature;
     let end = start + change;
 
-    // The mean flow over the straight path, from the potential and, off the path, from the slope.
+    // The potential gives the mean flow along the straight path. The square of `bend` corrects it, because the first
+    // stage is not on the path.
     let end_potential = last.potential();
     let area = end_potential - potential + bend * bend;
     let max_correction = (change * V::splat(MAX_CORRECTION)).abs();
@@ -154,7 +155,8 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     let potential = end_potential - last.flow * correction;
     let magnitude = stages.force(stretch, last.stiffness());
     let yields = magnitude.reaches(stages.force_limit);
-    // Damaged constants can make each of the two any number or NaN; the force must be finite even then.
+    // Damaged constants can turn the magnitude and the limit into any number or NaN; the force must be finite even
+    // then.
     let limited = magnitude.min(stages.force_limit).max(V::splat(0.0));
     let limited = limited.min(V::splat(MAX_FORCE_N));
     let forces = limited.with_sign_of(stretch).array();

@@ -1,15 +1,16 @@
 //! Piecewise cubics in the reach of a stage, found and evaluated in constant time.
 //!
 //! The knots are at the corners of the law, with more between them where the law is curved, so they are not equally
-//! spaced. Bins find the piece of a reach. The exponent and the leading bits of the fraction of the reach select a bin,
-//! with 128 bins for each doubling. A bin contains the index of the piece at its lower border. At most
-//! [`KNOTS_PER_BIN`] knots lie within a bin, so this number of comparisons finds the piece.
+//! spaced. The reach of a stage is its stretch plus gamma times its flow. Bins find the piece that contains a reach.
+//! The exponent and the leading bits of the fraction of the reach select a bin, with 128 bins for each doubling. A bin
+//! contains the index of the piece at its lower border. At most [`KNOTS_PER_BIN`] knots lie within a bin, so this
+//! number of comparisons finds the piece.
 
 use crate::bins::{BINS, bin_shift};
 use crate::checksum;
 use crate::math::Lanes;
 
-/// Number of pieces of a side.
+/// Number of pieces per side (extension or compression).
 pub(crate) const PIECES: usize = 64;
 
 /// Largest number of knots within a bin.
@@ -22,21 +23,27 @@ const _: () = {
     );
     assert!(
         (2 * PIECES).is_power_of_two(),
-        "a mask keeps indices within bounds"
+        "a bit mask keeps indices within bounds"
     );
-    assert!(2 * PIECES <= 256, "the index of a piece is a byte");
-    assert!(KNOTS_PER_BIN == 2, "the step compares with two knots");
+    assert!(
+        2 * PIECES <= 256,
+        "the index of a piece must fit into a byte"
+    );
+    assert!(
+        KNOTS_PER_BIN == 2,
+        "the step compares the reach with two knots of a bin, to find the piece"
+    );
     assert!(
         size_of::<Piece<f32>>() == 64,
-        "one shift computes the address of a piece"
+        "a shift by 6 bits computes the address of a piece"
     );
 };
 
-/// Number of slices in which the bins are set.
+/// Number of slices in which the bins are computed.
 pub(crate) const INDEX_SLICES: usize = 2 * BINS / BINS_PER_SLICE;
 const BINS_PER_SLICE: usize = 64;
 
-/// Number of rows of a table: rows of bins, then the rows of four numbers of the pieces.
+/// Number of rows of a table: those of the bins, then those of the pieces, with four numbers in each row.
 pub(crate) const ROWS: usize = BIN_ROWS + 4 * 2 * PIECES;
 const BIN_ROWS: usize = BINS / BINS_PER_ROW;
 const BINS_PER_ROW: usize = 8;
@@ -47,11 +54,11 @@ const BINS_PER_ROW: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Piece<T> {
-    /// Flow times the step (m), with the sign of the stretch.
+    /// Flow `v_h` times the step (m). It has the sign of the stretch.
     pub(crate) flow: [T; 4],
     /// Flow potential times the step (m^2), positive.
     pub(crate) potential: [T; 4],
-    /// Force over stretch beyond the clearance (N/m).
+    /// Ratio of the force to the stretch beyond the clearance (N/m).
     pub(crate) stiffness: [T; 4],
     /// Start of the piece (m).
     pub(crate) knot: T,
@@ -61,7 +68,7 @@ pub(crate) struct Piece<T> {
 }
 
 impl<T> Piece<T> {
-    /// Iterates over the numbers of a build, in order of declaration.
+    /// Iterates over the numbers that a build computes, in order of declaration.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = &T> {
         let coefficients = self
             .flow
@@ -228,8 +235,8 @@ pub(crate) fn locate<T: Copy, V: Lanes<T, L>, const L: usize>(
     (pieces, reach - knot)
 }
 
-/// Evaluates `c0 + c1 z + c2 z^2 + c3 z^3` of each lane in pairs, with a shorter chain than Horner's rule for one more
-/// product.
+/// Evaluates `c0 + c1 z + c2 z^2 + c3 z^3` of each lane in two pairs of terms. Compared with Horner's rule, the chain
+/// of operations is shorter at the cost of one more product.
 #[inline(always)]
 pub(crate) fn cubic<T: Copy, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 4]; L], z: V) -> V {
     let [c0, c1, c2, c3] = V::transpose(coefficients);

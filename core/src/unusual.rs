@@ -6,19 +6,20 @@ use crate::stages::state_at_force;
 use crate::state::DamperState;
 use crate::status::Status;
 
-/// Time in which the damper can catch up with its input at its largest rate (s). If the input is farther away, the
-/// force falls from its limit to zero in the same time.
+/// Longest time in which the damper may catch up with its input, at its largest rate (s). If the input is farther away,
+/// the force falls from its limit to zero in the same time.
 const CATCH_UP_S: f64 = 0.01;
 
-/// Smallest decrease of the force in a step as a fraction of the force limit (1): that of the shortest step.
+/// Smallest decrease of the force in a step, as a fraction of the force limit (1). It is that of the shortest step.
 const MIN_FALL: f64 = 1e-4;
 
-/// Makes the state valid for the damper and returns the travel (m) towards a displacement (m).
+/// Makes the state valid for the damper and returns the travel (m) of this step towards the displacement (m).
 ///
 /// - An impossible state restarts at rest; a state of another damper is adopted.
 /// - A displacement that is not finite or out of range is held.
 /// - A displacement that is too fast is followed at the largest rate if it can be reached within [`CATCH_UP_S`].
-/// - A displacement farther away is held while the force falls to zero; then the damper restarts there at rest.
+/// - A displacement farther away is held while the force falls to zero; then the damper restarts at rest at the
+///   displacement.
 ///
 /// The status latches each of these; the last three are counted.
 #[inline(never)]
@@ -84,7 +85,7 @@ fn restart<T: Real>(
         (Status::empty(), 0)
     };
     *state = damper.at_rest(displacement);
-    // `hold` counts a displacement that is held.
+    // `at_rest` counts a displacement that it rejects, but `hold` counts it too.
     state.rejected_inputs = count;
     state.latch(status | cause);
 }

@@ -7,7 +7,7 @@ use dashpot_core::Damper;
 use super::{ExportError, Provenance, Word, error, name};
 use dashpot_files::Scalar;
 
-/// Returns C source (C99, C++11) of `const uint8_t NAME[]`, to compile separately or to include in one file.
+/// Returns C source (C99, C++11) of `const uint8_t NAME[]`, either to compile separately or to include in one file.
 ///
 /// The array is the input of `dashpot_damper_init` in the C library.
 ///
@@ -37,7 +37,7 @@ pub(super) fn array(constant: &str, bytes: &[u8]) -> String {
 /// Returns a C and C++ header that declares the array of [`c_source`] with its size.
 ///
 /// # Errors
-/// Same as [`c_source`].
+/// Same errors as [`c_source`].
 pub fn c_header<T: Word>(
     constant: &str,
     damper: &Damper<T>,
@@ -53,8 +53,8 @@ pub(super) fn guarded(constant: &str, declaration: &str) -> String {
     format!("#ifndef {guard}\n#define {guard}\n\n{declaration}\n#endif\n")
 }
 
-/// Returns the provenance comment and the array's declaration. C++ needs the declaration before the definition,
-/// otherwise the constant has internal linkage.
+/// Returns the provenance comment and the array's declaration. C++ needs the declaration before the definition;
+/// otherwise, the constant has internal linkage.
 fn declaration<T: Word>(
     constant: &str,
     damper: &Damper<T>,

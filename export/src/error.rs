@@ -41,22 +41,22 @@ pub enum ExportError {
         /// Error from the operating system.
         reason: String,
     },
-    /// Scalar that the C library does not support.
+    /// Scalar type that the C library does not support.
     #[error("scalar {scalar}: the C library uses single precision, allowed: f32")]
     Scalar {
-        /// The scalar.
+        /// The scalar type.
         scalar: Scalar,
     },
 }
 
-/// Problem with the name of a constant, with the allowed names.
+/// Problem with the name of a constant; the message gives the allowed names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NameError {
     /// Invalid characters.
     #[error("not a valid constant name, allowed: A to Z first, then A to Z, 0 to 9 and _")]
     Invalid,
-    /// Reserved by the C headers.
+    /// The C headers reserve the name.
     #[error(
         "reserved by C headers, allowed: names other than NULL that do not start with {C_LIBRARY_PREFIX} or end in {}",
         RESERVED_SUFFIXES.join(", ")

@@ -22,7 +22,7 @@ pub fn health_c_source(
 /// Returns a C and C++ header that declares the array of [`health_c_source`] with its size.
 ///
 /// # Errors
-/// Same as [`health_c_source`].
+/// Same errors as [`health_c_source`].
 pub fn health_c_header(constant: &str, provenance: &Provenance<'_>) -> Result<String, ExportError> {
     Ok(guarded(constant, &declaration(constant, provenance)?))
 }

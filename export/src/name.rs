@@ -16,7 +16,7 @@ pub(super) fn check(name: &str) -> Result<(), ExportError> {
     }
 }
 
-/// Same as [`check`]; also refuses macros of `dashpot.h` and of the headers that exported C sources include.
+/// Same as [`check`], but also rejects macros of `dashpot.h` and of the headers that exported C sources include.
 pub(super) fn check_c(name: &str) -> Result<(), ExportError> {
     check(name)?;
     if name == "NULL"

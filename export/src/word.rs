@@ -1,18 +1,18 @@
-//! Words and bytes of an exported damper, for both scalars.
+//! Words and bytes of an exported damper, for both scalar types.
 
 use std::fmt::LowerHex;
 
 use dashpot_core::{Damper, DamperState, Real};
 
-/// Scalar whose dampers can be written as words or bytes.
+/// Scalar type whose dampers can be written as words or bytes.
 pub trait Word: Real {
     /// Returns the words of a damper as literals.
     fn literals(damper: &Damper<Self>) -> Vec<String>;
     /// Returns the image of a damper, which firmware and the C library check.
     fn image(damper: &Damper<Self>) -> Vec<u8>;
-    /// Returns the words of a damper, zero-extended.
+    /// Returns the words of a damper, zero-extended to 64 bits.
     fn words(damper: &Damper<Self>) -> Vec<u64>;
-    /// Converts a word to its number.
+    /// Converts a word to the number that it encodes.
     fn from_word(word: u64) -> Self;
     /// Returns the bytes of a state, without a checksum.
     fn state_bytes(state: &DamperState<Self>) -> Vec<u8>;

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Error from reading or writing a file: names the file, the position in it and the allowed values.
+/// Error from reading or writing a file. It names the file, the position in it and the allowed values.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {

@@ -7,7 +7,7 @@ pub const MAX_AMPLITUDE_M: f64 = 1.0;
 /// Maximum frequency of a harmonic motion (Hz).
 pub const MAX_FREQUENCY_HZ: f64 = 1000.0;
 
-/// Harmonic displacement of the damper's ends, `x = A sin(2 pi f t)`, positive in extension.
+/// Harmonic displacement between the damper's ends, `x = A sin(2 pi f t)`, positive in extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Harmonic {
     /// Amplitude A (m).

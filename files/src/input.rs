@@ -1,4 +1,4 @@
-//! Reading files, or standard input for `-`.
+//! Reads files; `-` means standard input.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::FileError;
 
-/// Name of standard input or standard output. A file with this name can be given as `./-`.
+/// Path that means standard input or standard output. Write `./-` for a file with this name.
 pub const STANDARD_STREAM: &str = "-";
 
 /// True if `path` is `-`.
@@ -50,7 +50,7 @@ pub fn open(path: &Path) -> Result<Box<dyn Read>, FileError> {
 /// Reads all bytes of `path`.
 ///
 /// # Errors
-/// Same as [`open`].
+/// Same errors as [`open`].
 pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
     open(path)?
@@ -62,7 +62,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, FileError> {
 /// Reads all text of `path`.
 ///
 /// # Errors
-/// Same as [`open`]; also if the bytes are not UTF-8.
+/// Same errors as [`open`]; also an error if the bytes are not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
     String::from_utf8(read(path)?).map_err(|error| {
         let reason = format!("not UTF-8 text: {}", error.utf8_error());

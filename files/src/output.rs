@@ -1,4 +1,4 @@
-//! Writing files, each completely or not at all, or standard output for `-`.
+//! Writes files, each completely or not at all; `-` means standard output.
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -34,10 +34,10 @@ pub fn cannot_write_rows(path: &Path, error: csv::Error) -> FileError {
     }
 }
 
-/// Calls [`write_whole`] if there is a path, passing path and file to `write`; otherwise calls `write` with `None`.
+/// Calls [`write_whole`] if there is a path, and passes path and file to `write`; otherwise calls `write` with `None`.
 ///
 /// # Errors
-/// Same as [`write_whole`].
+/// Same errors as [`write_whole`].
 pub fn write_whole_if<T, E: From<FileError>>(
     path: Option<&Path>,
     write: impl FnOnce(Option<(&Path, &mut dyn Write)>) -> Result<T, E>,
@@ -48,7 +48,7 @@ pub fn write_whole_if<T, E: From<FileError>>(
     }
 }
 
-/// Writes `path` through `write` and returns the value that `write` returns.
+/// Creates the file at `path` with the content that `write` writes to it, and returns the value of `write`.
 ///
 /// The file appears under its name only if `write` succeeds; otherwise an existing file stays unchanged. Symbolic links
 /// are followed. Standard output (`-`), devices and pipes cannot be replaced and are written directly.
@@ -145,7 +145,7 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 /// Writes files that belong together: none appears under its name before all are written.
 ///
 /// # Errors
-/// Returns an error if one cannot be written, or exists and is not a regular file.
+/// Returns an error if a file cannot be written, or if it exists and is not a regular file.
 pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), FileError> {
     let pending: Vec<PendingFile<'_>> = files
         .iter()
@@ -169,7 +169,7 @@ fn write_all(file: &mut dyn Write, path: &Path, bytes: &[u8]) -> Result<(), File
 /// Creates a directory and its missing parents.
 ///
 /// # Errors
-/// Returns an error if it cannot be created.
+/// Returns an error if the directory cannot be created.
 pub fn create_folder(folder: &Path) -> Result<(), FileError> {
     std::fs::create_dir_all(folder).map_err(|source| FileError::Folder {
         path: folder.to_owned(),

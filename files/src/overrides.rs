@@ -13,7 +13,7 @@ pub(crate) struct Override<'a> {
 /// Parses an override `path.key=value` with a TOML value.
 ///
 /// # Errors
-/// Returns a description of the problem.
+/// Returns an error message that describes the problem.
 pub(crate) fn parse(assignment: &str) -> Result<Override<'_>, String> {
     let (path, value) = assignment.split_once('=').ok_or("no `=`")?;
     let value: toml::Table = toml::from_str(&format!("value = {}", value.trim()))

@@ -33,11 +33,11 @@ pub enum NamedProfileError {
     File(#[from] FileError),
 }
 
-/// Loads the profile of `body` called `name`: built in (`s1002`, `uic60`) or a file. For a file it also returns a
-/// report of the reading.
+/// Loads the profile of `body` called `name`: built in (`s1002`, `uic60`) or a file. For a file, it also returns a
+/// report on how the file was read.
 ///
 /// # Errors
-/// Returns an error for an unknown profile or options that do not apply to it; for files, same as [`read`].
+/// Returns an error for an unknown profile or options that do not apply to it; for a file, also the errors of [`read`].
 ///
 /// ```
 /// use dashpot_files::profile;
@@ -76,7 +76,7 @@ pub fn load(
 
 /// Reads the profile of `body` at `path` (`-` for standard input) with [`measured::parse`].
 ///
-/// Bytes that are not UTF-8 are replaced: they occur in comments, in the encoding of the profile gauge's computer.
+/// Bytes that are not UTF-8 are replaced, because comments may be in the encoding of the profile gauge's computer.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, and the errors of [`measured::parse`] with file, line and column.

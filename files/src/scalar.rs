@@ -17,7 +17,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    /// Returns the scalar for a Rust type.
+    /// Returns the scalar type that a Rust type stands for.
     pub fn of<T: Real>() -> Self {
         if T::NAME == <f32 as Real>::NAME {
             Self::F32

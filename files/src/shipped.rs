@@ -1,4 +1,4 @@
-//! Built-in data selected by name, with a file as the alternative.
+//! Data selected by name: built in, or from a file.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -73,7 +73,8 @@ impl Shipped {
     }
 }
 
-/// Resolves a name written in a file of `folder`: file names are relative to that directory, other names are built in.
+/// Resolves a name that a file in `folder` contains: file names are relative to that directory, other names are built
+/// in.
 pub(crate) fn resolve_name(folder: &Path, name: &str) -> String {
     let path = Path::new(name);
     if input::is_standard_stream(path) {

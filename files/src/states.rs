@@ -21,7 +21,7 @@ pub struct BankState {
     pub slots: Vec<SlotState>,
 }
 
-/// State of the damper in one slot, the fields of [`DamperState::to_bytes`]; SI units.
+/// State of the damper in one slot: the fields of [`DamperState::to_bytes`], in SI units.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SlotState {

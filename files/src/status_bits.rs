@@ -21,7 +21,7 @@ pub enum StatusBit {
     Restarted,
 }
 
-/// Each bit with the core's flag and its words in messages.
+/// Each bit with its flag in the core and its description in messages.
 const ALL: [(StatusBit, Status, &str); 6] = [
     (StatusBit::InputHeld, Status::INPUT_HELD, "input held"),
     (

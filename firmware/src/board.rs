@@ -100,7 +100,7 @@ pub fn start_clock() -> Clock {
     Clock::new(clock_now, CLOCK_HZ)
 }
 
-/// Number of clock ticks since the start, wrapping, at [`CLOCK_HZ`]. The processor's cycle counter (DWT) would also
+/// Number of clock ticks at [`CLOCK_HZ`] since the start; it wraps. The processor's cycle counter (DWT) would also
 /// work, but QEMU does not have it.
 pub fn clock_now() -> u32 {
     !read(TIMER_VALUE)

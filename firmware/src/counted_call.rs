@@ -21,14 +21,14 @@ pub struct Returned {
     pub integer: usize,
     /// Result in s0.
     pub real: f32,
-    /// Clock ticks of the function, its call and reading the clock.
+    /// Clock ticks of the function, of its call and of reading the clock.
     pub ticks: u32,
 }
 
 /// Calls the function at an address.
 ///
-/// The count always includes the same two additional instructions. Measure a function of one instruction to subtract
-/// them.
+/// The count always includes the same two additional instructions. To subtract them, measure a function that only
+/// returns.
 ///
 /// # Safety
 /// `function` must take arguments of these types with valid addresses, and return.
@@ -37,7 +37,8 @@ pub unsafe fn counted_call(function: *const (), arguments: Arguments) -> Returne
     let [mut integer, a1, a2, a3, on_stack] = arguments.integers;
     let mut real = arguments.real.to_bits();
     let (start, end): (u32, u32);
-    // SAFETY: the caller's promise; the stack pointer is restored and stays aligned to 8 bytes.
+    // SAFETY: the caller passes a function and arguments as required above; the stack pointer is restored and stays
+    // aligned to 8 bytes.
     unsafe {
         asm!(
             "push {{r9, r10}}",

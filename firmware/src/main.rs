@@ -21,7 +21,7 @@ const BAUD: u32 = 1_000_000;
 /// Number of ticks that are due but not yet run.
 static DUE: AtomicU32 = AtomicU32::new(0);
 
-/// All bits are zero before the start, so it takes no flash and is never moved.
+/// All bits are zero before the start, so the device takes no flash. It is never moved.
 static DEVICE: ConstStaticCell<Device<DAMPERS, DAMPERS>> = ConstStaticCell::new(Device::new());
 
 #[exception]
@@ -34,7 +34,8 @@ fn main() -> ! {
     let Some(device) = DEVICE.try_take() else {
         safe_state::halt();
     };
-    // Access through a pointer uses offsets. With a known address each access takes two more instructions.
+    // Hides the address from the compiler. If the compiler knows the address, each access takes two instructions more
+    // than with an offset from a pointer.
     let device = core::hint::black_box(device);
     if device.start(&BANK, board::start_clock()).is_err() {
         safe_state::halt();

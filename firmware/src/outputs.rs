@@ -1,4 +1,4 @@
-//! Sends the forces to the actuators as packets on the board's second UART, in place of a field bus of the drives.
+//! Sends the forces to the actuators as packets on the board's second UART, in place of a field bus to the drives.
 //! Change this file for another bus.
 //!
 //! A packet is `ff ff ff ff`, then each force (N) in single precision, little-endian. No force has this bit pattern, so
@@ -24,13 +24,13 @@ fn packet(forces_n: &[f32; DAMPERS]) -> [u8; BYTES] {
     packet
 }
 
-/// The second UART, which sends the last forces as fast as the line allows. Forces that are set during a packet wait
-/// for its end; only the last of them are sent.
+/// The second UART, which sends the last forces as fast as the line allows. Forces that are set while a packet is being
+/// sent wait until it ends; only the last ones are sent.
 #[derive(Debug)]
 pub struct SerialOutputs {
     uart: Uart,
     packet: [u8; BYTES],
-    /// Number of bytes of the packet still to send, at its end.
+    /// Number of bytes at the end of the packet that are not sent yet.
     unsent: usize,
     waiting: Option<[f32; DAMPERS]>,
 }
@@ -74,8 +74,8 @@ impl Outputs<DAMPERS> for SerialOutputs {
     }
 }
 
-/// Sets every output to zero after a panic or fault: zeros complete an interrupted packet, then a packet of zeros
-/// follows. Waits for the line for a limited time.
+/// Sets every output to zero after a panic or fault: zero bytes complete an interrupted packet, then a packet with zero
+/// forces follows. Waits for the line for a limited time.
 pub fn zero() {
     let mut uart = Uart::start(Port::Outputs, BAUD);
     let end = [0; BYTES];

@@ -1,5 +1,5 @@
-//! Reads any text as a case file. It is refused, or its faults concern its dampers and have increasing times within the
-//! case.
+//! Reads any text as a case file. Either it is refused, or its faults concern its dampers and have increasing times
+//! within the case.
 #![no_main]
 
 use dashpot_files::case::CaseOptions;

@@ -1,4 +1,5 @@
-//! Reads any text as a damper file. It is refused, or the damper builds, or its error names a field.
+//! Reads any text as a damper file. Either it is refused, or the damper builds, or the error of the build names a
+//! field.
 #![no_main]
 
 use dashpot_files::damper;

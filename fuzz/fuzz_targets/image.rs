@@ -1,8 +1,8 @@
-//! Reads any bytes as the image of a damper or as a saved state. They are refused, or the force of the damper is within
-//! its limit.
+//! Reads any bytes as the image of a damper or as a saved state. Either they are refused, or the force of the damper is
+//! within its limit.
 //!
 //! Random bytes never have a correct CRC-32 and correct revisions, so the target corrects them. Most images with finite
-//! numbers are then dampers.
+//! numbers are then valid dampers.
 #![no_main]
 
 use dashpot::signed_image::of_any_bytes;
@@ -20,7 +20,7 @@ macro_rules! refused_or_stepped {
             let Ok(damper) = Damper::<$float>::from_image(image) else {
                 continue;
             };
-            // The last bytes are used as a state, if they are a state of this damper.
+            // The last bytes become the state if this damper accepts them as one.
             let saved = bytes
                 .last_chunk()
                 .and_then(|saved| damper.state_from_bytes(saved).ok());

@@ -1,4 +1,4 @@
-//! Receives any bytes on the link. They are refused or answered, and the next frame after a zero is read.
+//! Receives any bytes on the link. The device refuses or answers them, and the next frame after a zero byte is read.
 //!
 //! Mutated frames never have a correct CRC-32, so the same bytes are sent again with a corrected CRC-32.
 #![no_main]
@@ -8,7 +8,7 @@ use dashpot_core::Damper;
 use dashpot_core::link::{Clock, Device, FrameReader, REQUEST_BYTES, ResponseFrame};
 use libfuzzer_sys::fuzz_target;
 
-/// A damper of zeros except its step, which is that of the health model among the seeds.
+/// A damper whose numbers are all zero except its step, which is equal to that of the health model in the seeds.
 static DAMPER: Damper<f32> = {
     let mut words = [0; Damper::<f32>::WORDS];
     words[3] = 1e-3_f32.to_bits();

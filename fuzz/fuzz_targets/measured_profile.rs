@@ -1,4 +1,4 @@
-//! Reads any text as a wheel or rail profile of any format. It is refused, or the lateral positions increase.
+//! Reads any text as a wheel or rail profile of any format. Either it is refused, or the lateral positions increase.
 #![no_main]
 
 use dashpot_rail::profile::Body;

@@ -1,4 +1,4 @@
-//! Reads any text as a measured track. It is refused, or all deviations and slopes are finite.
+//! Reads any text as a measured track. Either it is refused, or all deviations and slopes are finite.
 #![no_main]
 
 use dashpot_rail::track::measured::{self, Options};

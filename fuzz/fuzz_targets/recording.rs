@@ -1,4 +1,4 @@
-//! Reads any bytes as a recording. They are refused, or the rows are finite with increasing times.
+//! Reads any bytes as a recording. Either they are refused, or the rows are finite and their times increase.
 #![no_main]
 
 use std::io::{Cursor, Write};
@@ -8,7 +8,7 @@ use dashpot_recording::{Channels, Recording, overview};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|bytes: &[u8]| {
-    // Reads all contents of the file, with any names of channels.
+    // Reads all contents of the file, whatever the names of its channels.
     let mut file = tempfile::NamedTempFile::new().expect("a temporary file");
     file.write_all(bytes).expect("a temporary file");
     let _ = overview(file.path(), &Channels::default());

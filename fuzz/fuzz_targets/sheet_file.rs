@@ -1,4 +1,5 @@
-//! Reads any text as a sheet file. It is refused, or a bench can run its tests and a value can satisfy each limit.
+//! Reads any text as a sheet file. Either it is refused, or a bench can run its tests and each limit can be
+//! satisfied.
 #![no_main]
 
 use dashpot_files::sheet::SheetParameters;

@@ -1,5 +1,5 @@
-//! Reads any text as a study file. It is refused, or each sweep has values at every point and the figures belong to its
-//! sweeps.
+//! Reads any text as a study file. Either it is refused, or each sweep has values at every point and each figure shows
+//! sweeps of the study.
 #![no_main]
 
 use dashpot_files::study::StudyParameters;

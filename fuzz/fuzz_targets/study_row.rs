@@ -1,4 +1,5 @@
-//! Reads any text as a row of a study with the required digests. It is refused, or writing the row gives the same text.
+//! Reads any text as a row of a study with the required digests. Either it is refused, or the row is the same after
+//! writing and reading it again.
 #![no_main]
 
 use std::sync::LazyLock;

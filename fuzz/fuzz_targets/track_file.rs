@@ -1,5 +1,5 @@
-//! Reads any text as a track file. It is refused, or the track is finite everywhere. Irregularity is generated if that
-//! is quick.
+//! Reads any text as a track file. Either it is refused, or the track is finite everywhere. The target generates
+//! irregularity only if that is quick.
 #![no_main]
 
 use std::path::Path;
@@ -8,7 +8,7 @@ use dashpot_files::track::{self, IrregularityParameters, TrackParameters};
 use dashpot_rail::track::{Band, Track};
 use libfuzzer_sys::fuzz_target;
 
-/// Excludes irregularity that is read from a file or takes long to generate.
+/// Builds the track, except with irregularity that is read from a file or takes long to generate.
 fn built(parameters: &TrackParameters) -> Option<Track> {
     match &parameters.irregularity {
         IrregularityParameters::Measured { .. } => return None,

@@ -1,4 +1,5 @@
-//! Reads any text as a vehicle file. It is refused, or the modes of the vehicle are found or refused.
+//! Reads any text as a vehicle file. Either it is refused, or its modes are refused, or all natural frequencies are
+//! finite.
 #![no_main]
 
 use dashpot_files::vehicle;

@@ -21,7 +21,7 @@ use dashpot_hil::commands::interruption;
   dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64
 
 The file name `-` means standard input or standard output; reports then go to standard error.
-Exit code: 0 success, 1 failure, 2 wrong use."
+Exit code: 0 success, 1 failure, 2 usage error."
 )]
 struct Cli {
     #[command(flatten)]

@@ -21,8 +21,8 @@ impl<L: Link> Bank<L> {
     /// first damper and stay at rest.
     ///
     /// # Errors
-    /// There is no damper, there are more dampers than slots, a damper is built for another step than that of the
-    /// target, or the target is lost.
+    /// There is no damper, there are more dampers than slots, a damper is built for a different step than the target,
+    /// or the target is lost.
     pub fn start(mut session: Session<L>, dampers: &[Damper<f32>]) -> Result<Self, SessionError> {
         let slots = session.target().dampers;
         let count = dampers.len();

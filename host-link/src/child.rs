@@ -1,11 +1,11 @@
-//! Child processes. They end when their owner drops them or when the program is interrupted.
+//! Child processes. A child process ends when its owner drops it or when the program is interrupted.
 
 use std::io::{self, Read};
 use std::process::{Child, Command, ExitStatus};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Running children. A thread holds the lock while it starts or drops a child, so that an interruption finds each child
-/// either in the list or ended.
+/// Child processes that are running. A thread holds the lock while it starts or drops a child, so that an interruption
+/// finds each child either in the list or ended.
 static CHILDREN: Mutex<Vec<Arc<Mutex<Child>>>> = Mutex::new(Vec::new());
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

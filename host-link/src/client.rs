@@ -11,13 +11,14 @@ use serde::Serialize;
 
 use super::{Link, LinkError, RetryLimits};
 
-/// Maximum number of session numbers to try: the first may equal that of the open session.
+/// Maximum number of session numbers to try; the first one may equal that of the open session.
 const MAX_SESSIONS: u32 = 10;
 
-/// Maximum factor by which a wait grows. With eight tries, the client gives up after 47 times the first wait.
+/// Maximum factor by which a wait grows. With eight tries, the client waits 47 times the first wait in total before it
+/// gives up.
 const MAX_BACK_OFF: u32 = 8;
 
-/// Maximum length of a grown wait: eight times the first wait for the longest frame.
+/// Maximum wait after back-off: eight times the first wait for the longest frame.
 const MAX_GROWN_WAIT: Duration = Duration::from_secs(12);
 
 /// Link faults that the host detected and recovered from.
@@ -48,7 +49,7 @@ pub struct Client<L> {
     answer: Vec<u8>,
     /// Factor for the waits, 1 to [`MAX_BACK_OFF`].
     back_off: u32,
-    /// Repeats of earlier requests whose answers are still on the way.
+    /// Number of repeats of earlier requests whose answers are still on the way.
     late_repeats: u32,
 }
 
@@ -146,7 +147,7 @@ impl<L: Link> Client<L> {
             let grown = wait.saturating_mul(self.back_off).min(MAX_GROWN_WAIT);
             match self.wait(grown.max(wait))? {
                 WaitResult::Answered => {
-                    // After a repeat it is unknown which try was answered, and so how long the answer took.
+                    // After a repeat, it is unknown which try was answered and therefore how long the answer took.
                     if repeat == 0 {
                         let took = self.link.now().saturating_duration_since(sent);
                         self.shorten_wait(took, wait);
@@ -172,7 +173,7 @@ impl<L: Link> Client<L> {
         })
     }
 
-    /// Shortens the waits to twice the time of the last answer, but at most by half.
+    /// Shortens the waits to twice the time that the last answer took, but by at most half.
     fn shorten_wait(&mut self, took: Duration, wait: Duration) {
         let needed = (1..MAX_BACK_OFF).find(|factor| wait.saturating_mul(*factor) >= 2 * took);
         let needed = needed.unwrap_or(MAX_BACK_OFF);
@@ -185,7 +186,7 @@ impl<L: Link> Client<L> {
         Ok(answer.1)
     }
 
-    /// Waits for the answer to the last request, up to `time`.
+    /// Waits at most `time` for the answer to the last request.
     fn wait(&mut self, time: Duration) -> Result<WaitResult, LinkError> {
         let deadline = self.link.now() + time;
         loop {
@@ -202,8 +203,8 @@ impl<L: Link> Client<L> {
                 let (header, response) = parse(message).ok_or(LinkError::Unreadable)?;
                 if response == Response::Refused(Refusal::Corrupt) {
                     self.faults.corrupt_requests += 1;
-                    // Answers arrive in the order of the requests. This one may answer a repeat of an earlier request,
-                    // part of which the busy target dropped.
+                    // Answers arrive in the order of the requests. This refusal may answer a repeat of an earlier
+                    // request if the busy target dropped part of the repeat.
                     if self.late_repeats > 0 {
                         self.late_repeats -= 1;
                         continue;

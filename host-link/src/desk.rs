@@ -18,7 +18,7 @@ pub struct Desk<const N: usize> {
 }
 
 impl<const N: usize> Desk<N> {
-    /// Creates a device with these dampers after power-on.
+    /// Creates a device with these dampers in the state after power-on.
     ///
     /// # Errors
     /// The dampers are not all built for the same step.

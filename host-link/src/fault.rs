@@ -59,7 +59,7 @@ impl FromStr for FaultRates {
     }
 }
 
-/// A link with injected faults, which are the same for the same seed and the same frames.
+/// A link with injected faults. The same seed and the same frames give the same faults.
 pub struct FaultyLink<L> {
     link: L,
     rates: FaultRates,

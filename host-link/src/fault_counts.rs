@@ -1,4 +1,4 @@
-//! Counts of injected faults.
+//! Numbers of injected faults.
 
 use serde::Serialize;
 

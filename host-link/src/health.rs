@@ -31,8 +31,8 @@ impl<L: Link> Client<L> {
     /// Sends measured samples, one per step, to the estimate of a slot.
     ///
     /// # Errors
-    /// The target does not answer, or refuses, for example because the slot has no model. Earlier samples have been
-    /// used.
+    /// The target does not answer, or refuses, for example because the slot has no model. The samples are sent in
+    /// several requests; the target has used those sent before the failed request.
     pub fn measure(&mut self, slot: u8, samples: &[HealthSample]) -> Result<(), LinkError> {
         for samples in samples.chunks(MAX_MEASURED) {
             let numbers = samples
@@ -58,7 +58,7 @@ impl<L: Link> Client<L> {
     /// Clears the status bits of the estimate of a slot and returns the previous reading.
     ///
     /// # Errors
-    /// As [`Client::health`].
+    /// The same as for [`Client::health`].
     pub fn clear_health(&mut self, slot: u8) -> Result<HealthReading, LinkError> {
         self.reading(&Request::ClearHealth { damper: slot })
     }

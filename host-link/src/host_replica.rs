@@ -19,7 +19,8 @@ impl HostReplica {
     /// Creates a replica at rest at `start_m` (m), from one damper for all slots of `target` or one per slot.
     ///
     /// # Errors
-    /// The number of dampers does not fit, or a damper is built for another step than that of the target.
+    /// The number of dampers is neither 1 nor the number of slots, or a damper is built for a different step than the
+    /// target.
     pub(super) fn at_rest(
         dampers: &[Damper<f32>],
         target: &Target,
@@ -58,7 +59,7 @@ impl HostReplica {
         &self.forces_n
     }
 
-    /// Steps the replica to the tick of `forces` and compares both sides.
+    /// Steps the replica to the tick of `forces` and compares its forces and status words with those of the target.
     pub(super) fn step(
         &mut self,
         displacements_m: &[f32],

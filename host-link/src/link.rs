@@ -12,7 +12,7 @@ pub trait Link {
     /// The link is broken.
     fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError>;
 
-    /// Waits up to `timeout` for bytes and returns their number; 0 if none arrived.
+    /// Waits at most `timeout` for bytes and returns their number; 0 if none arrived.
     ///
     /// # Errors
     /// The link is broken.
@@ -36,7 +36,7 @@ pub trait Link {
         false
     }
 
-    /// Instructions per second of the clock of the target, if the link counts them exactly.
+    /// Instructions per second of the target's clock, if the link counts instructions exactly.
     fn instructions_per_s(&self) -> Option<f64> {
         None
     }

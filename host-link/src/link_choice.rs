@@ -12,7 +12,7 @@ pub enum LinkChoice {
     Tcp(String),
     /// A serial device.
     Serial(PathBuf),
-    /// An emulator with this image, which this process starts.
+    /// An emulator that this process starts with this image.
     Qemu(PathBuf),
 }
 

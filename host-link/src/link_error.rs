@@ -16,7 +16,7 @@ pub enum LinkError {
     Line {
         /// Name of the line.
         line: String,
-        /// Failed action such as `cannot send: `; may be empty.
+        /// Failed action, as the start of the message, such as `cannot send: `; may be empty.
         action: String,
         /// Reason given by the system.
         source: io::Error,
@@ -41,13 +41,13 @@ pub enum LinkError {
     TooLong,
     /// No try was answered.
     #[error(
-        "no answer from the target to {} tries within {:.1} s; first wait {} ms",
+        "no answer from the target to {} tries within {:.1} s; the first try waited {} ms",
         limits.tries,
         waited.as_secs_f64(),
         limits.timeout.as_millis()
     )]
     Silent {
-        /// Limits of the waits.
+        /// Limits for waiting and repeating.
         limits: RetryLimits,
         /// Total time of all tries.
         waited: Duration,
@@ -62,10 +62,10 @@ pub enum LinkError {
     #[error("the target answers in another protocol")]
     Unreadable,
     /// The dampers of the target are not in single precision.
-    #[error("the target computes in f64, this host in f32")]
+    #[error("the target computes in f64, but this host computes in f32")]
     DoublePrecision,
     /// The target was replaced during the run.
-    #[error("a different target answers than at the start")]
+    #[error("the target that answers is not the one at the start")]
     OtherTarget,
 }
 

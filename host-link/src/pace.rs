@@ -25,7 +25,7 @@ impl<C: Clock> Pace<C> {
         }
     }
 
-    /// Waits until `tick` is to be sent.
+    /// Waits until it is time to send `tick`.
     pub(super) fn begin(&mut self, tick: u64) -> TickTiming {
         match self {
             Self::Free(clock) => TickTiming {

@@ -40,10 +40,10 @@ impl Qemu {
         Self::start_with_outputs(image, None)
     }
 
-    /// As [`Qemu::start`]; the second UART of the target, which sends its outputs, is written to the file.
+    /// Like [`Qemu::start`], and writes the target's outputs, which its second UART sends, to the file `outputs`.
     ///
     /// # Errors
-    /// As [`Qemu::start`].
+    /// The same as for [`Qemu::start`].
     pub fn start_with_outputs(image: &Path, outputs: Option<&Path>) -> Result<Self, LinkError> {
         check_image(image)?;
         let (emulator, link) = launch(image, outputs)?;

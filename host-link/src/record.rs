@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A tick that target and host have stepped. Lists have one number per slot.
+/// A tick that both target and host have stepped. Lists of values have one entry per slot.
 #[derive(Clone, Copy, Debug)]
 pub struct TickRecord<'a> {
     /// Tick, from 1.
@@ -44,7 +44,7 @@ pub enum Event {
     Recovery,
     /// A paced tick was answered after the next tick was due.
     Late,
-    /// A force or status word differs from the host's.
+    /// A force or status word of the target differs from that of the host.
     Mismatch,
 }
 

@@ -55,11 +55,11 @@ pub struct Mismatch {
 pub struct Pacing {
     /// Number of ticks answered after the next tick was due.
     pub missed_deadlines: u64,
-    /// Fraction of such ticks (1).
+    /// Fraction of ticks that missed their deadline (1).
     pub missed_share: f64,
-    /// Time from due to sent.
+    /// Time from when a tick is due to when it is sent.
     pub lateness: Figures,
-    /// Time from due to answered.
+    /// Time from when a tick is due to when it is answered.
     pub response: Figures,
 }
 

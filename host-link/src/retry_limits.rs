@@ -7,8 +7,8 @@ const BYTE_TIME: Duration = Duration::from_micros(100);
 
 /// Waiting time for an answer and number of tries.
 ///
-/// Each wait without an answer doubles the next wait, up to eight times the first wait and 12 s: the target may be
-/// slow, and it must answer every repeated request. Waits become shorter again when answers arrive sooner.
+/// Each wait without an answer doubles the next wait, up to eight times the first wait and at most 12 s: the target may
+/// be slow, and it must answer every repeated request. Waits become shorter again when answers arrive sooner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RetryLimits {
     /// First wait, in addition to the transmission time of the request.

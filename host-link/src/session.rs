@@ -176,7 +176,7 @@ impl<L: Link> Session<L> {
     ) -> Result<R, SessionError> {
         for _ in 0..MAX_RECOVERIES {
             match request(&mut self.client) {
-                // Another program may have opened a session and stepped the target: restore our state.
+                // Another program may have opened a session and stepped the target, so restore the state of the host.
                 Err(LinkError::SessionLost | LinkError::Refused(Refusal::Tick(_))) => {}
                 done => return done.map_err(|error| after(host.tick, error)),
             }
@@ -244,7 +244,7 @@ impl<L: Link> Session<L> {
     }
 }
 
-/// Adds the last tick that both sides confirmed to the reason why a run stopped.
+/// Adds the last tick that both sides confirmed to the error that ended a run.
 fn after(tick: u32, source: LinkError) -> SessionError {
     SessionError::After { tick, source }
 }

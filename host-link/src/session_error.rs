@@ -6,7 +6,7 @@ use super::LinkError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SessionError {
-    /// A request failed before the first tick.
+    /// A request failed outside the ticks, or an answer did not match its tick.
     #[error(transparent)]
     Link(#[from] LinkError),
     /// A request failed during the run.
@@ -24,7 +24,7 @@ pub enum SessionError {
         tick: u32,
         /// Number of times.
         times: u32,
-        /// Circumstances.
+        /// When it was lost, as the end of the message.
         when: &'static str,
     },
     /// The target runs another version of the core.
@@ -46,7 +46,7 @@ pub enum SessionError {
         /// Number of slots of the target.
         slots: usize,
     },
-    /// The damper is built for another step than that of the target.
+    /// The damper is built for a different step than the target.
     #[error(
         "the damper is built for a step of {damper_s} s, but the step of the target is {target_s} s"
     )]
@@ -56,7 +56,7 @@ pub enum SessionError {
         /// Step of the target (s).
         target_s: f32,
     },
-    /// There are no dampers, or more dampers than slots.
+    /// There are no dampers, or there are more dampers than slots.
     #[error("{dampers} dampers, but the target has {slots} slots; allowed: 1 to {slots}")]
     TooManyDampers {
         /// Number of dampers given.

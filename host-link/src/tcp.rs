@@ -37,7 +37,7 @@ impl Tcp {
         })
     }
 
-    /// Creates a link over an open connection; errors call it `name`.
+    /// Creates a link over an open connection; error messages refer to it as `name`.
     ///
     /// # Errors
     /// Immediate sending (`TCP_NODELAY`) cannot be enabled.

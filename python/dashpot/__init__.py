@@ -1,4 +1,6 @@
-"""Dashpot: a real-time model of a rail vehicle's hydraulic damper, on numpy arrays. SI units; names contain their unit.
+"""Dashpot: a real-time model of a rail vehicle's hydraulic damper, on numpy arrays.
+
+Quantities are in SI units, and names contain their unit.
 
 >>> import dashpot, numpy
 >>> damper = dashpot.Damper("in-service", {"mount.clearance_m": 1e-3})

@@ -27,7 +27,7 @@ class DashpotKeyError(DashpotError, KeyError):
 
 
 class DashpotFileError(DashpotError, OSError):
-    """A file that cannot be read or written: `filename` and, if the system provided one, `errno` give the reason.
+    """A file that cannot be read or written: `filename` is the file, and `errno` is the system's error number, if any.
 
     >>> import dashpot, errno
     >>> try:

@@ -17,15 +17,15 @@ class Status(enum.IntFlag):
 
     INPUT_HELD = 1
     """A displacement was not finite, beyond `limits.displacement_m`, or too far from the last one to catch up with; the
-    last good one was held."""
+    last valid displacement was held."""
     INPUT_LIMITED = 2
-    """A displacement moved faster than the configured rate; it was followed at that rate."""
+    """The displacement changed faster than the configured rate; the step followed it at that rate."""
     SATURATED = 4
-    """The element yielded: saturation force or configured force limit reached."""
+    """The element yielded: it reached the saturation force or the configured force limit."""
     DAMPER_SWAPPED = 8
-    """Another damper than before stepped this state; the force was carried over."""
+    """Another damper took over this state; the force was carried over."""
     CORRUPTED = 16
-    """Memory was damaged: a state that no step produces was found and restarted at rest."""
+    """Memory was damaged: a step found a state that no step produces and restarted it at rest."""
     RESTARTED = 32
     """A displacement was too far from the last one to catch up with: the damper restarted at rest there, without
     force."""

@@ -1,6 +1,6 @@
-# A locomotive on its track from Python. Editors that support `# %%` can run each cell separately.
+# A locomotive on a track, run from Python. Editors that support `# %%` can run each cell separately.
 
-# %% Two seconds at 180 km/h, with the dampers as they ship and with worn vertical ones
+# %% Two seconds at 180 km/h, with the shipped dampers and with worn vertical dampers
 import numpy
 
 import dashpot
@@ -10,7 +10,7 @@ good = dashpot.vehicle("straight-180", duration_s=2, signals=names)
 worn = dashpot.vehicle("straight-180", duration_s=2, signals=names, overrides={"vertical.mount.clearance_m": 5e-3})
 assert good.is_completed and worn.is_completed
 
-# %% What the body feels; the index is the root mean square of its history
+# %% Vertical acceleration of the body: the index is the root mean square of the history
 for name, run in (("good", good), ("worn", worn)):
     acceleration = run.history["body_vertical_acceleration_m_per_s2"]
     rms = numpy.sqrt(numpy.mean(acceleration**2))
@@ -18,7 +18,7 @@ for name, run in (("good", good), ("worn", worn)):
     print(f"{name}: {rms:.3f} m/s^2 rms")
     assert abs(rms / told - 1) < 1e-9
 
-# %% A row of a study by its number; `pandas.DataFrame(study.run())` has them all
+# %% One row of a study by its number; `pandas.DataFrame(study.run())` contains all rows
 study = dashpot.Study.from_toml("""
 name = "speed"
 observed = ["derailment_greatest"]
@@ -29,5 +29,5 @@ duration_s = 1
 vary = [{ parameter = "speed_km_h", values = [100, 140, 180] }]
 """)
 rows = study.run()
-print("greatest Y/Q:", rows["derailment_greatest"])
+print("largest Y/Q:", rows["derailment_greatest"])
 assert rows["derailment_greatest"][2] == study.row(2)["derailment_greatest"]

@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::error::{Outcome, refuse};
 
-/// Borrows a Python array for reading; errors call it `name`.
+/// Borrows a Python array for reading; errors call the array `name`.
 pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,
@@ -21,7 +21,7 @@ pub fn read<'py, T: Element, D: numpy::ndarray::Dimension>(
     }
 }
 
-/// Borrows a Python array for writing while `input` is borrowed for reading; errors call it `name`.
+/// Borrows a Python array for writing while `input` is borrowed for reading; errors call the array `name`.
 pub fn write<'py, T: Element, D: numpy::ndarray::Dimension>(
     name: &str,
     array: &Bound<'py, PyAny>,
@@ -73,9 +73,8 @@ fn usable<'a, 'py, T: Element, D: numpy::ndarray::Dimension>(
     let masked = py.import("numpy.ma")?.getattr("MaskedArray")?;
     if array.is_instance(&masked)? {
         return refuse(format!(
-            "{name}: a masked array, allowed: {allowed}; use {name}.filled(numpy.nan), at which the step holds its \
-             last \
-             displacement"
+            "{name}: a masked array, allowed: {allowed}; use {name}.filled(numpy.nan); at NaN the step holds its \
+             last displacement"
         ));
     }
     let found = untyped.dtype();

@@ -1,4 +1,4 @@
-//! Steps several dampers in one call: the same bits as one by one, in less time.
+//! Steps several dampers in one call, which takes less time than stepping them one by one and gives the same bits.
 
 use dashpot_core::{Damper as Constants, DamperState};
 use dashpot_testbench::motion::follow_bank;
@@ -87,7 +87,7 @@ impl Bank {
         if at.len() != count {
             let dtype = self.precision.dtype(py);
             return refuse(format!(
-                "states: of another precision, allowed: states of {dtype}, the precision of the dampers"
+                "states: wrong precision, allowed: states of {dtype}, the precision of the dampers"
             ));
         }
         let interruption = py.detach(|| {
@@ -139,7 +139,7 @@ impl Bank {
                 || other.step_s.to_bits() != first.step_s.to_bits()
             {
                 return refuse(format!(
-                    "damper {number}: its step or precision is not that of damper 0, allowed: one step and one \
+                    "damper {number}: its step or precision differs from that of damper 0, allowed: one step and one \
                      precision"
                 ));
             }
@@ -150,8 +150,8 @@ impl Bank {
         })
     }
 
-    /// Returns a state at rest for each damper, at its displacement (m) in `displacements_m`, an array of this bank's
-    /// precision, or at 0 by default.
+    /// Returns a state at rest for each damper. `displacements_m` gives the displacement (m) of each, as an array of
+    /// this bank's precision; default: 0.
     #[pyo3(signature = (displacements_m=None))]
     fn at_rest(
         &self,

@@ -63,7 +63,7 @@ macro_rules! in_precision {
     };
 }
 
-/// A damper built for a fixed step. It never changes and can be shared by any number of states and threads.
+/// A damper built for a fixed step. It never changes, and any number of states and threads can share it.
 /// `Damper.build` creates one.
 ///
 /// >>> import dashpot
@@ -113,7 +113,7 @@ impl BuiltDamper {
     pub fn other_precision<T>(&self, py: Python<'_>) -> Outcome<T> {
         let here = self.precision().dtype(py);
         refuse(format!(
-            "state: of another precision, allowed: a state of {here}, this damper's precision"
+            "state: wrong precision, allowed: a state of {here}, this damper's precision"
         ))
     }
 
@@ -187,20 +187,20 @@ impl BuiltDamper {
         in_precision!(&self.kept, constants => constants.revision())
     }
 
-    /// Clearance 2a, the whole play (m).
+    /// Clearance 2a, the total play (m).
     #[getter]
     fn clearance_m(&self) -> f64 {
         in_precision!(&self.kept, constants => constants.clearance_m().to_f64())
     }
 
-    /// Force at which the element yields (N); no step returns more.
+    /// Force at which the element yields (N); no step returns a larger force.
     #[getter]
     fn force_limit_n(&self) -> f64 {
         in_precision!(&self.kept, constants => constants.force_limit_n().to_f64())
     }
 
-    /// Returns the same constants with another clearance 2a (m), as firmware changes it at run time. The table is not
-    /// rebuilt, and a state may continue with the result at the next tick.
+    /// Returns the same damper with another clearance 2a (m), changed as in firmware at run time: the table is not
+    /// rebuilt, and a state may continue with the returned damper at the next tick.
     ///
     /// >>> import dashpot
     /// >>> dashpot.Damper("paper").build().with_clearance_m(2e-3).clearance_m
@@ -230,8 +230,8 @@ impl BuiltDamper {
         State::new(numbers, slf.as_any())
     }
 
-    /// Steps one tick and returns the force (N) at a displacement (m) of the seats, positive in extension. It never
-    /// fails: a displacement that is not finite is held, one that moves too fast is limited, and both are latched in
+    /// Steps one tick and returns the force (N) at a displacement (m) of the seats, positive in extension. It accepts
+    /// every displacement: one that is not finite is held, one that moves too fast is limited, and both are latched in
     /// the status of the state.
     fn step(slf: &Bound<'_, Self>, state: &Bound<'_, State>, displacement_m: f64) -> Outcome<f64> {
         let mut state = State::lend(state)?;
@@ -248,8 +248,8 @@ impl BuiltDamper {
 
     /// Returns the force (N) at each displacement (m) of `x`, one step per sample, with the bits of the command
     /// `dashpot replay`. It starts at rest at the first sample, or continues from `state`, which it advances. `x` and
-    /// `out` are arrays of this damper's precision and are not copied. The GIL is released meanwhile, so do not modify
-    /// them.
+    /// `out` are arrays of this damper's precision and are not copied. The GIL is released during the replay, so do not
+    /// modify them from another thread.
     ///
     /// >>> import dashpot, numpy
     /// >>> built = dashpot.Damper("in-service").build(step_s=1e-3)
@@ -268,8 +268,8 @@ impl BuiltDamper {
         in_precision!(&slf.get().kept, constants => Self::replay_in(slf, constants, x, state, out))
     }
 
-    /// Restores a state saved by `State.to_bytes`, here or in a C or Rust program; bytes of another damper, or damaged
-    /// ones, are refused.
+    /// Restores a state saved by `State.to_bytes`, here or in a C or Rust program. Bytes of another damper and damaged
+    /// bytes are refused.
     fn state_from_bytes(slf: &Bound<'_, Self>, saved: &[u8]) -> Outcome<State> {
         let numbers = match &slf.get().kept {
             Kept::Single(constants) => Numbers::Single(constants.restore(saved)?),

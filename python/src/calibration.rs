@@ -48,15 +48,16 @@ impl Calibrated {
     }
 
     /// The fitted parameters by key. Two belong to the rig rather than to the damper: `sensor_skew_s` is the delay (s)
-    /// of the recorded force behind the displacement, `force_offset_n` the reading (N) of the force sensor at zero
-    /// force.
+    /// of the recorded force relative to the displacement, and `force_offset_n` is the force sensor's reading (N) at
+    /// zero force.
     #[getter]
     fn values<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         self.by_key(py, self.found.values.iter())
     }
 
-    /// Intervals (95 %) of the fitted parameters, as pairs of minimum and maximum; `None` in a pair if a bound is
-    /// reached first. They include the noise of the tests and the uncertainty of the oil's temperature and density.
+    /// Intervals (95 %) of the fitted parameters, as pairs of minimum and maximum; `None` in a pair means that the
+    /// parameter reached a bound first. The intervals include the noise of the tests and the uncertainty of the oil's
+    /// temperature and density.
     #[getter]
     fn intervals<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         let intervals = self.found.intervals.iter();
@@ -80,8 +81,8 @@ impl Calibrated {
         Ok(assumed)
     }
 
-    /// Remarks on the result, one sentence each: a model that misses more than the noise, a parameter at its bound,
-    /// parameters that the tests hardly distinguish, an assumed temperature that dominates a parameter.
+    /// Warnings about the result, one sentence each: a misfit larger than the noise, a parameter at its bound,
+    /// parameters that the tests hardly distinguish, or an assumed temperature that dominates a parameter.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.found
@@ -91,7 +92,7 @@ impl Calibrated {
             .collect()
     }
 
-    /// Standard deviations of the fitted parameters by linear theory, in their units.
+    /// Standard deviations of the fitted parameters from linear theory, in the units of the parameters.
     #[getter]
     fn standard_deviations<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         let numbers = self.found.determination.parameters.iter();
@@ -107,9 +108,10 @@ impl Calibrated {
         }
     }
 
-    /// Each recorded loop with the model's, at the samples that count: arrays `time_s`, `displacement_m`, `force_n`,
-    /// `before_n` and `after_n` (the model's forces as the sensor would show them), the rms misfits `missed_before_n`
-    /// and `missed_after_n`, and `displacement_offset_m`, the mean of the motion, which does not affect the force.
+    /// Each recorded loop and the model's loop before and after the fit, at the samples that count in the fit: arrays
+    /// `time_s`, `displacement_m`, `force_n`, `before_n` and `after_n` (the model's forces as the sensor would show
+    /// them), the RMS misfits `missed_before_n` and `missed_after_n`, and `displacement_offset_m`, the mean of the
+    /// motion, which does not affect the force.
     #[getter]
     fn loops<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyList>> {
         let step_s = self.calibration.step_s;
@@ -158,13 +160,14 @@ impl Calibrated {
 /// `vary` names the parameters, as a list of keys or as a dictionary from keys to bounds, where `None` selects the
 /// plausible ones. `priors` contains prior knowledge as pairs of mean and standard deviation; with `known_priors=False`
 /// only these apply. Two parameters of the rig are always fitted to loops, `sensor_skew_s` and `force_offset_n`: `vary`
-/// and `priors` may name them, and `hold` fixes them, as a dictionary to values or `None` for zero. With `skew=False`
-/// the sensors are assumed to record at the same instant. The search has `starts` starting points, 4 by default.
+/// and `priors` may name them, and `hold` fixes them: it is a dictionary from their keys to values, or to `None` for
+/// zero. With `skew=False` the sensors are assumed to record at the same instant. The search has `starts` starting
+/// points, 4 by default.
 ///
 /// Intervals include the effect of the oil's temperature, known within `temperature_uncertainty_k`, and its density,
-/// known within `density_uncertainty_kg_per_m3` (half-widths of 95 %). Parameters that the tests do not determine are
-/// refused, and so is a model that misses more than `max_misfit_percent` of a test's force beyond its noise. Ctrl-C
-/// cancels the fit.
+/// known within `density_uncertainty_kg_per_m3` (half-widths of 95 % intervals). Parameters that the tests do not
+/// determine are refused, and so is a model whose misfit beyond the noise exceeds `max_misfit_percent` of a test's
+/// force. Ctrl-C cancels the fit.
 ///
 /// >>> import dashpot, numpy
 /// >>> made = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0, "reduced.damping_n_s_per_m": 100e3})
@@ -180,7 +183,7 @@ impl Calibrated {
     damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None,
     step_s=0.00025, hold=None, temperature_uncertainty_k=5.0, density_uncertainty_kg_per_m3=0.0, max_misfit_percent=20.0
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn calibrate(
     py: Python<'_>,
     damper: &Bound<'_, Damper>,
@@ -234,7 +237,7 @@ pub fn calibrate(
         for test in &tests {
             loops.extend(LoopTest::from_recording(test, step_s)?);
         }
-        // Without loops there is no skew to hold.
+        // Without loops there is no skew, so it cannot be held.
         if loops.is_empty() && !skew {
             request.hold.retain(|(key, _)| key != SKEW);
         }
@@ -338,7 +341,7 @@ fn recorded(number: usize, [time_s, displacement_m, force_n]: &Samples<'_>) -> O
     )?)
 }
 
-/// Tests with known indices.
+/// Reads tests of which only the indices are known.
 fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
     let Some(indices) = indices else {
         return Ok(Vec::new());
@@ -352,7 +355,8 @@ fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
         Ok(text) => text.extract()?,
         Err(error) => {
             return refuse(format!(
-                "indices: {}; allowed: a list of dicts of Python's own finite numbers, without unmeasured indices",
+                "indices: {}; allowed: a list of dicts of finite Python numbers; leave out indices that were not \
+                 measured",
                 error.value(py)
             ));
         }

@@ -28,11 +28,13 @@ pub fn message(error: &CalibrationError) -> String {
         },
         CalibrationError::Undetermined { .. } => {
             format!(
-                "{what}\n{}, or add a test that determines it",
+                "{what}\n{}, or add a test that separates them",
                 said.join(", or ")
             )
         }
-        CalibrationError::PriorOfHeld { .. } => format!("{what}; allowed: a number that is varied"),
+        CalibrationError::PriorOfHeld { .. } => {
+            format!("{what}; allowed: a parameter that is varied")
+        }
         _ if said.is_empty() => what,
         _ => format!("{what}; {}", said.join(", or ")),
     }
@@ -43,12 +45,12 @@ fn nothing_found(finding: &Finding, what: &str, said: &[String]) -> String {
     let tried = "no sign, unit, bound or preset that was tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
-            "{what}\n  {tried}: the law of this damper lacks an effect that they show; to get the nearest fit anyway, \
-             {}",
+            "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit \
+             anyway, {}",
             said.join(", or ")
         ),
         Finding::AtBound { .. } => format!(
-            "{what}\n  {tried}; to get the best value within these bounds anyway, {}",
+            "{what}\n  {tried}; to accept the best value within these bounds anyway, {}",
             said.join(", or ")
         ),
         Finding::Driven { .. } => {
@@ -115,12 +117,12 @@ pub fn warning(warning: &Warning) -> String {
             missed_n,
             noise_n,
         } => format!(
-            "{test}: the model misses {missed_n:.0} N where the force scatters by {noise_n:.0} N: it lacks an \
-             effect that this test shows, and no interval includes it"
+            "{test}: the residual is {missed_n:.0} N but the noise only {noise_n:.0} N: the model lacks an effect that \
+             this test contains, and the intervals do not account for it"
         ),
         Warning::ZeroDiffers { test, mean_n } => format!(
-            "{test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate it \
-             separately",
+            "{test}: the zero of the force differs by {:.0} N from that of the other tests: calibrate this \
+             test separately",
             -mean_n
         ),
         Warning::AtBound {
@@ -133,7 +135,7 @@ pub fn warning(warning: &Warning) -> String {
              vary={{\"{key}\": (min, max)}}"
         ),
         Warning::Close { a, b, correlation } => {
-            format!("{a} and {b} are hardly distinguishable: correlation {correlation:.3}")
+            format!("the tests hardly separate {a} and {b}: correlation {correlation:.3}")
         }
         Warning::Assumed {
             key,
@@ -148,9 +150,9 @@ pub fn warning(warning: &Warning) -> String {
                 "density_uncertainty_kg_per_m3"
             };
             format!(
-                "{key} moves by {shift_percent:.2} % when {assumed} is {value} +- {uncertainty}, more than the noise \
-                 of the tests; they \
-                 cannot distinguish the two. The interval includes this; {argument} sets how well you know {assumed}"
+                "{key} shifts by {shift_percent:.2} % if {assumed} is {value} +- {uncertainty}; the noise of the tests \
+                 shifts it less. The tests cannot separate the two. The interval includes this shift; set the \
+                 uncertainty with {argument}"
             )
         }
         Warning::FitsBetter {
@@ -158,8 +160,8 @@ pub fn warning(warning: &Warning) -> String {
             value,
             better,
         } => format!(
-            "these recordings fit better at {assumed} {better} than at {value}: check the thermometer; \
-             damper.replace({{\"{assumed}\": {better:e}}}) uses that value"
+            "the recordings fit better with {assumed} {better} than with {value}: check the thermometer; to use that \
+             value, start from damper.replace({{\"{assumed}\": {better:e}}})"
         ),
     }
 }

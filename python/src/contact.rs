@@ -42,9 +42,10 @@ impl Contact {
         self.conicity.clone_ref(py)
     }
 
-    /// The force jump because of which contact tables of the pair are refused: a dictionary with its position
-    /// (`lateral_m`, `roll_rad`, `yaw_rad`), the load `load_n`, the jump `jump_n`, and the jump that the stiffness of
-    /// the contact allows (`allowed_n`). None if the tables are not refused.
+    /// The force jump because of which contact tables of this pair are refused; `None` without such a jump.
+    ///
+    /// It is a dictionary with the position (`lateral_m`, `roll_rad`, `yaw_rad`), the load `load_n`, the jump `jump_n`,
+    /// and `allowed_n`, the jump that the stiffness of the contact allows.
     ///
     /// >>> import dashpot
     /// >>> dashpot.contact().force_jump is None
@@ -68,17 +69,17 @@ impl Contact {
         Ok(Some(numbers))
     }
 
-    /// The rigid wheelset over its lateral shift (m), positive to the right, in steps of 25 um: arrays of rolling
-    /// radius difference, roll, contact angles and contact positions on the wheels, named as by `dashpot contact
-    /// --format json`.
+    /// Geometry of the rigid wheelset at lateral shifts (m), positive to the right, in steps of 25 um: arrays of
+    /// rolling radius difference, roll, contact angles and contact positions on the wheels, named as in the output of
+    /// `dashpot contact --format json`.
     #[getter]
     fn shifts(&self, py: Python<'_>) -> Py<PyDict> {
         self.shifts.clone_ref(py)
     }
 }
 
-/// Computes the geometry of a wheel on a rail: `s1002`, `uic60` or profile files of MiniProf, SIMPACK, GENSYS or two
-/// columns.
+/// Computes the geometry of a wheel on a rail. Each profile is built in (`s1002`, `uic60`) or a file in the format of
+/// MiniProf, SIMPACK or GENSYS, or with two columns.
 ///
 /// The formats and mirrors are those of the command `dashpot contact`; give them if the file does not state them.
 ///
@@ -92,7 +93,7 @@ impl Contact {
     wheel_radius_m=None, inclination=None, smoothing_m=None,
     wheel_format=None, rail_format=None, wheel_mirror=None, rail_mirror=None
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn contact(
     py: Python<'_>,
     wheel: Option<&Bound<'_, PyAny>>,
@@ -171,12 +172,13 @@ fn options(
         .with_smoothing_m(smoothing_m.unwrap_or(DEFAULT_SMOOTHING_M)))
 }
 
-/// Computes creep forces on the wheel by the exact theory of rolling contact, from Kalker's book of tables, one row for
-/// each row of `creepages`, a float64 array with the columns longitudinal, lateral (1) and spin (1/m). Columns of the
-/// result: longitudinal force, lateral force (N) and spin moment (N m).
+/// Computes creep forces on the wheel by the exact theory of rolling contact, from Kalker's book of tables.
 ///
-/// `a_m` and `b_m` are the semi-axes of the contact in the rolling direction and across it. Shear modulus and Poisson's
-/// ratio are those of steel by default.
+/// `creepages` is a float64 array with the columns longitudinal, lateral (1) and spin (1/m). The result has one row for
+/// each of its rows, with the columns longitudinal force, lateral force (N) and spin moment (N m).
+///
+/// `a_m` and `b_m` are the semi-axes of the contact in the rolling and in the lateral direction. The shear modulus and
+/// Poisson's ratio are those of steel by default.
 ///
 /// >>> import dashpot, numpy
 /// >>> braking = numpy.array([[1.6e-3, 0.0, 0.0]])
@@ -186,7 +188,7 @@ fn options(
 /// True
 #[pyfunction]
 #[pyo3(signature = (creepages, *, load_n, a_m, b_m, friction, shear_modulus_pa=None, poisson_ratio=None))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn creep_forces<'py>(
     py: Python<'py>,
     creepages: &Bound<'py, PyAny>,

@@ -1,4 +1,4 @@
-//! A damper: its parameters by key, and what is built from it.
+//! A damper: its parameters by key, and the objects and results computed from them.
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
@@ -28,14 +28,14 @@ use crate::rig::{Cycle, indices};
 /// Damper('in-service', mount.clearance_m=0.001)
 #[pyclass(module = "dashpot", frozen, mapping)]
 pub struct Damper {
-    /// Name of the damper, including its changes.
+    /// Name of the damper, followed by its overrides.
     pub name: String,
     pub parameters: CheckedParameters,
     keyed: Keyed,
 }
 
 impl Damper {
-    /// Creates a damper from checked parameters; errors call it `name`.
+    /// Creates a damper from checked parameters; errors call the damper `name`.
     pub fn of(name: String, parameters: CheckedParameters) -> Outcome<Self> {
         let keyed = Keyed::new(&name, &parameters)?;
         Ok(Self {
@@ -50,7 +50,7 @@ impl Damper {
         &self.keyed
     }
 
-    /// Value for a key of any type.
+    /// Looks up a key, which may be a Python object of any type.
     fn at(&self, key: &Bound<'_, PyAny>) -> Option<f64> {
         self.keyed.number(&key.extract::<String>().ok()?).ok()
     }
@@ -61,7 +61,7 @@ impl Damper {
     }
 }
 
-/// Name with its changes.
+/// Name followed by its overrides.
 fn changed(name: &str, assignments: &[String]) -> String {
     let changes = assignments.iter().map(|one| format!(", {one}"));
     format!("{name}{}", changes.collect::<String>())
@@ -78,7 +78,7 @@ impl Damper {
         Self::of(changed(&name, &changes), parameters)
     }
 
-    /// Reads the damper from `text`, the contents of a damper file; errors call it `name`.
+    /// Reads the damper from `text`, the contents of a damper file; errors call the damper `name`.
     ///
     /// >>> import dashpot
     /// >>> text = dashpot.Damper("reduced-vertical").to_toml()
@@ -92,7 +92,7 @@ impl Damper {
         Self::of(changed(name, &changes), parameters)
     }
 
-    /// Returns the damper as the text of a damper file, from which `from_toml` reads the same damper.
+    /// Returns the text of a damper file; `from_toml` reads the same damper from it.
     ///
     /// >>> import dashpot
     /// >>> print(dashpot.Damper("reduced-lateral").to_toml().splitlines()[0])
@@ -193,8 +193,8 @@ impl Damper {
         BuiltDamper::new(&self.name, &self.parameters, step_s, precision)
     }
 
-    /// Runs the bench test: a harmonic motion of the seats until the force repeats, with steps of at most `step_s` (s),
-    /// in double precision.
+    /// Runs the bench test in double precision, with steps of at most `step_s` (s): the seats move harmonically until
+    /// the force repeats.
     ///
     /// >>> import dashpot
     /// >>> cycle = dashpot.Damper("paper").rig(amplitude_m=24.875e-3, frequency_hz=0.64)
@@ -211,7 +211,7 @@ impl Damper {
         Cycle::run(py, &self.parameters, amplitude_m, frequency_hz, step_s)
     }
 
-    /// Returns the indices of the bench test by name; `None` for an index that is undefined without force.
+    /// Returns the indices of the bench test by name; an index that is undefined without force is `None`.
     ///
     /// >>> import dashpot
     /// >>> damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0})
@@ -230,8 +230,8 @@ impl Damper {
         indices(py, &cycle)
     }
 
-    /// Returns the force (N) at each constant velocity (m/s), with springs at rest and clearance taken up; both are
-    /// positive in extension.
+    /// Returns the force (N) at each constant velocity (m/s), after the springs have settled and the clearance is taken
+    /// up; both are positive in extension.
     ///
     /// >>> import dashpot, numpy
     /// >>> damper = dashpot.Damper("reduced-vertical")
@@ -258,8 +258,9 @@ impl Damper {
         Ok(PyArray1::from_vec(py, forces))
     }
 
-    /// Returns the force (N) of the reference solution at displacements (m) of the seats `step_s` (s) apart, linear in
-    /// between. The reference is adaptive, written independently of the step, and about a thousand times slower.
+    /// Returns the force (N) of the reference solution at displacements (m) of the seats. They are `step_s` (s) apart
+    /// and linear in between. The reference is an adaptive solver, written independently of the step, and about a
+    /// thousand times slower.
     ///
     /// >>> import dashpot, numpy
     /// >>> damper, x = dashpot.Damper("paper"), 5e-3 * numpy.sin(numpy.arange(500.0) / 80)

@@ -27,7 +27,7 @@ use crate::remedy::with_remedy;
 /// Reasons for which a call fails.
 #[derive(Debug)]
 pub enum Refusal {
-    /// An invalid argument, or no result.
+    /// An invalid argument, or a computation without a result.
     Value(String),
     /// A mapping lacks a key.
     Key(String),
@@ -48,7 +48,7 @@ pub struct Unusable {
 
 impl Unusable {
     fn new(words: String, path: PathBuf, source: &std::io::Error) -> Self {
-        // On other platforms the system's numbers are not those of C.
+        // On other platforms the system's error numbers are not C's errno.
         let errno = source.raw_os_error().filter(|_| cfg!(unix));
         Self { words, errno, path }
     }
@@ -80,7 +80,7 @@ impl From<FileError> for Refusal {
     }
 }
 
-/// Errors that may be caused by a file error, in this variant.
+/// Converts errors that have a variant for file errors; the macro takes that variant.
 macro_rules! with_file {
     ($($error:ident :: $file:ident),* $(,)?) => {$(
         impl From<$error> for Refusal {
@@ -155,7 +155,7 @@ impl From<RunError> for Refusal {
 }
 
 impl Refusal {
-    /// Error of a case with this name.
+    /// Error in the case with this name.
     pub fn of_case(name: &str, error: VehicleRunError) -> Self {
         let words = format!("{name}: {error}");
         Self::from(error).worded(words)
@@ -172,7 +172,7 @@ impl Refusal {
     }
 }
 
-/// Errors without a file path.
+/// Converts errors that cannot be file errors.
 macro_rules! without_file {
     ($($error:ty),* $(,)?) => {$(
         impl From<$error> for Refusal {
@@ -198,7 +198,7 @@ static FILE: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
 impl From<Refusal> for PyErr {
     fn from(refusal: Refusal) -> Self {
-        // Defined in Python because PyO3 cannot create exceptions with two bases.
+        // The exceptions are defined in Python because PyO3 cannot create exceptions with two base classes.
         Python::attach(|py| {
             let exception = |kept: &PyOnceLock<Py<PyType>>, name| {
                 let exception = kept.import(py, "dashpot._errors", name);

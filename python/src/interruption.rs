@@ -14,8 +14,8 @@ use pyo3::prelude::*;
 pub struct Interruption(RefCell<Option<PyErr>>);
 
 impl Interruption {
-    /// Returns true if the work is to be cancelled because one of Python's signal handlers, which run only in its main
-    /// thread, raised an exception.
+    /// Returns true if the work must be cancelled because one of Python's signal handlers raised an exception. The
+    /// handlers run only in Python's main thread.
     pub fn is_requested(&self) -> bool {
         let mut raised = self.0.borrow_mut();
         if raised.is_none() {
@@ -50,7 +50,7 @@ pub fn run_in_thread<T: Send>(
     let result = thread::scope(|scope| {
         let (done, is_done) = mpsc::channel::<()>();
         let worker = scope.spawn(|| {
-            // Dropped when the work is done or panics.
+            // When the work ends or panics, this is dropped and ends the loop below.
             let _done = done;
             work(&|| is_unwanted.load(Ordering::Relaxed))
         });

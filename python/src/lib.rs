@@ -1,5 +1,5 @@
-//! The compiled part of the Python package `dashpot`. It contains no physics and no rules, only arrays, exceptions and
-//! the release of the GIL.
+//! The compiled part of the Python package `dashpot`. It contains no physics and no rules; it only handles arrays and
+//! exceptions and releases the GIL.
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 

@@ -19,7 +19,7 @@ pub fn path(name: &Bound<'_, PyAny>) -> Outcome<String> {
     }
 }
 
-/// Converts a path-like object of any bytes that the system allows.
+/// Converts a path-like object, which may contain any bytes that the system allows.
 pub fn path_of_file(path: &Bound<'_, PyAny>) -> Outcome<PathBuf> {
     let os = path.py().import("os")?;
     Ok(os.call_method1("fsdecode", (path,))?.extract()?)
@@ -50,13 +50,13 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(quoted(&text.to_cow()?));
     }
-    // numpy numbers are not floats, but convert to them.
+    // Most numpy numbers are not Python floats, but they convert to them.
     let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
     if is_number || value.hasattr("__float__")? {
         let number = match value.extract::<f64>() {
             Err(error) if error.is_instance_of::<PyOverflowError>(value.py()) => {
                 return refuse(format!(
-                    "override {key}: a number beyond all of float64, allowed: finite numbers"
+                    "override {key}: a number beyond the range of float64, allowed: finite numbers"
                 ));
             }
             number => number?,
@@ -67,12 +67,12 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
         });
     }
     refuse(format!(
-        "override {key}: {}, allowed: a number, a text or a truth value",
+        "override {key}: {}, allowed: a number, a string or a bool",
         value.get_type().name()?
     ))
 }
 
-/// Quotes a text with the syntax common to TOML and JSON.
+/// Quotes a text in the syntax that TOML and JSON share.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

@@ -1,4 +1,4 @@
-//! Recordings from files as arrays.
+//! Reads recordings from files into arrays.
 
 use std::path::Path;
 
@@ -16,14 +16,15 @@ use pyo3::types::PyDict;
 use crate::error::{Outcome, refuse};
 use crate::overrides::path_of_file;
 
-/// Reads a recording, CSV, MDF4 or Parquet: arrays `time_s` and `displacement_m`, and `force_n` if `with_force` is
-/// true.
+/// Reads a CSV, MDF4 or Parquet recording into the arrays `time_s` and `displacement_m`, and `force_n` if `with_force`
+/// is true.
 ///
 /// With `step_s` (s) the recording is resampled at the ticks of that step, linearly between samples, as in `dashpot
 /// replay`. `time`, `displacement` and `force` name the channels; `time_unit`, `displacement_unit` and `force_unit`
 /// give their units if the file does not. `group` selects a group of an MDF4 file, `header` states whether the first
-/// row of text contains names, and `decimal_mark` is `point` or `comma`. `skip_invalid` leaves out rows that lack a
-/// value. A text whose last line has no line end may be truncated within a number; it is read with a `UserWarning`.
+/// row of a text file contains names, and `decimal_mark` is `point` or `comma`. `skip_invalid` skips rows that lack a
+/// value. A text file whose last line has no line end may be truncated within a number; it is read with a
+/// `UserWarning`.
 ///
 /// >>> import dashpot, pathlib, tempfile
 /// >>> with tempfile.TemporaryDirectory() as folder:
@@ -37,7 +38,7 @@ use crate::overrides::path_of_file;
     path, *, step_s=None, with_force=false, time=None, displacement=None, force=None, time_unit=None,
     displacement_unit=None, force_unit=None, group=None, skip_invalid=false, header=None, decimal_mark=None
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn read<'py>(
     py: Python<'py>,
     path: &Bound<'py, PyAny>,
@@ -69,7 +70,7 @@ pub fn read<'py>(
     let path = path_of_file(path)?;
     let path = path.as_path();
     if step_s.is_some() && with_force {
-        return refuse("step_s with with_force: allowed: one of them");
+        return refuse("step_s and with_force: both given, allowed: only one of them");
     }
     let (columns, gaps) = py.detach(|| columns(path, &channels, step_s, with_force))?;
     if let Some(line) = gaps.unended_line {
@@ -85,7 +86,7 @@ pub fn read<'py>(
 /// Warns that the file may be truncated within the last number of its last line.
 fn warn_of_unended(py: Python<'_>, path: &Path, line: u64) -> Outcome<()> {
     let words = format!(
-        "{}:{line}: the last line has no line end: the file may have been cut inside the last number of that line",
+        "{}:{line}: the last line has no line end: the file may have been cut off inside the last number of that line",
         path.display()
     );
     py.import("warnings")?.call_method1("warn", (words,))?;
@@ -147,7 +148,7 @@ fn mark(text: &str) -> Outcome<DecimalMark> {
     }
 }
 
-/// Channel with a given name and unit.
+/// Builds a channel with a given name and unit.
 fn channel(quantity: Quantity, name: Option<String>, unit: Option<&str>) -> Outcome<Channel> {
     let unit = match unit.map(|text| (text, quantity.unit(text))) {
         Some((text, None)) => {

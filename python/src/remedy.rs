@@ -22,13 +22,13 @@ fn in_arguments(remedy: Remedy) -> String {
             unit(quantity)
         ),
         Remedy::GiveUnit(quantity) => {
-            format!("name it: {} with {}", unit(quantity), quantity.unit_names())
+            format!("give it with {}: {}", unit(quantity), quantity.unit_names())
         }
         Remedy::OverrideUnit(quantity) => format!("{} overrides it", unit(quantity)),
         Remedy::NameGroup => "choose one with group=NAME or its number".into(),
-        Remedy::SayWhetherHeader => "say which: header=True or header=False".into(),
-        Remedy::GiveDecimalMark => "say which holds: decimal_mark=\"point\" or \"comma\"".into(),
-        Remedy::SkipInvalid => "skip_invalid=True leaves out rows that lack a value".into(),
+        Remedy::SayWhetherHeader => "use header=True or header=False".into(),
+        Remedy::GiveDecimalMark => "use decimal_mark=\"point\" or \"comma\"".into(),
+        Remedy::SkipInvalid => "use skip_invalid=True to skip rows with a missing value".into(),
     }
 }
 

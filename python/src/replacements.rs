@@ -1,4 +1,4 @@
-//! Dampers of a vehicle that are replaced, as Python gives them.
+//! Conversion of a Python dictionary to replacements for dampers of a vehicle.
 
 use dashpot_core::DamperParameters;
 use dashpot_files::vehicle::Replacement;
@@ -9,7 +9,8 @@ use crate::damper::Damper;
 use crate::error::{Outcome, refuse};
 use crate::overrides::path;
 
-/// Reads a dictionary from dampers of a vehicle to their replacements: a name, a path or a `Damper`. Empty without one.
+/// Reads a dictionary from dampers of a vehicle to their replacements: a name, a path or a `Damper`. Without a
+/// dictionary, the result is empty.
 pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement>> {
     let Some(given) = given else {
         return Ok(Vec::new());

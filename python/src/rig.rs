@@ -70,19 +70,19 @@ impl Cycle {
         PyArray1::from_slice(py, &self.0.forces_n)
     }
 
-    /// The step size used (s): the requested one, shortened to a whole number of steps per cycle.
+    /// The step size used (s): the requested one, shortened so that a cycle is a whole number of steps.
     #[getter]
     fn step_s(&self) -> f64 {
         self.0.step_s
     }
 
-    /// Cycles until the force repeated.
+    /// Number of cycles until the force repeated.
     #[getter]
     fn cycles(&self) -> usize {
         self.0.cycles
     }
 
-    /// The indices by name; `None` for an index that is undefined without force.
+    /// The indices by name; an index that is undefined without force is `None`.
     #[getter]
     fn indices<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
         indices(py, self)

@@ -1,4 +1,4 @@
-//! The state of a damper, which changes from tick to tick.
+//! State of a damper, which changes from tick to tick.
 
 use dashpot_core::{DamperState, Real};
 use pyo3::prelude::*;
@@ -75,7 +75,7 @@ impl State {
 
 #[pymethods]
 impl State {
-    /// Displacement of the last tick (m), positive in extension.
+    /// Displacement at the last tick (m), positive in extension.
     #[getter]
     fn displacement_m(slf: &Bound<'_, Self>) -> Outcome<f64> {
         Ok(in_precision!(&Self::seen(slf)?.numbers, state => state.displacement_m().to_f64()))
@@ -89,7 +89,7 @@ impl State {
         )
     }
 
-    /// Force of the last tick (N), positive when it resists extension.
+    /// Force at the last tick (N), positive when it resists extension.
     #[getter]
     fn force_n(slf: &Bound<'_, Self>) -> Outcome<f64> {
         Ok(in_precision!(&Self::seen(slf)?.numbers, state => state.force_n().to_f64()))
@@ -101,13 +101,13 @@ impl State {
         Ok(in_precision!(&Self::seen(slf)?.numbers, state => state.revision()))
     }
 
-    /// Ticks whose displacement was held or limited, up to 65535.
+    /// Number of ticks whose displacement was held or limited; it stops at 65535.
     #[getter]
     fn rejected_inputs(slf: &Bound<'_, Self>) -> Outcome<u16> {
         Ok(in_precision!(&Self::seen(slf)?.numbers, state => state.rejected_inputs()))
     }
 
-    /// Bits latched since they were last cleared, a `dashpot.Status`.
+    /// Status bits latched since they were last cleared, as a `dashpot.Status`.
     #[getter]
     fn status<'py>(slf: &Bound<'py, Self>) -> Outcome<Bound<'py, PyAny>> {
         let bits = in_precision!(&Self::seen(slf)?.numbers, state => state.status().bits());

@@ -14,11 +14,11 @@ use crate::pickled::{Pickled, pickled};
 use crate::vehicle::SHARED;
 use crate::whole::Whole;
 
-/// A shipped study or a TOML file. Cases are counted from 0, and each row depends on its case alone, with the same bits
+/// A shipped study or a TOML file. Cases are numbered from 0. Each row depends only on its case: its bits are the same
 /// in any order and on any number of threads and machines.
 ///
 /// `seeds` replaces the seeds of every sweep that has seeds by 1 to `seeds`. Pickling transfers a study to another
-/// process by name; the files must be the same there, which is checked.
+/// process by name; unpickling checks that the files are the same there.
 ///
 /// >>> import dashpot
 /// >>> study = dashpot.Study("paper", seeds=1)
@@ -50,7 +50,7 @@ impl Study {
         })
     }
 
-    /// Error for a case number out of range, as Python reports it for its own lists.
+    /// Error for a case number out of range: an `IndexError`, as for Python's own lists.
     fn no_case(&self, number: &Whole) -> Refusal {
         let last = self.study.cases().saturating_sub(1);
         PyIndexError::new_err(format!("case {number}, allowed: 0 to {last}")).into()
@@ -59,7 +59,7 @@ impl Study {
     /// A row as a dictionary by column.
     fn in_python<'py>(&self, py: Python<'py>, row: &Row) -> Outcome<Bound<'py, PyDict>> {
         let Some(case) = self.study.case(row.case) else {
-            return refuse(format!("case {}: not of this study", row.case));
+            return refuse(format!("case {}: not in this study", row.case));
         };
         let cells = PyDict::new(py);
         for (name, cell) in self
@@ -84,7 +84,7 @@ impl Study {
         Ok(cells)
     }
 
-    /// Columns of rows: numbers as arrays, with NaN for missing values; all others as lists.
+    /// Columns of rows: numeric columns as arrays, with NaN for missing values; all others as lists.
     fn columns_of<'py>(&self, py: Python<'py>, rows: &[Row]) -> Outcome<Bound<'py, PyDict>> {
         let dictionaries: Vec<Bound<'py, PyDict>> = rows
             .iter()
@@ -160,7 +160,7 @@ impl Study {
         py.detach(|| Self::read(name, Some(text), seeds))
     }
 
-    /// Names of the columns of a row, as in rows.csv of the command.
+    /// Names of the columns of a row, as in the command's rows.csv.
     #[getter]
     fn columns(&self) -> Vec<String> {
         self.study.columns()
@@ -207,9 +207,9 @@ impl Study {
         }
     }
 
-    /// Runs the cases on `threads` threads, by default one per core, and returns their columns, in the order of the
-    /// cases, as `pandas.DataFrame` accepts them. `shard`, a pair of its number from 0 and the number of shards, runs
-    /// only that part. Ctrl-C cancels the run.
+    /// Runs the cases on `threads` threads, by default one per core, and returns their columns in the order of the
+    /// cases, as `pandas.DataFrame` accepts them. `shard` is a pair of a shard's number, from 0, and the number of
+    /// shards; only that shard is run. Ctrl-C cancels the run.
     #[pyo3(signature = (*, shard=None, threads=None))]
     fn run<'py>(
         &self,
@@ -267,8 +267,8 @@ impl Study {
             return Ok(study);
         }
         refuse(format!(
-            "{}: its files or this version are not those that the study was read with; install the same package and \
-             the same files on every machine",
+            "{}: its files or the version of the package differ from those with which the study was read; install the \
+             same package and the same files on every machine",
             study.name
         ))
     }

@@ -1,4 +1,4 @@
-//! A vehicle on a track in time.
+//! A vehicle that runs along a track.
 
 use std::sync::LazyLock;
 
@@ -49,8 +49,8 @@ impl VehicleRun {
         self.step_s
     }
 
-    /// How the run ended, in words: `completed`, or when and where it derailed, overturned, diverged, left the contact
-    /// tables or went beyond the model (a wheel load over 50 times the static load).
+    /// How the run ended, in words: `completed`, or when and where the vehicle derailed, overturned, diverged, left the
+    /// contact tables or went beyond the model (a wheel load over 50 times the static load).
     #[getter]
     fn ending(&self) -> String {
         self.ending.to_string()
@@ -62,8 +62,8 @@ impl VehicleRun {
         self.ending == Ending::Completed
     }
 
-    /// Arrays of the signals by name, one value per tick, as `pandas.DataFrame` accepts them and history.csv of the
-    /// command contains them.
+    /// Arrays of the signals by name, one value per tick, as `pandas.DataFrame` accepts them. The command writes the
+    /// same values to history.csv.
     #[getter]
     fn history(&self, py: Python<'_>) -> Py<PyDict> {
         self.history.clone_ref(py)
@@ -76,8 +76,8 @@ impl VehicleRun {
         self.warnings.clone()
     }
 
-    /// The indices, as in indices.json of the command; `None` for a run that derailed, overturned, diverged, left the
-    /// tables or went beyond the model.
+    /// The indices, as in the command's indices.json; `None` for a run that derailed, overturned, diverged, left the
+    /// contact tables or went beyond the model.
     #[getter]
     fn indices(&self, py: Python<'_>) -> Py<PyAny> {
         self.indices.clone_ref(py)
@@ -93,12 +93,12 @@ impl VehicleRun {
     }
 }
 
-/// Runs a vehicle along a track: a shipped case or a TOML file, whose values the other arguments override; or a track
-/// and a speed.
+/// Runs a vehicle along a track. Give a case (a shipped one or a TOML file), whose values the other arguments override,
+/// or a track and a speed.
 ///
-/// `dampers` replaces dampers, given by direction or name, by a preset, a file or a `Damper`; `overrides` changes
-/// values of the vehicle, like `--damper` and `--set` of the command. `signals` selects the signals of the history;
-/// default: all. Ctrl-C cancels the run.
+/// `dampers` is a dictionary from dampers, by direction or name, to their replacements: a preset, a file or a `Damper`.
+/// `overrides` changes values of the vehicle. Both work like the command's `--damper` and `--set`. `signals` selects
+/// the signals of the history; default: all. Ctrl-C cancels the run.
 ///
 /// >>> import dashpot
 /// >>> run = dashpot.vehicle("straight-180", duration_s=0.5, dampers={"vertical": "in-service"})
@@ -111,7 +111,7 @@ impl VehicleRun {
     case=None, *, vehicle=None, track=None, speed_km_h=None, duration_s=None, start_m=None, friction=None,
     normal_damping_s_per_m=None, step_us=None, push_m=None, dampers=None, overrides=None, signals=None
 ))]
-#[expect(clippy::too_many_arguments, reason = "what Python names when it calls")]
+#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn vehicle(
     py: Python<'_>,
     case: Option<&Bound<'_, PyAny>>,

@@ -1,4 +1,4 @@
-//! Python integers of any size and sign, refused with the package's messages.
+//! Python integers of any size and sign; those out of range are refused with the package's messages.
 
 use std::ops::RangeInclusive;
 
@@ -11,12 +11,12 @@ use crate::error::{Outcome, refuse};
 pub enum Whole {
     /// A valid count.
     Count(u64),
-    /// A negative or too large integer, as Python writes it.
+    /// An integer that is negative or too large, as Python writes it.
     Beyond(String),
 }
 
 impl Whole {
-    /// Returns the number if it is in range; errors call it `name`.
+    /// Returns the number if it is in range; errors call the argument `name`.
     pub fn within(self, name: &str, allowed: RangeInclusive<u64>) -> Outcome<u64> {
         match self {
             Self::Count(count) if allowed.contains(&count) => Ok(count),
@@ -48,7 +48,7 @@ impl<'py> FromPyObject<'_, 'py> for Whole {
                 // Python refuses to print integers of thousands of digits.
                 let text = number.str().map(|text| text.to_string());
                 Ok(Self::Beyond(text.unwrap_or_else(|_| {
-                    "a number of thousands of digits".into()
+                    "a number with thousands of digits".into()
                 })))
             }
             Err(error) => Err(error),

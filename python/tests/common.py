@@ -1,4 +1,4 @@
-"""Helpers shared by the tests: running the command `dashpot` for comparison."""
+"""Helpers that the tests share; they run the command `dashpot` for comparison."""
 
 import csv
 import os
@@ -21,7 +21,7 @@ def refusal(*arguments):
     """Runs the command, which must fail, and returns its error message."""
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode != 0, done.stdout
-    return done.stderr.removeprefix("error: ").removeprefix("wrong use: ").strip()
+    return done.stderr.removeprefix("error: ").removeprefix("usage error: ").strip()
 
 
 def columns(path):

@@ -73,7 +73,7 @@ class Arrays(Test):
     def test_masked_arrays_are_refused(self):
         masked = numpy.ma.array(self.x, mask=True)
         self.assert_refused(
-            "x: a masked array, allowed: a numpy array of float32 with 1 dimension; use x.filled(numpy.nan), at which the"
+            "x: a masked array, allowed: a numpy array of float32 with 1 dimension; use x.filled(numpy.nan); at NaN the"
             " step holds its last displacement",
             self.built.replay,
             masked,

@@ -1,4 +1,4 @@
-"""A bank compared with its single dampers."""
+"""Compares a bank with its single dampers."""
 
 import copy
 import pickle
@@ -52,7 +52,7 @@ class Banks(Test):
     def test_invalid_banks_are_refused(self):
         paper = dashpot.Damper("paper")
         self.assert_refused("dampers: none, allowed: at least one", dashpot.Bank, [])
-        mixed = "damper 1: its step or precision is not that of damper 0, allowed: one step and one precision"
+        mixed = "damper 1: its step or precision differs from that of damper 0, allowed: one step and one precision"
         self.assert_refused(mixed, dashpot.Bank, [paper.build(1e-3), paper.build(2e-3)])
         self.assert_refused(mixed, dashpot.Bank, [paper.build(), paper.build(dtype=float)])
         with self.assertRaises(TypeError):

@@ -1,4 +1,4 @@
-"""Wheel-rail contact compared with the command and with known values."""
+"""Compares wheel-rail contact with the command and with known values."""
 
 import json
 import math
@@ -65,7 +65,7 @@ class Contacts(Test):
         self.assertEqual(forces.shape, (500, 3))
         self.assertLessEqual(numpy.hypot(forces[:, 0], forces[:, 1]).max(), 0.33 * 106.7e3 * (1 + 1e-9))
         self.assertTrue((numpy.sum(forces * creepages, axis=1) <= 0).all())
-        # Far beyond, the full friction force.
+        # At a very large creepage, the force is the full friction force.
         slid = dashpot.creep_forces(numpy.array([[0.5, 0.0, 0.0]]), **CONTACT)
         self.assertAlmostEqual(slid[0, 0] / (-0.33 * 106.7e3), 1, 2)
         self.assertEqual(dashpot.creep_forces(numpy.zeros((4, 3)), **CONTACT).any(), False)

@@ -1,4 +1,4 @@
-"""Dampers from presets, files and text; errors in the words of the command."""
+"""Dampers from presets, files and text. Errors have the words of the command."""
 
 import copy
 import errno
@@ -84,11 +84,11 @@ class Dampers(Test):
         self.assertTrue(str(raised.exception).startswith(f"{path}: cannot read: "))
 
     def test_wrong_overrides_are_refused(self):
-        self.assert_refused("override mount.clearance_m: NoneType, allowed: a number, a text or a truth value",
+        self.assert_refused("override mount.clearance_m: NoneType, allowed: a number, a string or a bool",
                             dashpot.Damper, "paper", {"mount.clearance_m": None})
         self.assert_refused('overrides: list, allowed: a dictionary such as {"mount.clearance_m": 1e-3}',
                             dashpot.Damper, "paper", ["mount.clearance_m=1"])
-        self.assert_refused("override mount.clearance_m: a number beyond all of float64, allowed: finite numbers",
+        self.assert_refused("override mount.clearance_m: a number beyond the range of float64, allowed: finite numbers",
                             dashpot.Damper, "paper", {"mount.clearance_m": 10**400})
         for value in (float("nan"), float("inf"), -1e300, "wide", True):
             with self.assertRaises(dashpot.DashpotError):

@@ -64,7 +64,7 @@ class Documentation(unittest.TestCase):
     def test_code_in_documents_runs(self):
         for document in ("README.md", "docs/python.md"):
             text = (DATA.parent / document).read_text()
-            # Every fenced block is run; every indented line is a shell command.
+            # Every fenced block is run; every indented line must be a shell command.
             fenced = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
             blocks = [block for language, block in fenced.findall(text) if language == "python"]
             self.assertNotEqual(blocks, [])

@@ -1,4 +1,4 @@
-"""Recordings as arrays, compared with pandas and the command."""
+"""Compares recordings that are read as arrays with pandas and with the command."""
 
 import math
 import os
@@ -63,7 +63,7 @@ class Recordings(Test):
             ("0,1\n1,2\n", {}, "header=True or header=False"),
             ("0,1\n1,2\n", {"header": False}, "choose one of 1 to 2 with time, and its unit with time_unit"),
             ("time_s,x --force\n0,1\n1,2\n", names, "displacement_unit with"),
-            ("time_s,displacement_m\n0,1\n1,\n2,3\n", {}, "skip_invalid=True leaves out rows"),
+            ("time_s,displacement_m\n0,1\n1,\n2,3\n", {}, "use skip_invalid=True to skip rows"),
             ("1;2\n1.5;2,5\n", {"time": "1", "displacement": "2", "time_unit": "s", "displacement_unit": "m",
                                 "header": False}, "decimal_mark="),
         ):
@@ -79,12 +79,12 @@ class Recordings(Test):
                 self.assertNotIn("--", reason)
 
     def test_names_of_a_file_stay_as_they_are(self):
-        """Options were replaced in the command's texts: after a backtick in a header one remained, and `--force` became `force`."""
+        """Fixed bug: options were replaced in the command's texts. After a backtick in a header, one was not replaced, and a header `--force` became `force`."""
         for text, options, told in (
             ("time_s,we`g,--force\n0,1,2\n1,2,3\n", {},
              "column displacement_m is missing; the file has `time_s`, `we`g`, `--force`; choose one with displacement=NAME or its number"),
             ("time_s,--force\n0,1\n1,2\n", {"displacement": "--force"},
-             "the file does not state the unit of --force; name it: displacement_unit with m, cm, mm, um, in"),
+             "the file does not state the unit of --force; give it with displacement_unit: m, cm, mm, um, in"),
             ("--time NAME,--force`\n0,1\n1,2\n", {"displacement": "--force`", "displacement_unit": "m"},
              "column time_s is missing; the file has `--time NAME`, `--force``; choose one with time=NAME or its number"),
             ("time_s,displacement_m,--group\n0,0,1\n1,0,x\n", {"with_force": True, "force": "--group", "force_unit": "N"},
@@ -139,5 +139,5 @@ class Recordings(Test):
         for step_s in (0, -1, math.nan, math.inf):
             with self.assertRaisesRegex(dashpot.DashpotError, "^step: "):
                 dashpot.read(RIDE, step_s=step_s)
-        self.assert_refused("step_s with with_force: allowed: one of them", dashpot.read, BENCH, step_s=1e-3,
-                            with_force=True)
+        self.assert_refused("step_s and with_force: both given, allowed: only one of them", dashpot.read, BENCH,
+                            step_s=1e-3, with_force=True)

@@ -1,4 +1,4 @@
-"""Replay of a motion: the bits of the command, no copies, the GIL released, the state unchanged by interruptions."""
+"""Replay has the bits of the command, copies nothing, releases the GIL, and an interruption leaves the state unchanged."""
 
 import pathlib
 import subprocess
@@ -61,7 +61,7 @@ class Replay(Test):
         self.assertTrue((memory[:100] == 7).all() and (memory[1100:] == 7).all())
 
     def test_nothing_is_copied(self):
-        # Besides both arrays there is memory for a quarter of one of them.
+        # The memory limit allows both arrays and a quarter of one more.
         script = """
 import resource
 import dashpot, numpy
@@ -74,7 +74,7 @@ most = pages * resource.getpagesize() + 16_000_000
 resource.setrlimit(resource.RLIMIT_AS, (most, most))
 try:
     x.copy()
-    raise SystemExit("a copy has memory")
+    raise SystemExit("the limit leaves memory for a copy")
 except MemoryError:
     pass
 assert built.replay(x, out=out) is out and not out.any()

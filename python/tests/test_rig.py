@@ -20,7 +20,7 @@ class Rig(Test):
             self.assertEqual((cycle.step_s, cycle.cycles), (told["step_s"], told["cycles"]))
             indices = dashpot.Damper(name).indices(5e-3, 2)
             self.assertEqual(indices, cycle.indices)
-            # Further values of the command describe the test.
+            # The command's other values describe the test.
             others = {"damper", "amplitude_m", "frequency_hz", "peak_velocity_m_per_s", "step_s", "cycles", "published", "plots"}
             self.assertEqual(told.keys() - others, told.keys() & indices.keys())
             self.assertEqual({key: indices[key] for key in told.keys() - others},
@@ -35,7 +35,7 @@ class Rig(Test):
         self.assertEqual(list(indices.items()), list(told["tests"][0]["indices"].items()))
 
     def test_a_spring_and_a_damper_in_series_are_the_closed_form(self):
-        # C behind K: the force leads, F = C w A/sqrt(1 + (w C/K)^2); its energy is pi A times the component in phase with the velocity.
+        # C in series with K: the force amplitude is C w A/sqrt(1 + (w C/K)^2); the energy per cycle is pi A times the component in phase with the velocity.
         damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0})
         (c, k), (a, w) = (damper["reduced.damping_n_s_per_m"], damper["mount.stiffness_n_per_m"]), (1e-3, 2 * math.pi)
         indices = damper.indices(a, 1.0)

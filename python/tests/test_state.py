@@ -1,4 +1,4 @@
-"""States: kept, saved, restored, stepped by other dampers and by several threads."""
+"""States are kept, saved, restored, and stepped by other dampers and by several threads."""
 
 import copy
 import pickle
@@ -34,7 +34,7 @@ class States(Test):
         built = dashpot.Damper("paper").build()
         saved = built.at_rest(0.1).to_bytes()
         self.assertEqual(saved[:4], b"DAST")
-        self.assert_refused("0 bytes where a saved state has 36", built.state_from_bytes, b"")
+        self.assert_refused("0 bytes, but a saved state has 36", built.state_from_bytes, b"")
         damaged = bytearray(saved)
         damaged[10] ^= 1
         others = (bytes(damaged), b"x" * 36, dashpot.Damper("in-service").build().at_rest().to_bytes(),
@@ -62,10 +62,10 @@ class States(Test):
 
     def test_a_state_of_another_precision_is_refused(self):
         single, double = (dashpot.Damper("paper").build(dtype=dtype) for dtype in ("f4", "f8"))
-        words = "state: of another precision, allowed: a state of float64, this damper's precision"
+        words = "state: wrong precision, allowed: a state of float64, this damper's precision"
         self.assert_refused(words, double.step, single.at_rest(), 0.0)
         self.assert_refused(words, double.replay, numpy.zeros(3), state=single.at_rest())
-        words = "states: of another precision, allowed: states of float64, the precision of the dampers"
+        words = "states: wrong precision, allowed: states of float64, the precision of the dampers"
         self.assert_refused(words, dashpot.Bank([double]).replay, numpy.zeros((3, 1)), states=[single.at_rest()])
 
     def test_two_threads_on_one_state_raise_an_error(self):

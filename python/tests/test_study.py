@@ -1,4 +1,4 @@
-"""Studies: rows, columns and shards compared with the command, and the rows of a cluster."""
+"""Compares the rows, columns and shards of studies with the command, and with the rows of a cluster."""
 
 import pathlib
 import pickle
@@ -119,7 +119,7 @@ class Studies(Test):
             sent = pickle.dumps(dashpot.Study(path))
             self.assertEqual(pickle.loads(sent).digest, dashpot.Study(path).digest)
             path.write_text(STUDY.replace("3.1e-3", "3.2e-3"))
-            with self.assertRaisesRegex(dashpot.DashpotError, "its files or this version are not those"):
+            with self.assertRaisesRegex(dashpot.DashpotError, "its files or the version of the package differ from those"):
                 pickle.loads(sent)
         text = dashpot.Study.from_toml(STUDY)
         self.assertEqual(pickle.loads(pickle.dumps(text)).digest, text.digest)
@@ -127,7 +127,7 @@ class Studies(Test):
     def test_an_interruption_ends_a_row(self):
         long = dashpot.Study.from_toml(STUDY.replace("duration_s = 0.5", "duration_s = 60"))
         self.assertTrue(interrupted(long.row, 0))
-        # Many threads in the middle of their rows.
+        # The interruption reaches several threads in the middle of their rows.
         self.assertTrue(interrupted(long.run, threads=2))
 
     def test_shipped_studies_are_there(self):
@@ -163,6 +163,6 @@ class Studies(Test):
             self.assert_refused(words, dashpot.Study, "paper", seeds=wrong)
             self.assert_refused(words, dashpot.Study.from_toml, STUDY, seeds=wrong)
         # Python itself refuses to print such a number.
-        self.assert_refused("threads: a number of thousands of digits, allowed: 1 to 1024", study.run, threads=10**5000)
+        self.assert_refused("threads: a number with thousands of digits, allowed: 1 to 1024", study.run, threads=10**5000)
         with self.assertRaises(TypeError):
             study.row(1.0)

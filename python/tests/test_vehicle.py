@@ -1,4 +1,4 @@
-"""A vehicle on a track, compared with the command."""
+"""Compares a vehicle on a track with the command."""
 
 import json
 import math
@@ -69,14 +69,14 @@ class Vehicles(Test):
     def test_an_incomplete_run_reports_its_ending(self):
         run = dashpot.vehicle("curve-r300", speed_km_h=260, duration_s=60)
         self.assertFalse(run.is_completed)
-        self.assertRegex(run.ending, r"(derailed|overturned|left the tables|diverged|beyond the model).* s, .* m along the track")
+        self.assertRegex(run.ending, r"(derailed|overturned|left the tables of the contact|diverged|beyond the model).* s, .* m along the track")
         self.assertIsNone(run.indices)
         self.assertLess(len(run.history["time_s"]), 60_000)
 
     def test_results_beyond_the_model_are_warnings(self):
         run = dashpot.vehicle("curve-r200", signals=["time_s"])
         self.assertTrue(run.is_completed)
-        lifted = [warning for warning in run.warnings if "without load for" in warning]
+        lifted = [warning for warning in run.warnings if "no load for" in warning]
         self.assertTrue(lifted)
         for warning in lifted:
             self.assertRegex(warning, r"^wheelset \d, (left|right) wheel: .* from [\d.]+ s on, [-\d.]+ m along the track")

@@ -1,4 +1,4 @@
-//! Equivalent conicity of S1002 on UIC 60 over the amplitude, from a gauge of 1430 mm to one of 1440 mm.
+//! Equivalent conicity of S1002 on UIC 60 as a function of the amplitude, for gauges from 1430 to 1440 mm.
 //!
 //! `cargo run -p dashpot-rail --example conicity`
 

@@ -31,7 +31,7 @@ pub enum RealtimeError {
     Refused {
         /// Refused option.
         option: RealtimeOption,
-        /// Reason, and the missing permission.
+        /// Reason, with any missing permission.
         reason: String,
     },
     /// A tick took longer than allowed.

@@ -27,7 +27,8 @@ pub struct Receiver<R> {
 #[error("the thread that reads the records has ended")]
 pub struct ReaderEnded;
 
-/// Creates a sender and a receiver. `records` are the preallocated records; the receiver may fall behind by this many.
+/// Creates a sender and a receiver. `records` are the preallocated records; their number is how far the receiver may
+/// fall behind.
 ///
 /// ```
 /// use dashpot_realtime::handover::handover;

@@ -7,9 +7,9 @@ use super::unit::{Quantity, Unit};
 /// `displacement_m` and `force_n`, or channels whose names consist of the quantity and its unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Channels {
-    /// Time. Without a name, the default in MDF4 files is the master channel of the group.
+    /// Time. If its name is `None`, an MDF4 file uses the master channel of the group.
     pub time: Channel,
-    /// Relative displacement of the seats.
+    /// Relative displacement of the damper's two ends.
     pub displacement: Channel,
     /// Force.
     pub force: Channel,

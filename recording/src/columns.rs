@@ -16,7 +16,7 @@ use crate::sums::{self, Sum};
 use dashpot_files::FileError;
 use dashpot_files::output::{cannot_write, write_whole};
 
-/// Rows per row group: about 15 MB for the history of a locomotive.
+/// Rows per row group, which takes about 15 MB for the history of a locomotive.
 const ROWS: usize = 16_384;
 
 /// Cells of one column.
@@ -29,7 +29,7 @@ enum Column {
 /// always text, because a hexadecimal digest may consist of digits only.
 ///
 /// # Errors
-/// A file cannot be read or written.
+/// Returns an error if a file cannot be read or written.
 pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let unwritable = |error: ParquetError| cannot_write(to, io::Error::other(error));
@@ -87,7 +87,7 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     })
 }
 
-/// Returns for each column if all its cells are numbers or empty, with at least one number.
+/// Returns for each column whether all its cells are numbers or empty and at least one is a number.
 fn numbers(from: &Path, texts: &[&str]) -> Result<Vec<bool>, FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
@@ -157,7 +157,7 @@ fn add(
     Ok(())
 }
 
-/// Buffer between the library, which must own its writer, and the file, which is only borrowed.
+/// Buffer that the library writes to. The library must own its writer, but the file is only borrowed.
 #[derive(Clone, Default)]
 pub(super) struct SharedBuffer(Arc<Mutex<Vec<u8>>>);
 

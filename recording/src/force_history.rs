@@ -9,7 +9,7 @@ use super::open::{Origin, open_rows};
 use super::unit::Quantity;
 use dashpot_files::FileError;
 
-/// Tolerance for equal times (s): text rounds times to the nanosecond.
+/// Times this close together count as equal (s), because text files round times to the nanosecond.
 const TIME_TOLERANCE_S: f64 = 1e-9;
 
 /// Force over time, linear between samples. By default the channels are `time_s` and `force_n`; the file formats are
@@ -30,16 +30,17 @@ impl ForceHistory {
     /// Reads the force from the file at `path` (`-` for standard input), which must cover the period `needed_s` (s).
     ///
     /// # Errors
-    /// As [`Recording::open`](super::Recording::open) and [`Recording::next_sample`](super::Recording::next_sample);
-    /// also if the recording does not cover the period.
+    /// Same errors as [`Recording::open`](super::Recording::open) and
+    /// [`Recording::next_sample`](super::Recording::next_sample); also an error if the recording does not cover the
+    /// period.
     pub fn open(path: &Path, needed_s: RangeInclusive<f64>) -> Result<Self, FileError> {
         Self::open_with(path, &Channels::default(), needed_s)
     }
 
-    /// As [`ForceHistory::open`], with the given channels.
+    /// Same as [`ForceHistory::open`], but with the given channels.
     ///
     /// # Errors
-    /// As [`ForceHistory::open`].
+    /// Same errors as [`ForceHistory::open`].
     pub fn open_with(
         path: &Path,
         channels: &Channels,
@@ -63,7 +64,7 @@ impl ForceHistory {
         })
     }
 
-    /// Number of the last line of a text if it has no line end: it may be cut off inside its last number.
+    /// Number of the last line if the text does not end with a line end. The last number of this line may be cut off.
     pub fn unended_line(&self) -> Option<u64> {
         self.unended_line
     }

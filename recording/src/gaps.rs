@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::location::{LeftOut, RowLocation};
 
-/// An interval longer than this many median intervals is a gap. Jitter of half an interval and one or two lost samples
-/// are not gaps.
+/// An interval longer than this many median intervals is a gap. Neither jitter of half an interval nor one or two lost
+/// samples make a gap.
 pub const GAP_IN_MEDIANS: f64 = 5.0;
 
 /// Intervals are counted in nanoseconds.
@@ -43,10 +43,10 @@ pub struct Gaps {
     pub count: u64,
     /// Longest gap.
     pub longest: Option<Gap>,
-    /// Rows omitted because a value was missing; several of them in a row create a gap.
+    /// Rows omitted because a value was missing; several consecutive ones create a gap.
     pub left_out: LeftOut,
-    /// Number of the last line if the text has been read to its end and this line has no line end: it may be cut off
-    /// inside its last number.
+    /// Number of the last line if the text was read to its end and does not end with a line end. The last number of
+    /// this line may be cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
 }
@@ -55,7 +55,7 @@ impl Intervals {
     pub(super) fn new() -> Self {
         Self {
             counts: Histogram::new_with_bounds(1, MAX_UNITS, SIGNIFICANT_DIGITS)
-                .expect("bounds and digits within the histogram's"),
+                .expect("the histogram supports these bounds and digits"),
             longest_units: 0,
             longest: None,
         }
@@ -65,7 +65,8 @@ impl Intervals {
     /// sample.
     #[inline]
     pub(super) fn add(&mut self, start_s: f64, end_s: f64, location: impl FnOnce() -> RowLocation) {
-        // Rounds to the nearest unit. This runs for every row, and `round` may be a function call on some processors.
+        // Rounds to the nearest unit without `round`, which is a function call on some processors. This runs for every
+        // row.
         let interval = (end_s - start_s) * UNITS_PER_S;
         let units = (interval + 0.5) as u64;
         self.counts.saturating_record(units.max(1));

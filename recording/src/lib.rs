@@ -58,7 +58,7 @@ use dashpot_files::FileError;
 pub struct Sample {
     /// Time (s).
     pub time_s: f64,
-    /// Relative displacement of the seats (m), positive in extension.
+    /// Relative displacement of the damper's two ends (m), positive in extension.
     pub displacement_m: f64,
 }
 
@@ -80,7 +80,7 @@ impl Recording {
     /// Opens the recording at `path` (`-` for standard input) with the default channels `time_s` and `displacement_m`.
     ///
     /// # Errors
-    /// As [`Recording::open_with`].
+    /// Same errors as [`Recording::open_with`].
     pub fn open(path: &Path) -> Result<Self, FileError> {
         Self::open_with(path, &Channels::default())
     }
@@ -88,8 +88,8 @@ impl Recording {
     /// Opens the recording at `path` (`-` for standard input) with the given channels.
     ///
     /// # Errors
-    /// The file is unreadable, empty or in an unsupported format. A channel is missing or ambiguous, or its unit is
-    /// unknown.
+    /// Returns an error if the file is unreadable, empty or in an unsupported format, if a channel is missing or
+    /// ambiguous, or if its unit is unknown.
     pub fn open_with(path: &Path, channels: &Channels) -> Result<Self, FileError> {
         Self::from_origin(Origin::Path(path), channels)
     }
@@ -97,7 +97,7 @@ impl Recording {
     /// Reads a recording from `source` with the default channels; errors name it `path`.
     ///
     /// # Errors
-    /// As [`Recording::open_with`].
+    /// Same errors as [`Recording::open_with`].
     pub fn read(path: &Path, source: Box<dyn Read>) -> Result<Self, FileError> {
         Self::read_with(path, source, &Channels::default())
     }
@@ -105,7 +105,7 @@ impl Recording {
     /// Reads a recording from `source` with the given channels; errors name it `path`.
     ///
     /// # Errors
-    /// As [`Recording::open_with`].
+    /// Same errors as [`Recording::open_with`].
     pub fn read_with(
         path: &Path,
         source: Box<dyn Read>,
@@ -132,8 +132,8 @@ impl Recording {
     /// Returns the next row; `None` at the end.
     ///
     /// # Errors
-    /// A value is not a finite number, a row has the wrong number of cells, or time does not increase. The error states
-    /// the line or row, and the column.
+    /// Returns an error if a value is not a finite number, a row has the wrong number of cells, or time does not
+    /// increase. The error states the line or row, and the column.
     pub fn next_sample(&mut self) -> Result<Option<Sample>, FileError> {
         Ok(self.rows.next()?.map(Sample::from_row))
     }
@@ -141,7 +141,7 @@ impl Recording {
     /// Returns all remaining rows.
     ///
     /// # Errors
-    /// As [`Recording::next_sample`].
+    /// Same errors as [`Recording::next_sample`].
     pub fn read_all(&mut self) -> Result<Vec<Sample>, FileError> {
         self.rows.read_all(Sample::from_row)
     }
@@ -156,12 +156,12 @@ impl Recording {
         self.rows.gaps()
     }
 
-    /// Attaches `error` to the whole file.
+    /// Returns `error` as an error of the whole file.
     pub(crate) fn in_file(&self, error: RecordingError) -> FileError {
         self.rows.in_file(error)
     }
 
-    /// Attaches `error` to the time of the last row read.
+    /// Returns `error` as an error in the time of the last row read.
     pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
         self.rows.in_time(error)
     }

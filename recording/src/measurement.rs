@@ -15,7 +15,7 @@ use dashpot_files::FileError;
 pub struct MeasuredSample {
     /// Time (s).
     pub time_s: f64,
-    /// Relative displacement of the seats (m), positive in extension.
+    /// Relative displacement of the damper's two ends (m), positive in extension.
     pub displacement_m: f64,
     /// Force (N), positive in extension.
     pub force_n: f64,
@@ -41,7 +41,7 @@ impl Measurement {
     /// Opens the file at `path` (`-` for standard input).
     ///
     /// # Errors
-    /// As [`Recording::open_with`](super::Recording::open_with).
+    /// Same errors as [`Recording::open_with`](super::Recording::open_with).
     pub fn open(path: &Path, channels: &Channels) -> Result<Self, FileError> {
         Self::from_origin(Origin::Path(path), channels)
     }
@@ -49,7 +49,7 @@ impl Measurement {
     /// Reads a measurement from `source`; errors name it `path`.
     ///
     /// # Errors
-    /// As [`Measurement::open`].
+    /// Same errors as [`Measurement::open`].
     pub fn read(
         path: &Path,
         source: Box<dyn Read>,
@@ -67,7 +67,7 @@ impl Measurement {
     /// Returns the next row; `None` at the end.
     ///
     /// # Errors
-    /// As [`Recording::next_sample`](super::Recording::next_sample).
+    /// Same errors as [`Recording::next_sample`](super::Recording::next_sample).
     pub fn next_sample(&mut self) -> Result<Option<MeasuredSample>, FileError> {
         Ok(self.rows.next()?.map(MeasuredSample::from_row))
     }
@@ -75,7 +75,7 @@ impl Measurement {
     /// Returns all remaining rows.
     ///
     /// # Errors
-    /// As [`Measurement::next_sample`].
+    /// Same errors as [`Measurement::next_sample`].
     pub fn read_all(&mut self) -> Result<Vec<MeasuredSample>, FileError> {
         self.rows.read_all(MeasuredSample::from_row)
     }
@@ -90,12 +90,12 @@ impl Measurement {
         self.rows.gaps()
     }
 
-    /// Attaches `error` to the whole file.
+    /// Returns `error` as an error of the whole file.
     pub(crate) fn in_file(&self, error: RecordingError) -> FileError {
         self.rows.in_file(error)
     }
 
-    /// Attaches `error` to the time of the last row read.
+    /// Returns `error` as an error in the time of the last row read.
     pub(crate) fn in_time(&self, error: RecordingError) -> FileError {
         self.rows.in_time(error)
     }

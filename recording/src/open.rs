@@ -30,7 +30,7 @@ pub(super) enum Origin<'a> {
 /// Opens a file and finds its channels.
 ///
 /// # Errors
-/// The file is unreadable, damaged or in an unsupported format.
+/// Returns an error if the file is unreadable, damaged or in an unsupported format.
 pub(super) fn open(
     origin: Origin<'_>,
     channels: &Channels,
@@ -75,7 +75,7 @@ pub(super) fn open(
 /// Opens the rows of the channels of `quantities`. The first quantity is the time.
 ///
 /// # Errors
-/// As [`open`]; also if a channel is missing or ambiguous, or its unit is unknown.
+/// Same errors as [`open`]; also an error if a channel is missing or ambiguous, or its unit is unknown.
 pub(super) fn open_rows<const N: usize>(
     origin: Origin<'_>,
     channels: &Channels,

@@ -15,7 +15,7 @@ use super::unit::Quantity;
 use crate::remedy::Remedy;
 use dashpot_files::{FileError, input};
 
-/// Channels of a group read at a time; a group may have thousands of channels.
+/// Number of channels of a group that are read at a time; a group may have thousands of channels.
 const CHANNELS: usize = 32;
 
 /// Overview of a file.
@@ -23,9 +23,9 @@ const CHANNELS: usize = 32;
 pub struct Overview {
     /// Channels, in the order of the file.
     pub channels: Vec<ChannelOverview>,
-    /// Time channels: one per group, or a single one.
+    /// Time channels: one per group, or one in all if the file has no groups.
     pub times: Vec<TimeOverview>,
-    /// Number of the last line of a text if it has no line end: it may be cut off inside its last number.
+    /// Number of the last line if the text does not end with a line end. The last number of this line may be cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
 }
@@ -39,11 +39,11 @@ pub struct ChannelOverview {
     pub name: String,
     /// Unit as stated in the file.
     pub unit: Option<String>,
-    /// Number of its group, from 1; `None` if the file has no groups.
+    /// Number of the channel's group, from 1; `None` if the file has no groups.
     pub group: Option<usize>,
     /// Type of the values in the file.
     pub kind: String,
-    /// Reason why numbers cannot be read: their width or bit position is not supported.
+    /// Reason why the numbers cannot be read: an unsupported width or bit position; `None` if they can be read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unread: Option<String>,
     /// Number of rows in the file or the group.
@@ -112,7 +112,7 @@ struct RegularIntervals {
 /// Reads the whole file at `path` (`-` for standard input) and returns its overview.
 ///
 /// # Errors
-/// The file is unreadable, damaged or in an unsupported format.
+/// Returns an error if the file is unreadable, damaged or in an unsupported format.
 pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError> {
     let mut opened = open(Origin::Path(path), channels)?;
     let found = opened.found().to_vec();
@@ -173,7 +173,8 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
     Ok(overview)
 }
 
-/// Returns the number, such as `#2`, of the channel with a unit of time if the group has exactly one.
+/// Returns the number, such as `#2`, of the only channel of the group that has a unit of time; `None` if there are none
+/// or several.
 fn only_time_channel(found: &[ChannelInfo], group: usize) -> Option<String> {
     let is_time = |found: &ChannelInfo| match &found.unit {
         Some(unit) => Quantity::Time.unit(unit).is_some(),

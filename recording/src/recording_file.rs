@@ -1,11 +1,11 @@
-//! A recording file of any format after its channels have been found.
+//! A recording file of any format, after its channels have been found.
 
 use dashpot_files::FileError;
 
 use super::rows::Source;
 use super::select::ChannelInfo;
 
-/// A recording file of any format after its channels have been found.
+/// A recording file of any format, after its channels have been found.
 pub(super) trait RecordingFile {
     /// Channels of the file.
     fn found(&self) -> &[ChannelInfo];

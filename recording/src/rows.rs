@@ -15,7 +15,7 @@ pub(super) trait Source {
     /// Reads the next row into `values`; returns `false` at the end.
     fn next(&mut self, values: &mut [f64]) -> Result<bool, FileError>;
 
-    /// Returns the error for the value with this index in the last row, which is not finite.
+    /// Returns the error for a value of the last row that is not finite, given its index.
     fn missing(&self, index: usize) -> RecordingError;
 
     /// Location of the last row.
@@ -24,8 +24,8 @@ pub(super) trait Source {
     /// Number of bytes read so far, for a progress bar.
     fn position(&self) -> u64;
 
-    /// Number of the last line if the text has been read to its end and this line has no line end: it may be cut off
-    /// inside its last number.
+    /// Number of the last line if the text was read to its end and does not end with a line end. The last number of
+    /// this line may be cut off.
     fn unended_line(&self) -> Option<u64> {
         None
     }
@@ -75,8 +75,8 @@ impl<const N: usize> Rows<N> {
                     Some(_) => Ok(None),
                 };
             }
-            // Converts each number on its own. Copying the whole array would have to wait for the single writes of the
-            // source, which wait for the previous step.
+            // Converts the numbers one by one. Copying the array as a whole would stall until the source has written
+            // each of its numbers.
             let row: [f64; N] =
                 std::array::from_fn(|index| self.chosen[index].in_si(black_box(numbers[index])));
             match row.iter().position(|value| !value.is_finite()) {
@@ -141,7 +141,7 @@ impl<const N: usize> Rows<N> {
 }
 
 impl RowLocation {
-    /// Attaches `error` to the channel `name` of the file at `path`.
+    /// Returns `error` as an error of the channel `name` in the file at `path`.
     pub(super) fn error(self, path: &Path, name: &str, error: RecordingError) -> FileError {
         match self {
             Self::Line(line) => FileError::in_cell(path, line, name, error),

@@ -8,7 +8,7 @@ use super::rows::Source;
 use super::{Sample, unit};
 use dashpot_files::FileError;
 
-/// Rows in memory, in SI.
+/// Rows in memory, in SI units.
 pub(super) struct Samples {
     samples: Rc<Vec<Sample>>,
     next: usize,

@@ -11,9 +11,9 @@ pub(super) struct ChannelInfo {
     pub(super) name: String,
     /// Name as written in the file, possibly with the unit.
     pub(super) whole: String,
-    /// Unit stated in the file, apart from an ending of the name such as `_mm`.
+    /// Unit stated in the file; an ending of the name such as `_mm` does not count.
     pub(super) unit: Option<String>,
-    /// Index of its group, from 0.
+    /// Index of the channel's group, from 0.
     pub(super) group: usize,
     /// True if the channel contains the times of its group.
     pub(super) is_master: bool,
@@ -21,7 +21,7 @@ pub(super) struct ChannelInfo {
     pub(super) kind: String,
     /// True if the values can be read as numbers.
     pub(super) is_number: bool,
-    /// Reason why numbers cannot be read: their width or bit position is not supported.
+    /// Reason why the numbers cannot be read: an unsupported width or bit position; `None` if they can be read.
     pub(super) unread: Option<Unread>,
     /// Number of rows, if it is known before reading.
     pub(super) rows: Option<u64>,
@@ -57,7 +57,8 @@ impl SelectedChannel {
 /// Selects the channels of `quantities` from those `found` in `groups`. The first quantity is the time.
 ///
 /// # Errors
-/// A channel is missing or ambiguous, its unit is unknown, or the time is in a different group than the values.
+/// Returns an error if a channel is missing or ambiguous, if its unit is unknown, or if the time is in a different
+/// group from the values.
 pub(super) fn select<const N: usize>(
     found: &[ChannelInfo],
     groups: &[String],
@@ -72,7 +73,7 @@ pub(super) fn select<const N: usize>(
     select_in(found, groups, wanted, channels, quantities)
 }
 
-/// As [`select`], but with the index of the group, if it is known.
+/// Same as [`select`], but with the index of the group if it is known.
 pub(super) fn select_in<const N: usize>(
     found: &[ChannelInfo],
     groups: &[String],
@@ -83,7 +84,7 @@ pub(super) fn select_in<const N: usize>(
     let mut indices = [0; N];
     let mut order: Vec<usize> = (0..N).collect();
     if groups.len() > 1 {
-        // The group of the values determines the time channel.
+        // Start with the values: the time channel must be in their group.
         order.reverse();
     }
     for position in order {
@@ -259,7 +260,7 @@ fn group_label(groups: &[String], number: usize) -> String {
     }
 }
 
-/// True if a name is that of the quantity, optionally followed by its unit.
+/// True if a channel name consists of the name of the quantity and, optionally, a unit.
 fn has_standard_name(name: &str, quantity: Quantity) -> bool {
     let lower = name.to_ascii_lowercase();
     lower == quantity.name()

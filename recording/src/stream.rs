@@ -61,7 +61,7 @@ const UNSUPPORTED: [(&[u8], &str); 9] = [
     ),
 ];
 
-/// Bytes of a file after inspecting the first of them.
+/// Byte stream of a file, after its first bytes have been inspected.
 pub(super) struct Stream {
     head: Vec<u8>,
     rest: Box<dyn Read>,
@@ -102,7 +102,7 @@ impl Stream {
     /// Wraps `source` and decompresses gzip.
     ///
     /// # Errors
-    /// The source cannot be read.
+    /// Returns an error if the source cannot be read.
     pub(super) fn new(source: Box<dyn Read>) -> io::Result<Self> {
         let count = Count::default();
         let counted = Box::new(Counted {
@@ -159,7 +159,7 @@ impl Stream {
         &self.head
     }
 
-    /// Shared count of the bytes read.
+    /// Returns the shared count of the bytes read.
     pub(super) fn count(&self) -> Count {
         Rc::clone(&self.count)
     }

@@ -1,5 +1,5 @@
 //! SHA-256 checksums of columns. Dashpot writes them to the metadata of Parquet files, so that a damaged number is
-//! detected when the column is read. Files of other programs have no such checksums.
+//! detected when the column is read. Files that other programs write have no such checksums.
 
 use std::collections::BTreeMap;
 

@@ -24,7 +24,7 @@ pub enum Separator {
     Comma,
     /// `;`
     Semicolon,
-    /// Tabulator.
+    /// Tab.
     Tab,
     /// One or more spaces.
     Spaces,

@@ -8,7 +8,7 @@ use dashpot_files::FileError;
 /// One tick of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tick {
-    /// Time (s): first sample plus an integer number of steps.
+    /// Time (s): the time of the first sample plus a whole number of steps.
     pub time_s: f64,
     /// Displacement (m), linear between samples.
     pub displacement_m: f64,
@@ -17,7 +17,7 @@ pub struct Tick {
 /// One tick of a motion with the measured force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredTick {
-    /// Time (s): first sample plus an integer number of steps.
+    /// Time (s): the time of the first sample plus a whole number of steps.
     pub time_s: f64,
     /// Displacement (m), linear between samples; NaN in a gap.
     pub displacement_m: f64,
@@ -25,14 +25,14 @@ pub struct MeasuredTick {
     pub force_n: f64,
 }
 
-/// Gap length in ticks above which the rows after the gap are checked before its ticks are returned: the clock of the
+/// Longest gap (ticks) that is filled without first checking the rows after it. At a longer gap, the clock of the
 /// logger may have jumped forward and back.
 const LOOK_AHEAD_TICKS: f64 = 1e3;
 
 /// Number of rows to check after a long gap: one second of a logger at 1 kHz.
 const LOOK_AHEAD_ROWS: usize = 1000;
 
-/// One row: `N` values at a time.
+/// One row: a time and `N` values.
 #[derive(Clone, Copy)]
 struct Row<const N: usize> {
     time_s: f64,
@@ -138,7 +138,7 @@ impl<R: Rows<N>, const N: usize> Grid<R, N> {
         Ok(())
     }
 
-    /// Reads the next row and checks its distance from the previous and the first row.
+    /// Reads the next row and checks that it is not too long after the previous row and the first row.
     fn read_row(&mut self) -> Result<Option<Row<N>>, FileError> {
         let Some(next) = self.rows.next_row()? else {
             return Ok(None);
@@ -206,7 +206,7 @@ impl TickGrid {
     /// Resamples `recording` to ticks of `step_s` (s).
     ///
     /// # Errors
-    /// The first row is missing or invalid.
+    /// Returns an error if the first row is missing or invalid.
     pub fn new(recording: Recording, step_s: f64) -> Result<Self, FileError> {
         Grid::new(recording, step_s).map(Self)
     }
@@ -214,7 +214,7 @@ impl TickGrid {
     /// Returns the next tick; `None` after the last sample.
     ///
     /// # Errors
-    /// A row is invalid, or the recording is longer than 24 hours of ticks at 10 kHz.
+    /// Returns an error if a row is invalid, or if the recording has more ticks than 24 hours at 10 kHz.
     pub fn next_tick(&mut self) -> Result<Option<Tick>, FileError> {
         let tick = self.0.next_tick()?;
         Ok(tick.map(|tick| Tick {
@@ -226,7 +226,7 @@ impl TickGrid {
     /// Returns all remaining ticks.
     ///
     /// # Errors
-    /// As [`TickGrid::next_tick`].
+    /// Same errors as [`TickGrid::next_tick`].
     pub fn read_all(mut self) -> Result<Vec<Tick>, FileError> {
         let mut ticks = Vec::new();
         while let Some(tick) = self.next_tick()? {
@@ -238,7 +238,7 @@ impl TickGrid {
     /// Returns the displacements (m) at all remaining ticks.
     ///
     /// # Errors
-    /// As [`TickGrid::next_tick`].
+    /// Same errors as [`TickGrid::next_tick`].
     pub fn displacements_m(self) -> Result<Vec<f64>, FileError> {
         let ticks = self.read_all()?;
         Ok(ticks.iter().map(|tick| tick.displacement_m).collect())
@@ -262,7 +262,7 @@ impl MeasuredGrid {
     /// Resamples `measurement` to ticks of `step_s` (s).
     ///
     /// # Errors
-    /// The first row is missing or invalid.
+    /// Returns an error if the first row is missing or invalid.
     pub fn new(measurement: Measurement, step_s: f64) -> Result<Self, FileError> {
         Grid::new(measurement, step_s).map(Self)
     }
@@ -270,7 +270,7 @@ impl MeasuredGrid {
     /// Returns the next tick; `None` after the last sample.
     ///
     /// # Errors
-    /// As [`TickGrid::next_tick`].
+    /// Same errors as [`TickGrid::next_tick`].
     pub fn next_tick(&mut self) -> Result<Option<MeasuredTick>, FileError> {
         let Some(tick) = self.0.next_tick()? else {
             return Ok(None);
@@ -359,7 +359,7 @@ mod tests {
         assert_eq!(found.len(), 50);
         let unknown = found.iter().filter(|(x, _)| x.is_nan()).count();
         assert_eq!(unknown, 40);
-        // A logger with a lower rate has no gaps.
+        // Samples that are regular but farther apart than the ticks are not gaps.
         let slow: String = (0..20)
             .map(|row| format!("{},0.5,100\n", 0.01 * f64::from(row)))
             .collect();

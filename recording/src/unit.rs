@@ -7,7 +7,7 @@ use std::fmt;
 pub enum Quantity {
     /// Time.
     Time,
-    /// Relative displacement of the seats, positive in extension.
+    /// Relative displacement of the damper's two ends, positive in extension.
     Displacement,
     /// Force, positive in extension.
     Force,
@@ -23,7 +23,8 @@ pub struct Unit {
     factor: Factor,
 }
 
-/// Conversion to SI: value times `multiplier` over `divisor`. One of the two is 1, so that 0.1 ms is exactly 1e-4 s.
+/// Conversion to SI: the value times `multiplier`, divided by `divisor`. One of the two is 1, so that 0.1 ms is exactly
+/// 1e-4 s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Factor {
     multiplier: f64,

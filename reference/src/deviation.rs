@@ -48,7 +48,7 @@ pub fn nrmse(actual: &[f64], expected: &[f64]) -> f64 {
 
 /// NRMSE (1) with a lower bound on the divisor: the root mean square of `expected` counts as at least `min_rms`.
 ///
-/// If the damper hardly works, its error is thus compared with the force that it is designed for.
+/// The error of a damper with little force is thus compared with the force for which it is designed.
 ///
 /// # Panics
 /// The lengths differ.

@@ -12,13 +12,13 @@ pub enum ReferenceError {
     /// The clearance is negative or not finite.
     #[error("reference: mount.clearance_m = {clearance_m} must be 0 or more")]
     Clearance {
-        /// 2a (m).
+        /// Clearance (m).
         clearance_m: f64,
     },
     /// The force limit is not above the closed force, or the mount has no stiffness.
     #[error(
         "reference: the force limit {force_limit_n} N must be finite and above the {closed_force_n} N at \
-         which the piston starts, over a mount stiffness above 0 (here {stiffness_n_per_m} N/m)"
+         which the piston starts, and the mount stiffness {stiffness_n_per_m} N/m must be above 0"
     )]
     ForceLimit {
         /// Force at which the damper yields (N).
@@ -31,7 +31,7 @@ pub enum ReferenceError {
     /// No oil flows at the force limit.
     #[error(
         "reference: piston velocity {velocity_m_per_s} m/s at the force limit {force_limit_n} N must be \
-         above 0: a flow path has no width or the oil no density"
+         above 0: a flow path has no width, or the oil has no density"
     )]
     NoFlow {
         /// Piston velocity at the force limit (m/s).
@@ -41,7 +41,7 @@ pub enum ReferenceError {
     },
     /// The numbers of times and displacements differ, or both are zero.
     #[error(
-        "reference: {times} times and {displacements} displacements; one displacement per time, at least one"
+        "reference: {times} times and {displacements} displacements; give one displacement per time, at least one"
     )]
     Lengths {
         /// Number of times.
@@ -83,7 +83,7 @@ pub enum ReferenceError {
         /// Displacement at its end (m).
         end_m: f64,
     },
-    /// The solver of differential equations failed.
+    /// The differential-equation solver failed.
     #[error("reference solver: {source}{place}")]
     Solver {
         /// Description of the point of failure; may be empty.
@@ -94,14 +94,14 @@ pub enum ReferenceError {
     /// The solver stopped before an event.
     #[error("reference solver: stopped without an event")]
     NoEvent,
-    /// A failure within one piece of the motion.
+    /// An error within one piece of the motion.
     #[error("{source}, between {start_s} s and {end_s} s")]
     Piece {
         /// Start of the piece (s).
         start_s: f64,
         /// End of the piece (s).
         end_s: f64,
-        /// The failure.
+        /// The error within the piece.
         source: Box<ReferenceError>,
     },
     /// The caller cancelled the solution.
@@ -124,13 +124,13 @@ pub enum ReferenceError {
     },
     /// The tractions of a rolling contact do not converge.
     #[error(
-        "reference: the tractions at the creepages {creepage:?} over mu N / (G a b) do not converge"
+        "reference: the tractions do not converge at the creepages {creepage:?}, divided by mu N / (G a b)"
     )]
     RollingDiverges {
-        /// Longitudinal, lateral and spin creepage, scaled.
+        /// Scaled longitudinal, lateral and spin creepage.
         creepage: [f64; 3],
     },
-    /// The law of an element is not known to the reference.
+    /// The reference does not know the law of an element.
     #[error("reference: {element}: the law of this element is not supported")]
     UnknownLaw {
         /// Name of the element.

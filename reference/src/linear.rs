@@ -32,14 +32,14 @@ impl Matrix {
         self.entries[row * self.size + column] += value;
     }
 
-    /// Product with a vector.
+    /// Writes the product with a vector.
     pub(crate) fn times(&self, vector: &[f64], product: &mut [f64]) {
         for (row, product) in product.iter_mut().enumerate() {
             *product = self.row(row).iter().zip(vector).map(|(a, x)| a * x).sum();
         }
     }
 
-    /// Two rows; `upper` is above `lower`.
+    /// Returns two rows; `upper` is above `lower`.
     fn two_rows(&mut self, upper: usize, lower: usize) -> (&mut [f64], &mut [f64]) {
         let (head, tail) = self.entries.split_at_mut(lower * self.size);
         (
@@ -52,9 +52,9 @@ impl Matrix {
 /// Factors `P A = L U` of a matrix; `L` has ones on its diagonal.
 #[derive(Clone, Debug)]
 pub(crate) struct Factors {
-    /// `L` below the diagonal, `U` on it and above.
+    /// `L` below the diagonal, `U` on and above it.
     matrix: Matrix,
-    /// Row that was exchanged with each row, in order.
+    /// For each row, the row with which it was exchanged, in order.
     exchanges: Vec<usize>,
 }
 
@@ -69,7 +69,7 @@ impl Factors {
         factors
     }
 
-    /// Factorises the matrix that `fill` writes, in the memory of the old factors.
+    /// Factorises the matrix that `fill` writes; reuses the memory of the old factors.
     pub(crate) fn replace(&mut self, fill: impl FnOnce(&mut Matrix)) {
         fill(&mut self.matrix);
         self.eliminate();
@@ -98,7 +98,7 @@ impl Factors {
             }
             for row in k + 1..size {
                 let (top, below) = self.matrix.two_rows(k, row);
-                // Most entries of a vehicle's matrix are zero.
+                // Most entries of a vehicle's matrix are zero: skip them.
                 if below[k] == 0.0 {
                     continue;
                 }

@@ -15,10 +15,10 @@ use dashpot_testbench::health::{
 /// Half width of the bands in standard deviations.
 const BAND_DEVIATIONS: f64 = 2.0;
 
-/// Label of the stiffness, which is estimated as its inverse.
+/// Label of the stiffness; the estimator estimates its inverse, the compliance.
 const STIFFNESS: &str = "stiffness";
 
-/// Estimated parameter: how it is displayed, read and judged.
+/// An estimated parameter: how to read, display and judge it.
 struct Parameter {
     label: &'static str,
     unit: &'static str,
@@ -145,7 +145,7 @@ fn plot(history: &History, parameter: &Parameter) -> Panel {
         )
     };
     let readings = || history.readings.iter();
-    // The first estimates are very uncertain. They are clipped so that they do not set the range of the axis.
+    // The first estimates are very uncertain, so they are clipped to keep them from setting the range of the axis.
     let clip = |value: f64| match parameter.limits {
         Some(Limits { low, high }) => {
             let margin = 2.0 * (high - low);
@@ -190,7 +190,7 @@ fn plot(history: &History, parameter: &Parameter) -> Panel {
     panel
 }
 
-/// Name and unit of a parameter.
+/// Returns the name and unit of a parameter.
 fn label(parameter: &Parameter) -> String {
     match parameter.unit {
         "1" => parameter.label.into(),

@@ -8,15 +8,16 @@ use serde::Serialize;
 
 /// Maximum evaluated lateral shift, m.
 const MAX_SHIFT_M: f64 = 0.012;
-/// Number of cells of the rolling radius difference from left to right, 25 um each; fine enough to locate its jumps.
+/// Number of cells, 25 um each, in which the rolling radius difference is computed; they are small enough to locate its
+/// jumps.
 const CELLS: usize = 960;
-/// Number of amplitudes with an equivalent conicity, 0.5 mm apart.
+/// Number of amplitudes, 0.5 mm apart, at which the equivalent conicity is computed.
 const AMPLITUDES: u32 = 16;
 
-/// Wheel load at which force jumps are searched for, N.
+/// Wheel load at which the search for force jumps runs, N.
 const LOAD_N: f64 = 100e3;
 
-/// Jump of the contact force that is too large for contact tables.
+/// A jump of the contact force, too large for contact tables.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ForceJump {
     /// Lateral shift of the right wheel on its rail, positive to the field side, m.
@@ -47,8 +48,9 @@ impl From<Jump> for ForceJump {
 }
 
 impl ForceJump {
-    /// Finds the largest jump that prevents contact tables of `pair` at a wheel load of 100 kN. Returns `None` if the
-    /// force does not jump at any of the examined rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20 mrad).
+    /// Finds the largest force jump of `pair` at a wheel load of 100 kN that is too large for contact tables. Returns
+    /// `None` if there is no such jump at any of the examined rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20
+    /// mrad).
     pub fn find(pair: &Pair) -> Option<Self> {
         let grid = Grid::default()
             .with_roll_rad(Axis {
@@ -65,7 +67,7 @@ impl ForceJump {
     }
 }
 
-/// Rigid contact of a wheelset over its lateral shift, from left to right.
+/// Rigid contact of a wheelset as a function of its lateral shift, from left to right.
 pub struct WheelsetGeometry {
     /// Contact at each lateral shift from -12 mm to 12 mm, 25 um apart.
     pub contacts: Vec<RigidContact>,
@@ -119,7 +121,7 @@ impl WheelsetGeometry {
     /// Computes the geometry for a wheel and rail pair.
     ///
     /// # Errors
-    /// The contacts do not define a rolling radius difference.
+    /// Returns an error if the contacts do not define a rolling radius difference.
     pub fn new(pair: &Pair) -> Result<Self, RollingRadiusError> {
         let mut scratch = Vec::new();
         let contacts: Vec<RigidContact> = (0..=CELLS)

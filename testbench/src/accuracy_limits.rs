@@ -1,12 +1,12 @@
-//! Accuracy of the shipped dampers over the shipped motions at 1 kHz and at 10 kHz; see docs/numerics.md, "What the
-//! accuracy promise covers". For any other damper, see [`super::step_errors`].
+//! Accuracy limits of the shipped dampers on the shipped motions at 1 kHz and at 10 kHz; see docs/numerics.md, "What
+//! the accuracy promise covers". For any other damper, see [`super::step_errors`].
 
 use dashpot_core::DamperParameters;
 use dashpot_reference::deviation::root_mean_square;
 
 use dashpot_files::Scalar;
 
-/// Maximum NRMSE of the fixed step for shipped dampers and motions above a minimum relaxation time.
+/// Maximum NRMSE of the fixed step, for shipped dampers on shipped motions whose relaxation time is above a minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AccuracyLimits {
     /// Minimum relaxation time (s), see [`relaxation_time_s`].
@@ -19,7 +19,7 @@ pub struct AccuracyLimits {
     pub nrmse_10_khz_f32: f64,
 }
 
-/// Limits in order of falling relaxation time; nothing is promised below the last one.
+/// Limits in order of falling relaxation time; there is no promise for relaxation times below the last one.
 pub const ACCURACY_LIMITS: [AccuracyLimits; 2] = [
     AccuracyLimits {
         min_relaxation_time_s: 3e-3,
@@ -64,8 +64,8 @@ impl AccuracyLimits {
     }
 }
 
-/// Returns the relaxation time of a damper on a motion (s), `F/(v Ke)`: rms force F over rms velocity v and the
-/// stiffness Ke of the mounts in series.
+/// Returns the relaxation time of a damper on a motion (s), `F/(v Ke)`, with the rms force F, the rms velocity v and
+/// the stiffness Ke of the mounts in series.
 ///
 /// `displacements_m` (m) and `forces_n` (N) are sampled every `step_s` (s).
 pub fn relaxation_time_s(

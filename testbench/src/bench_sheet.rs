@@ -47,13 +47,13 @@ pub fn index_value(cycle: &Cycle, index: Index) -> Option<f64> {
     }
 }
 
-/// Runs every test of a sheet with steps of at most `step_s` (s), after checking all of them.
+/// Checks all tests of a sheet, then runs each of them with steps of at most `step_s` (s).
 ///
 /// `name` is the name of the damper in error messages.
 ///
 /// # Errors
-/// Each error gives the line of the test: a temperature for a damper without oil or out of range, a motion beyond the
-/// damper's limits, too few steps per cycle, or a force that does not become periodic.
+/// Returns an error, with the line of the test, for a temperature that is out of range or is given for a damper without
+/// oil, a motion beyond the damper's limits, too few steps per cycle, or a force that does not become periodic.
 pub fn run<'a>(
     sheet: &'a SheetParameters,
     name: &str,

@@ -16,7 +16,7 @@ use super::TestbenchError;
 /// peak.
 const PERIODIC_TOLERANCE: f64 = 1e-9;
 
-/// Cycles after which a force that is still not periodic counts as never becoming so.
+/// Maximum number of cycles until the force is periodic; after them the run ends with an error.
 const MAX_CYCLES: usize = 200;
 
 /// Ticks between two checks for cancellation.
@@ -33,7 +33,7 @@ pub struct Indices {
     pub asymmetry_rate: Option<f64>,
     /// Energy dissipated per cycle, the integral of F dx (J).
     pub energy_per_cycle_j: f64,
-    /// Mean of F_e and F_c over the peak velocity (N s/m).
+    /// Mean of F_e and F_c, divided by the peak velocity (N s/m).
     pub damping_coefficient_n_s_per_m: f64,
 }
 
@@ -55,8 +55,8 @@ pub struct Cycle {
 /// Runs a damper in double precision through `motion` with steps of at most `step_s` (s) until the force is periodic.
 ///
 /// # Errors
-/// A motion or step out of range, a motion beyond the damper's limits, a damper that cannot be built, or a force that
-/// does not become periodic.
+/// Returns an error for a motion or step out of range, a motion beyond the damper's limits, a damper that cannot be
+/// built, or a force that does not become periodic.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -173,7 +173,7 @@ pub fn check_steps(
     Ok(())
 }
 
-/// Rejects an amplitude beyond the damper's range, unless the motion is also too fast: that has an error of its own.
+/// Rejects an amplitude beyond the damper's range, unless the motion is also too fast, which is a separate error.
 fn check_range(parameters: &CheckedParameters, motion: Harmonic) -> Result<(), TestbenchError> {
     let amplitude_m = motion.amplitude_m;
     let limit_m = parameters.limits.displacement_m;
@@ -210,7 +210,7 @@ impl Cycle {
         0.5 * (self.forces_n[before] + self.forces_n[after])
     }
 
-    /// Returns the indices of this cycle; the energy by the trapezoidal rule.
+    /// Returns the indices of this cycle; the trapezoidal rule gives the energy.
     pub fn indices(&self) -> Indices {
         let (forces, x) = (&self.forces_n, &self.displacements_m);
         let extension = forces.iter().fold(0.0, |max: f64, &force| max.max(force));

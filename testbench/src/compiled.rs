@@ -1,11 +1,11 @@
-//! The step as compiled in this crate, which every profile optimises in full.
+//! The step as compiled in this crate, for which every build profile has full optimisation.
 //!
-//! Rust compiles a generic function in the crate that calls it. The command is compiled without optimisation, where a
-//! step would take twenty times as long, so it calls these functions.
+//! Rust compiles a generic function in the crate that calls it. The command is compiled without optimisation, and a
+//! step compiled there would take twenty times as long, so it calls these functions.
 
 use dashpot_core::{BuildError, CheckedParameters, Damper, DamperState, Real};
 
-/// Scalars whose step is compiled in this crate.
+/// Scalar types whose step is compiled in this crate.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -16,17 +16,18 @@ use dashpot_core::{BuildError, CheckedParameters, Damper, DamperState, Real};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Compiled: Real {
-    /// Steps as [`Damper::step`]: displacement (m), positive in extension; returns the force (N), the same bits.
+    /// Same as [`Damper::step`], with the same bits: takes the displacement (m), positive in extension, and returns the
+    /// force (N).
     fn compiled_step(
         damper: &Damper<Self>,
         state: &mut DamperState<Self>,
         displacement: Self,
     ) -> Self;
 
-    /// Builds as [`CheckedParameters::build`], for a step of `step_s` (s).
+    /// Same as [`CheckedParameters::build`]: builds the damper for a step of `step_s` (s).
     ///
     /// # Errors
-    /// See [`CheckedParameters::build`].
+    /// Same errors as [`CheckedParameters::build`].
     fn compiled_build(
         parameters: &CheckedParameters,
         step_s: f64,

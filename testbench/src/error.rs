@@ -96,10 +96,10 @@ pub enum TestbenchError {
         /// Number of steps.
         steps: f64,
     },
-    /// Forces and reference forces differ in number.
+    /// The number of forces differs from the number of reference forces.
     #[error("{forces} forces, but {references} reference forces")]
     Lengths {
-        /// Number of forces of the fixed step.
+        /// Number of forces that the fixed step computed.
         forces: usize,
         /// Number of reference forces.
         references: usize,

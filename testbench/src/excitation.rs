@@ -1,4 +1,4 @@
-//! Synthetic excitations: displacement over time in closed form, shared by the demonstration, tests and benches.
+//! Synthetic excitations: displacement as a closed-form function of time, for the demonstration, tests and benches.
 //!
 //! The functions of `libm` give the same samples on every machine.
 
@@ -157,7 +157,7 @@ fn ramp(time_s: f64) -> f64 {
     let mut start = 0.0;
     for (velocity, duration) in STROKES {
         let length = 0.5 * velocity * duration;
-        // Displacement over the completed fraction of a stroke, 0 to 1.
+        // Displacement, from 0 to 1, as a function of the completed fraction of a stroke.
         let along = |fraction: f64| {
             if fraction < 0.5 {
                 length * 2.0 * fraction * fraction

@@ -50,7 +50,7 @@ impl Noise {
     ///
     /// The noise is the residual of a smoothing spline over the longest stretch without a gap, but at least 1e-4 of the
     /// signal's rms, because no sensor is better. If the ticks are closer together than the samples, consecutive ticks
-    /// share one sample's noise; a larger standard deviation accounts for that.
+    /// share the noise of one sample; the returned standard deviation is then larger to account for that.
     pub fn estimate(
         times_s: &[f64],
         displacements_m: &[f64],
@@ -152,8 +152,8 @@ pub fn alarm_in_words(alarm: HealthStatus, last: &HealthReading) -> String {
     format!("{} differs from the baseline", alarm_name(alarm))
 }
 
-/// Lists reasons why the intervals of a reading may miss the true values, one sentence each without a full stop; empty
-/// if the reading can be trusted.
+/// Lists the reasons why the intervals of a reading may not contain the true values, one sentence without a full stop
+/// per reason; empty if the reading can be trusted.
 pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
     let sentences = [
         (

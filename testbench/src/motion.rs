@@ -39,7 +39,7 @@ pub fn follow<T: Real>(
     true
 }
 
-/// Same as [`follow`] for a bank: each tick is a row with one displacement and one force per damper.
+/// Same as [`follow`], but for a bank: each tick is a row with one displacement and one force per damper.
 ///
 /// ```
 /// use dashpot_files::damper;

@@ -1,4 +1,4 @@
-//! Tables of the source paper that results are compared with.
+//! Tables of the source paper, for comparison with the results.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ impl NominalIndex {
     /// Formats the same index of `indices` in this row's unit.
     ///
     /// # Errors
-    /// The name is unknown to [`Indices`].
+    /// Returns an error if [`Indices`] has no index with this name.
     pub fn format_value(&self, indices: &Indices) -> Result<String, TestbenchError> {
         Ok(match self.index.as_str() {
             "damping coefficient" => format!("{:.2}", indices.damping_coefficient_n_s_per_m * 1e-3),
@@ -86,7 +86,7 @@ pub struct NominalCharacteristic {
 /// Parses Table 2, 3 or 4.
 ///
 /// # Errors
-/// The built-in table is corrupt.
+/// Returns an error if the built-in table is corrupt.
 pub(crate) fn deflections(table: &str) -> Result<Vec<Deflection>, TestbenchError> {
     rows(table)
 }
@@ -94,7 +94,7 @@ pub(crate) fn deflections(table: &str) -> Result<Vec<Deflection>, TestbenchError
 /// Parses Table 5.
 ///
 /// # Errors
-/// The built-in table is corrupt.
+/// Returns an error if the built-in table is corrupt.
 pub fn nominal_indices() -> Result<Vec<NominalIndex>, TestbenchError> {
     rows(TABLE_5)
 }
@@ -102,7 +102,7 @@ pub fn nominal_indices() -> Result<Vec<NominalIndex>, TestbenchError> {
 /// Returns Table 5 in SI units.
 ///
 /// # Errors
-/// The built-in table is corrupt.
+/// Returns an error if the built-in table is corrupt.
 pub fn nominal_characteristic() -> Result<NominalCharacteristic, TestbenchError> {
     let rows = nominal_indices()?;
     let column = |printed: fn(&NominalIndex) -> &str| -> Result<Indices, TestbenchError> {

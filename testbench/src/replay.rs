@@ -24,8 +24,8 @@ pub struct Summary {
     pub max_compression_force_n: f64,
     /// Energy dissipated, `integral F dx` by the trapezoidal rule (J).
     pub energy_j: f64,
-    /// Ticks that kept the previous displacement: the new one was not finite in the step's precision, out of range or
-    /// too far away.
+    /// Ticks that kept the previous displacement, because the new one was not finite in the step's precision, out of
+    /// range or too far away.
     pub held_inputs: u64,
     /// Ticks whose displacement moved faster than the damper's rate limit and was followed at that rate.
     pub limited_inputs: u64,
@@ -60,7 +60,7 @@ impl Summary {
 /// release and the next.
 ///
 /// # Errors
-/// Errors from `ticks` or `sink`.
+/// Returns the errors of `ticks` and `sink`.
 pub fn replay<T: Compiled, E: From<FileError>>(
     damper: &Damper<T>,
     ticks: &mut TickGrid,
@@ -83,7 +83,7 @@ pub fn replay<T: Compiled, E: From<FileError>>(
         summary.count(tick.time_s, status);
         state.clear_status();
         let (followed, force) = (state.displacement_m().to_f64(), force.to_f64());
-        // A restart is no motion and takes no energy.
+        // A restart is not a motion and dissipates no energy.
         let moved = last.filter(|_| !status.contains(Status::RESTARTED));
         if let Some((x, f)) = moved {
             summary.energy_j += 0.5 * (force + f) * (followed - x);

@@ -1,5 +1,5 @@
-//! Frequency response of a damper: the describing function, which is the first harmonic of the periodic force over that
-//! of the displacement, and the linearised response.
+//! Frequency response of a damper: the describing function, which is the first harmonic of the periodic force divided
+//! by that of the displacement, and the linearised response.
 
 use std::f64::consts::TAU;
 
@@ -14,10 +14,11 @@ use dashpot_files::harmonic::Harmonic;
 /// Steps per cycle, if the minimum step allows that many; the first harmonic is then accurate to 1e-5.
 const STEPS_PER_CYCLE: f64 = 4000.0;
 
-/// Peak velocity of the linearised response (m/s); vehicle modes linearise dampers by a secant at the same velocity.
+/// Peak velocity of the linearised response (m/s); the modal analysis of vehicles linearises dampers by a secant at the
+/// same velocity.
 pub const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
-/// Force amplitude below which a force is only rounding (N).
+/// Minimum force amplitude (N); a smaller force counts as a rounding error.
 const ROUNDING_N: f64 = 1e-9;
 
 /// Response of a damper to a harmonic motion `x = A sin w t`: the first harmonic of the force,
@@ -146,9 +147,9 @@ pub fn at_amplitude(
     responses(parameters, frequencies.map(motion))
 }
 
-/// Computes the linearised response at each frequency (Hz): for motions with a peak velocity of
-/// [`SMALL_VELOCITY_M_PER_S`], with the clearance taken up and without seal friction, which would block so small a
-/// motion.
+/// Computes the linearised response at each frequency (Hz). The motions have a peak velocity of
+/// [`SMALL_VELOCITY_M_PER_S`]; the clearance is taken up, and seal friction is omitted because it would block such
+/// small motions.
 ///
 /// # Errors
 /// Same errors as [`run_until_periodic`].
@@ -175,7 +176,7 @@ fn responses(
 ) -> Result<Vec<Response>, TestbenchError> {
     let of_motion = |motion: Harmonic| {
         let period_s = 1.0 / motion.frequency_hz;
-        // A whole number of steps within the range for which a damper can be built.
+        // A whole number of steps per cycle, for a step at which a damper can be built.
         let steps = STEPS_PER_CYCLE
             .min((period_s / STEP_RANGE_S.start()).floor())
             .max((period_s / STEP_RANGE_S.end()).ceil());

@@ -58,7 +58,7 @@ impl ValveLocation {
     /// Returns the shim pack of this valve; `None` if the damper file describes none.
     ///
     /// # Errors
-    /// Disc theory does not apply to the pack.
+    /// Returns an error if disc theory does not apply to the pack.
     pub fn pack(&self, hydraulics: &Hydraulics) -> Result<Option<Pack>, TestbenchError> {
         let valve = self.valve_of(hydraulics);
         if valve.shims_m.is_empty() {
@@ -80,14 +80,14 @@ impl ValveLocation {
     /// Returns the rows of the published table.
     ///
     /// # Errors
-    /// The built-in table is corrupt.
+    /// Returns an error if the built-in table is corrupt.
     pub fn published(&self) -> Result<Vec<Deflection>, TestbenchError> {
         deflections(self.published)
     }
 }
 
-/// Returns the ratio of disc theory to the published deflection, under uniform pressure at the table's highest
-/// pressure.
+/// Returns the edge deflection by disc theory divided by the published one, under uniform pressure at the table's
+/// highest pressure.
 pub fn theory_over_published(theory_m_per_pa: f64, published: &[Deflection]) -> Option<f64> {
     let row = published.last()?;
     Some(theory_m_per_pa * row.pressure_pa() / row.theory_uniform_m())

@@ -15,7 +15,7 @@ const DECADES: std::ops::RangeInclusive<i32> = -4..=16;
 /// Values of lambda per decade.
 const VALUES_PER_DECADE: i32 = 2;
 
-/// Minimum degrees of freedom per sample; below this the score is only rounding.
+/// Minimum degrees of freedom per sample; below this, rounding errors dominate the score.
 const MIN_FREEDOM: f64 = 1e-6;
 
 /// Fits a smoothing spline: the values `z` at ticks that minimise
@@ -29,7 +29,7 @@ const MIN_FREEDOM: f64 = 1e-6;
 pub fn smooth(positions: &[f64], samples: &[f64], ticks: usize) -> Smooth {
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
     let centred: Vec<f64> = samples.iter().map(|sample| sample - mean).collect();
-    // A vector of random signs has the smallest variance of the trace estimate.
+    // A vector of random signs gives the trace estimate with the smallest variance.
     let mut rng = Rng::with_seed(0x5eed);
     let signs: Vec<f64> = samples
         .iter()
@@ -203,7 +203,7 @@ mod tests {
                 .collect();
             let ticks = positions.last().unwrap().ceil() as usize + 2;
             let smooth = smooth(&positions, &samples, ticks);
-            // The estimate of the noise scatters like chi-square with as many degrees of freedom as samples.
+            // The estimate of the noise has a chi-square distribution with as many degrees of freedom as samples.
             assert!(
                 (smooth.noise / 0.02 - 1.0).abs() < 0.1,
                 "{frequency_hz} Hz: {}",
@@ -215,9 +215,9 @@ mod tests {
                 .map(|tick| (smooth.values[tick] - motion(start + tick as f64 * step_s)).powi(2))
                 .sum();
             let rms = (square / inside.len() as f64).sqrt();
-            // The gain of the spline is 1/(1 + (w/c)^4), with w and c in radians per sample. It passes 0.833 c/pi of
-            // the noise, the integral of its square, and attenuates a line of mean square 1/2 by the fraction (w/c)^4.
-            // Minimum of the sum:
+            // The gain of the spline is 1/(1 + (w/c)^4), with w and c in radians per sample. The integral of its square
+            // gives the share of the noise that passes, 0.833 c/pi. A line of mean square 1/2 is attenuated by the
+            // fraction (w/c)^4. The minimum of the sum of both errors is:
             let (line, noise) = (TAU * frequency_hz / rate_hz, 0.02 * 0.02 * 0.833 / PI);
             let cut = (4.0 * line.powi(8) / noise).powf(1.0 / 9.0);
             let min = (noise * cut + 0.5 * (line / cut).powi(8)).sqrt();

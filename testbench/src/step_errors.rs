@@ -9,7 +9,7 @@ use dashpot_files::Scalar;
 /// Scalar types, in the order in which their errors are returned.
 pub const SCALARS: [Scalar; 2] = [Scalar::F64, Scalar::F32];
 
-/// A damper built in both scalar types for one step size, and its reference.
+/// A damper built in both scalar types for one step size, and its reference solution.
 pub struct StepErrors<'a> {
     single: Damper<f32>,
     double: Damper<f64>,
@@ -17,10 +17,11 @@ pub struct StepErrors<'a> {
 }
 
 impl<'a> StepErrors<'a> {
-    /// Builds a damper with steps of `step_s` (s); the motions reach `top_speed_m_per_s`, by default the set's own.
+    /// Builds a damper with steps of `step_s` (s). The motions reach `top_speed_m_per_s`; `None` keeps the top speed of
+    /// the fixed set.
     ///
     /// # Errors
-    /// The damper cannot be built for this step.
+    /// Returns an error if the damper cannot be built for this step.
     pub fn new(
         parameters: &'a CheckedParameters,
         step_s: f64,
@@ -50,7 +51,7 @@ impl<'a> StepErrors<'a> {
     /// Returns the maximum errors over the fixed set for each of [`SCALARS`], computed by `threads` threads.
     ///
     /// # Errors
-    /// Errors from the reference solver.
+    /// Returns the errors of the reference solver.
     pub fn largest(&self, threads: usize) -> Result<[LargestErrors; 2], TestbenchError> {
         let [double, single] = self.steppers();
         let found = self.probing.largest_errors(&[&double, &single], threads)?;
@@ -60,7 +61,7 @@ impl<'a> StepErrors<'a> {
     /// Returns the errors on one motion for each of [`SCALARS`].
     ///
     /// # Errors
-    /// Errors from the reference solver.
+    /// Returns the errors of the reference solver.
     pub fn on_motion(&self, motion: &Motion) -> Result<[MotionErrors; 2], TestbenchError> {
         let [double, single] = self.steppers();
         let found = self.probing.errors(motion, &[&double, &single])?;

@@ -2,9 +2,9 @@
 //! demodulation over a few cycles yields the first harmonic of the force.
 //!
 //! `x = A sin phi`, `dphi/dt = 2 pi f`, `f = f_0 exp(r t)`, so `f` rises by `r` per cycle. The first harmonic at a
-//! frequency is taken over the phase with a triangular (Bartlett) window of [`WINDOW_CYCLES`] cycles centred there. The
-//! window has double zeros at all other harmonics, so none of them leaks in while its amplitude changes linearly. If
-//! the stiffness is proportional to the power `p` of the frequency, the relative error is about
+//! frequency is an integral over the phase with a triangular (Bartlett) window of [`WINDOW_CYCLES`] cycles, centred at
+//! that frequency. The window has double zeros at all other harmonics, so none of them leaks in while its amplitude
+//! changes linearly. If the stiffness is proportional to the power `p` of the frequency, the relative error is about
 //! `p (p - 1)/2 (r/f)^2/6`; 1/6 is the variance of the window in cycles squared.
 
 use std::f64::consts::{LN_2, TAU};
@@ -33,14 +33,14 @@ const STEPS_PER_CYCLE: f64 = 1000.0;
 /// Half the window width (cycles).
 const HALF_WINDOW: f64 = WINDOW_CYCLES as f64 / 2.0;
 
-/// Computes the response at each of the rising `frequencies_hz` from one sweep through all of them.
+/// Computes the response at each of `frequencies_hz`, in rising order, from one sweep through all of them.
 ///
-/// Runs the core's step in double precision. The sweep starts three cycles before the first frequency, at no less than
-/// half of it.
+/// Runs the core's step in double precision. The sweep starts three cycles before it reaches the first frequency; its
+/// initial frequency is at least half of the first one.
 ///
 /// # Errors
-/// A motion out of range or beyond the damper's limits, a sweep that is too fast for the first frequency or too long,
-/// or a damper that cannot be built.
+/// Returns an error for a motion out of range or beyond the damper's limits, a sweep that is too fast for the first
+/// frequency or too long, or a damper that cannot be built.
 ///
 /// ```
 /// use dashpot_files::damper;
@@ -131,7 +131,7 @@ impl Sweep {
         (1.0 / (self.end_hz * STEPS_PER_CYCLE)).clamp(*STEP_RANGE_S.start(), *STEP_RANGE_S.end())
     }
 
-    /// Returns the number of cycles until a frequency is reached.
+    /// Returns the number of cycles from the start of the sweep until it reaches a frequency.
     fn cycles_at(&self, frequency_hz: f64) -> f64 {
         (frequency_hz - self.start_hz) / self.rate_per_s
     }
@@ -141,7 +141,7 @@ impl Sweep {
 #[derive(Default)]
 struct Window {
     frequency_hz: f64,
-    /// Number of cycles until the frequency is reached.
+    /// Cycle of the sweep, counted from its start, at which the window has its centre.
     centre: f64,
     sine: f64,
     cosine: f64,
@@ -189,7 +189,7 @@ fn run(
             if from_centre < -HALF_WINDOW {
                 break;
             }
-            // The integral is over the phase, which advances in proportion to the frequency.
+            // The weight contains the frequency because the integral is over the phase.
             let weight = (1.0 - from_centre.abs() / HALF_WINDOW) * frequency_hz;
             window.sine += weight * force * sine;
             window.cosine += weight * force * cosine;

@@ -15,9 +15,9 @@ use dashpot_recording::tick_grid::{Tick, rounding_s};
 pub struct Deviation {
     /// Step (s).
     pub step_s: f64,
-    /// Root mean square error over root mean square reference force (1).
+    /// Root mean square error, divided by the root mean square reference force (1).
     pub nrmse: f64,
-    /// Maximum error over the maximum reference force (1).
+    /// Maximum error, divided by the maximum reference force (1).
     pub largest_error_over_peak: f64,
     /// Maximum error (N).
     pub largest_error_n: f64,
@@ -40,7 +40,7 @@ pub struct FixedStep {
 /// Runs the fixed step through the displacements (m), starting at rest at the first one.
 ///
 /// # Errors
-/// The damper cannot be built.
+/// Returns an error if the damper cannot be built.
 pub fn fixed_step_forces<T: Compiled>(
     parameters: &CheckedParameters,
     step_s: f64,
@@ -62,7 +62,7 @@ pub fn fixed_step_forces<T: Compiled>(
 /// Returns the reference force (N) at each displacement (m); the motion is linear between ticks of `step_s` (s).
 ///
 /// # Errors
-/// Errors from the reference solver.
+/// Returns the errors of the reference solver.
 pub fn reference_forces(
     parameters: &DamperParameters,
     step_s: f64,
@@ -74,7 +74,7 @@ pub fn reference_forces(
 /// Same as [`reference_forces`], but stops when `is_cancelled` returns true.
 ///
 /// # Errors
-/// Same errors as [`reference_forces`], and an error if cancelled.
+/// Same errors as [`reference_forces`]; also an error if the computation is cancelled.
 pub fn reference_forces_cancellable(
     parameters: &DamperParameters,
     step_s: f64,
@@ -94,7 +94,7 @@ pub fn reference_forces_cancellable(
 /// `ticks` of `step_s` (s) belong to the same recording: a tick at a sample has the sample's displacement.
 ///
 /// # Errors
-/// Errors from the reference solver.
+/// Returns the errors of the reference solver.
 pub fn reference_forces_on_recording(
     parameters: &DamperParameters,
     step_s: f64,
@@ -108,7 +108,7 @@ pub fn reference_forces_on_recording(
     let mut indices = Vec::with_capacity(ticks.len());
     let mut samples = samples.iter().peekable();
     for tick in ticks {
-        // A sample that differs from the tick only by rounding is the tick.
+        // A sample whose time differs from the tick only by rounding counts as the tick.
         let slack_s = rounding_s(tick.time_s, step_s);
         while let Some(sample) = samples.next_if(|sample| sample.time_s <= tick.time_s + slack_s) {
             if sample.time_s < tick.time_s - slack_s {
@@ -127,7 +127,7 @@ pub fn reference_forces_on_recording(
 /// Returns the deviation of `forces` from `reference` (N).
 ///
 /// # Errors
-/// The lengths differ, or the reference force is zero throughout.
+/// Returns an error if the lengths differ, or if the reference force is zero throughout.
 pub fn deviation(
     step_s: f64,
     forces: &[f64],

@@ -1,6 +1,6 @@
-//! clang silently compiled the portable C with `-funsafe-math-optimizations` or its part `-fassociative-math`, and the
-//! forces changed, because clang defines no macro that an `#error` could test. The source now turns these options off
-//! with pragmas.
+//! Fixed bug: clang silently compiled the portable C with `-funsafe-math-optimizations` or its part
+//! `-fassociative-math`, and the forces changed. clang defines no macro for these options that an `#error` could test,
+//! so the source turns them off with pragmas.
 
 use std::process::Command;
 
@@ -9,7 +9,7 @@ use xtask::tools::{AARCH64_GCC, AARCH64_LIBC, CLANG, GCC, QEMU_AARCH64, have};
 
 use crate::standalone::{compiler, two_dampers};
 
-/// Each option lets a compiler change sums, quotients or signs of zeros.
+/// Each of these options allows a compiler to change sums, quotients or signs of zeros.
 const OPTIONS: [&[&str]; 5] = [
     &["-funsafe-math-optimizations"],
     &[
@@ -22,7 +22,7 @@ const OPTIONS: [&[&str]; 5] = [
     &["-fapprox-func", "-ffp-contract=fast"],
 ];
 
-/// Return value of the program of both dampers: 0 if both digests are right.
+/// Exit code of the program with both dampers: 0 if both digests are right.
 fn run(options: &[&str], emulator: Option<&str>, changed: impl Fn(String) -> String) -> i32 {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let folder = folder.path();
@@ -95,7 +95,7 @@ fn without_the_pragmas_the_digest_differs() {
     }
 }
 
-/// gcc defines macros for its options, so its parts of fast mathematics are errors.
+/// gcc defines macros for its fast-math options, so the source makes each of them an error.
 #[test]
 fn gcc_refuses_options_that_it_has_macros_for() {
     if !have(&[GCC], "options of gcc that change forces") {

@@ -24,7 +24,7 @@ fn run(command: &mut Command) {
 fn the_header_compiles_as_c_and_as_cpp() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let source = folder.path().join("use.c");
-    // An array of negative size is an error in every version of both languages.
+    // An array with a negative size is an error in every version of both languages.
     let lines = "#include \"dashpot.h\"\n#include \"dashpot.h\"\n\
          typedef char damper_size[sizeof(dashpot_damper) == DASHPOT_DAMPER_SIZE ? 1 : -1];\n\
          typedef char state_size[sizeof(dashpot_state) == DASHPOT_STATE_SIZE ? 1 : -1];\n\
@@ -86,7 +86,7 @@ fn wrong_calls_from_c_are_codes_under_sanitizers() {
     run(&mut Command::new(&program));
 }
 
-/// Numbers before the word `instructions` in the comment before a function.
+/// Numbers before the word `instructions` in the comment above a function.
 fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
     let prototype = format!("dashpot_error {function}(");
     let (before, _) = header.split_once(&prototype).expect("its prototype");
@@ -101,7 +101,7 @@ fn stated_instructions(header: &str, function: &str) -> Vec<f64> {
         .filter(|(_, word)| word.starts_with("instructions"));
     positions
         .map(|(position, _)| {
-            // Groups of three digits are separated.
+            // Spaces separate groups of three digits.
             let digits = words[..position]
                 .iter()
                 .rev()
@@ -125,7 +125,7 @@ fn max_of_a_health_tick() -> f64 {
     numbers.fold(f64::NAN, f64::max)
 }
 
-/// Figure of the Cortex-M7 in a row of the timing contract's table.
+/// Figure for the Cortex-M7 in a row of the timing contract's table.
 fn measured_instructions(row: &str) -> f64 {
     let table = document::part("docs/timing-contract.md", "measured");
     let line = table
@@ -149,7 +149,7 @@ fn stated_costs_match_the_measured_ones() {
         ("dashpot_damper_init", &["C: `dashpot_damper_init`"]),
         (
             "dashpot_check_slice",
-            &["C: `dashpot_check_slice`, the most of a round"],
+            &["C: `dashpot_check_slice`, maximum over a round"],
         ),
         (
             "dashpot_damper_set_clearance",

@@ -1,5 +1,5 @@
-//! The example controller in C compared with the same run in Rust on Linux: under sanitizers and Valgrind, through
-//! pkg-config and CMake, and on a 64-bit Arm processor. Also the exports of the shared library.
+//! Compares the example controller in C with the same run in Rust on Linux: under sanitizers and Valgrind, through
+//! pkg-config and CMake, and on a 64-bit Arm processor. Also checks the exports of the shared library.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -24,7 +24,7 @@ fn host_tree(folder: &Path) -> Option<PathBuf> {
 fn the_run_covers_failed_readings_and_changes() {
     let text = expected();
     let line = |part: &str| text.lines().any(|line| line.contains(part));
-    // Twenty failed readings held, the jump limited, the clearance changed.
+    // In this run, twenty failed readings are held, the jump is limited, and the clearance changes.
     assert!(
         line("damper 00000001 status 00000005 rejected 00000014"),
         "{text}"
@@ -88,7 +88,7 @@ fn the_shared_library_is_found_by_pkg_config() {
     };
     assert_eq!(ask(&["--modversion"]).trim(), env!("CARGO_PKG_VERSION"));
     let flags = ask(&["--cflags", "--libs"]);
-    // A space in a folder name is escaped by a backslash, as for a shell.
+    // A backslash escapes a space in a folder name, as for a shell.
     let flags = flags.trim().replace("\\ ", "\0");
     let flags = flags.split(' ').map(|flag| flag.replace('\0', " "));
     let program = folder.join("controller");
@@ -138,7 +138,7 @@ fn both_libraries_are_found_by_cmake() {
     for program in ["controller-dashpot", "controller-dashpot-static"] {
         assert_same_run(&succeed(&mut Command::new(build.join(program))), program);
     }
-    // Another minor version is another interface.
+    // Another minor version has another interface.
     std::fs::write(
         folder.join("CMakeLists.txt"),
         "cmake_minimum_required(VERSION 3.16)\nproject(later C)\nfind_package(Dashpot ${WANTED} REQUIRED)\n",

@@ -1,4 +1,4 @@
-//! The C library: its header, and the example on the host and on targets; C without a library.
+//! Tests of the C library (its header, and the example on the host and on targets) and of C without a library.
 
 mod clang_reorders_forces;
 mod header;

@@ -1,5 +1,5 @@
-//! A damper in C without a library, compared with the core. docs/numerics.md is implemented twice, and changing only
-//! one implementation fails here.
+//! Compares a damper in C without a library with the core. Both implement docs/numerics.md, so a change of only one of
+//! them fails here.
 
 use std::path::Path;
 use std::process::Command;
@@ -15,8 +15,8 @@ use dashpot_core::{Damper, DamperParameters, DamperState};
 use fastrand::Rng;
 use xtask::tools::{ARM_GCC, CLANG, GCC, GXX, Tool, have};
 
-/// Options with which the forces must keep their bits; each one enables or disables fused products if the processor has
-/// them.
+/// Options that must not change the bits of the forces. Each enables or disables fused multiply-add if the processor
+/// has it.
 const OPTIONS: [&[&str]; 6] = [
     &["-std=c99", "-O2"],
     &["-std=gnu11", "-O3", "-march=native", "-ffp-contract=fast"],
@@ -26,7 +26,7 @@ const OPTIONS: [&[&str]; 6] = [
     &["-std=gnu99", "-O1", "-flto"],
 ];
 
-/// The available compilers; clang links without the plug-in that its `-flto` needs.
+/// The available compilers with their options. clang's `-flto` is left out, because its linking needs a plug-in.
 fn compilers() -> Vec<(Tool, &'static [&'static str])> {
     let there = |tool: &Tool| have(&[*tool], "C without a library beside the core");
     let tools = [GCC, CLANG].into_iter().filter(there);
@@ -86,7 +86,7 @@ fn golden_motions_have_the_cores_bits() {
     let mut next = compilers.iter().cycle();
     for (name, preset, overrides) in DAMPERS {
         let parameters = damper(preset, overrides);
-        // Three ways to compile for each scalar, and different ones for the next damper.
+        // Each scalar is compiled in three ways; the next damper uses different ones.
         for (single, double) in next.by_ref().copied().take(3).zip(compilers.iter().rev()) {
             of::<f32>(&parameters, single, name);
             of::<f64>(&parameters, *double, name);
@@ -94,13 +94,13 @@ fn golden_motions_have_the_cores_bits() {
     }
 }
 
-/// Bytes of a damaged state, or random bytes.
+/// Random bytes, half of the time with those of a plausible state.
 fn damaged(random: &mut Rng, real: usize) -> Vec<u8> {
     let mut bytes: Vec<u8> = std::iter::repeat_with(|| random.u8(..))
         .take(4 * real + 8)
         .collect();
     if random.bool() {
-        // A mark, and values many of which are small.
+        // A valid mark, and numbers of either sign that are all small, or all huge or not finite.
         bytes[4 * real + 4..4 * real + 6].copy_from_slice(&0x3940_u16.to_ne_bytes());
         let end = if random.bool() { 0x3a } else { 0x7f };
         for number in bytes[..4 * real].chunks_mut(real) {
@@ -110,8 +110,8 @@ fn damaged(random: &mut Rng, real: usize) -> Vec<u8> {
     bytes
 }
 
-/// Requests of every kind: motions of any speed, failed readings, other clearances, damaged memory, and states saved,
-/// damaged and restored.
+/// Requests of every kind: motions at any speed, failed readings, other clearances, damaged memory, and states that are
+/// saved, damaged and restored.
 fn requests<T: Exported>(damper: &Damper<T>, random: &mut Rng) -> Vec<Request<T>>
 where
     DamperState<T>: PlainData,
@@ -171,7 +171,7 @@ where
             }
             _ => Request::Step(number(displacement)),
         };
-        // The state that may be saved: a shadow of the steps without damaged memory.
+        // This copy of the state, stepped without damaged memory, is the one that may be saved.
         match &request {
             Request::AtRest(x) => state = shadow.at_rest(*x),
             Request::Step(x) => _ = shadow.step(&mut state, *x),
@@ -183,7 +183,7 @@ where
     all
 }
 
-/// The random requests are a meaningful comparison: they cause every refusal and every status bit.
+/// The random requests make the comparison meaningful: they cause every refusal and every status bit.
 #[test]
 fn random_requests_meet_everything() {
     let (mut codes, mut status) = ([false; 4], 0);
@@ -246,7 +246,7 @@ fn no_request_is_undefined() {
     }
 }
 
-/// Writes two dampers, one per scalar, and a program that reports whether the compiler kept their bits.
+/// Writes two dampers, one per scalar type, and a program that reports whether the compiler kept their bits.
 pub fn two_dampers(folder: &Path) {
     let parameters = damper("in-service", &[]);
     let single: Damper<f32> = parameters.build(STEP_S).expect("a preset");
@@ -299,7 +299,7 @@ fn two_dampers_are_in_one_program_of_c_or_cpp() {
     }
 }
 
-/// Checks the digest itself: it detects a compiler that fuses products.
+/// Checks the digest itself: it detects a compiler that uses fused multiply-add.
 #[test]
 #[cfg(target_arch = "x86_64")]
 fn a_fused_product_changes_the_digest() {
@@ -366,7 +366,7 @@ fn options_that_would_change_the_bits_are_errors() {
     }
 }
 
-/// Names that an object of an exported source leaves undefined.
+/// Names that the object file of an exported source leaves undefined.
 fn left_to_others(compiler: &mut Command, source: &str, folder: &Path) -> Vec<String> {
     use object::{Object, ObjectSymbol};
     let object = folder.join("object.o");
@@ -396,7 +396,7 @@ fn it_needs_no_library() {
             for processor in ["-mcpu=cortex-m0", "-mcpu=cortex-m4"] {
                 let mut compiler = compiler(ARM_GCC, &[optimisation, processor, "-mthumb"]);
                 let mut left = left_to_others(&mut compiler, source, folder);
-                // Arithmetic that the processor lacks comes from the compiler itself.
+                // The compiler itself supplies arithmetic that the processor lacks.
                 left.retain(|name| {
                     !name.starts_with("__aeabi_") && !name.starts_with("__gnu_thumb1_case")
                 });
@@ -409,7 +409,7 @@ fn it_needs_no_library() {
     }
 }
 
-/// Text between two lines of three backquotes, after the first line of a document that contains `after`.
+/// Text of the first code block (between lines of three backquotes) that follows `after` in a document.
 fn block<'a>(document: &'a str, after: &str) -> &'a str {
     let (_, rest) = document.split_once(after).expect("what is before");
     let (_, rest) = rest.split_once("\n```").expect("a block");

@@ -1,5 +1,5 @@
-//! The example controller in C compared with the same run in Rust, on processors without an operating system under
-//! QEMU. Also the contents of the image.
+//! Compares the example controller in C, on processors without an operating system under QEMU, with the same run in
+//! Rust. Also checks the contents of the image.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -43,7 +43,7 @@ fn assert_same_run_on(processor: &Processor) {
     let mut qemu = Command::new(QEMU.program);
     qemu.args(["-M", processor.board, "-cpu", processor.emulated_cpu]);
     qemu.args(["-display", "none", "-monitor", "none", "-serial", "none"]);
-    // Virtual time does not wait for the real clock.
+    // With these options, virtual time does not wait for the real clock.
     qemu.args(["-icount", "shift=0,sleep=off"]);
     qemu.args([
         "-semihosting-config",
@@ -94,7 +94,7 @@ fn the_image_has_no_panic_no_heap_and_no_double_precision() {
     ] {
         assert!(has(function), "the image does not use {function}");
     }
-    // rust_begin_unwind is the panic handler; __aeabi_d... is double precision in software.
+    // rust_begin_unwind is the panic handler; __aeabi_d... are functions for double precision in software.
     let unwanted = [
         "panic",
         "rust_begin_unwind",
@@ -110,7 +110,7 @@ fn the_image_has_no_panic_no_heap_and_no_double_precision() {
             .collect();
         assert!(found.is_empty(), "{part}: {found:?}");
     }
-    // Other names of double-precision functions. The end of a Rust name is an arbitrary hash.
+    // Double-precision functions also have other names. The end of a Rust name is an arbitrary hash, so it is ignored.
     let double = |symbol: &&String| {
         symbol.starts_with("__") && (symbol.ends_with("df3") || symbol.ends_with("df2"))
     };

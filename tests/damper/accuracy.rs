@@ -1,5 +1,5 @@
-//! Accuracy of the fixed step against the reference solver. Every case is within its row of the tolerance table, and no
-//! row is looser than needed. Writes and checks the table in docs/numerics.md.
+//! Accuracy of the fixed step, compared with the reference solver. The errors of every case must be within its row of
+//! the tolerance table, and no row may be looser than needed. Also writes and checks the table in docs/numerics.md.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -108,7 +108,7 @@ fn corners(name: &str) -> Vec<(String, f64)> {
         .collect()
 }
 
-/// `Pe Re of Pe Re Ye`: the corners that a run passed through, and all corners if there are more.
+/// The corners that a run reached, followed by all corners if it did not reach all, such as `Pe Re of Pe Re Ye`.
 fn reached(found: &Errors, corners: &[(String, f64)]) -> String {
     let names = |wanted: &dyn Fn(f64) -> bool| -> Vec<&str> {
         let wanted = corners.iter().filter(|(_, force)| wanted(*force));

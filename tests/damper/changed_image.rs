@@ -1,5 +1,5 @@
-//! Images with changed constants and valid checksums are dampers: for any constants they step to a force within its
-//! limit.
+//! Images with changed constants and valid checksums are accepted as dampers. Whatever the constants, a step's force is
+//! within its limit.
 
 use std::cell::Cell;
 

@@ -95,7 +95,7 @@ fn the_force_is_finite_and_within_its_limit_for_any_bits() {
         let mut state = damper.at_rest(0.0);
         for tick in 0..1_000_000_u32 {
             let random = bits(&mut seed);
-            // Any bits, alternating with bits of plausible magnitudes, which reach further into the step.
+            // Arbitrary bits alternate with plausible magnitudes, which get further through the step.
             let x = if tick & 1024 == 0 {
                 f32::from_bits(random)
             } else {
@@ -143,8 +143,8 @@ fn tiny_states_are_flushed() {
                 assert!(!subnormal, "{preset}, tick {tick}: {state:?}");
             }
         }
-        // Seal friction holds its force. Beyond it, with half a millimetre of clearance an `f32` stretch resolves 6e-11
-        // m, 5e-4 N.
+        // Seal friction holds a force up to its own size. Apart from that, an `f32` stretch resolves 6e-11 m at half a
+        // millimetre of clearance, which is 5e-4 N.
         let held = if preset == "in-service" { 100.0 } else { 0.0 };
         let rest = state.force_n().abs();
         assert!(rest < held + 0.01, "{preset}: {rest} N at rest");
@@ -184,7 +184,7 @@ fn nonsense_is_refused_with_the_field_and_its_range() {
             "paper",
             "orifice.diameter_m=-1e-3",
             "orifice.diameter_m",
-            "0 to below piston_diameter_m",
+            "at least 0 and below piston_diameter_m",
         ),
         (
             "paper",
@@ -378,7 +378,7 @@ fn changes_under_a_running_state_leave_the_force_continuous() {
     for (preset, before, after) in changes {
         let (before, after) = (damper(preset, before), damper(preset, after));
         let drops = [1e-3, 1e-4, 1e-5].map(|step_s| drop_at_swap(&before, &after, step_s));
-        // Relaxation of the held spring within a step; shrinks with the step.
+        // The force drops because the held spring relaxes within a step, so the drop shrinks with the step.
         assert!(drops[0] < 0.25, "{after:?}: {drops:?}");
         assert!(
             drops[1] < 0.2 * drops[0] && drops[2] < 0.2 * drops[1],
@@ -453,7 +453,7 @@ fn a_force_from_constants_that_overflow_is_the_limit() {
     let sound: Damper<f32> = build("in-service");
     let words = sound.to_words();
     let mut huge = words;
-    // The table follows the scalars and the two revisions.
+    // The table comes after the scalars and the two revisions.
     for word in &mut huge[13..] {
         *word = f32::MAX.to_bits();
     }
@@ -480,6 +480,6 @@ fn a_start_far_out_does_not_stretch_a_damper_at_rest() {
         assert_eq!(damper.step(&mut state, 0.0), 0.0);
     }
     assert_eq!(state.status(), Status::INPUT_HELD | Status::RESTARTED);
-    // The first displacement, and the tick of the restart.
+    // The two rejected inputs are the first displacement and that of the tick of the restart.
     assert_eq!((state.rejected_inputs(), state.displacement_m()), (2, 0.0));
 }

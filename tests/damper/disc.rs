@@ -1,4 +1,4 @@
-//! Disc theory compared with Roark's coefficients, the source paper's closed form and its own boundary conditions.
+//! Compares disc theory with Roark's coefficients, the source paper's closed form and its own boundary conditions.
 
 use dashpot::damper;
 use dashpot_core::parameters::Element;
@@ -11,7 +11,7 @@ fn disc(clamp: f64, free: f64) -> Disc {
     Disc::new("disc", clamp, free, MODULUS, POISSON).expect("a disc")
 }
 
-/// `Cw(r)` [m^6/N] by the constants B1 to B4 of the source paper.
+/// `Cw(r)` (m^6/N) from the constants B1 to B4 of the source paper.
 fn closed_form(clamp: f64, free: f64, r: f64) -> f64 {
     let plate = 3.0 * (1.0 - POISSON * POISSON) / (2.0 * MODULUS);
     let (n, w) = (clamp * clamp, free * free);
@@ -69,7 +69,7 @@ fn the_papers_constants_give_the_same_deflection_at_every_radius() {
         for step in 0..=20 {
             let r = clamp + (free - clamp) * f64::from(step) / 20.0;
             let error = (disc.deflection_coefficient(r) - closed_form(clamp, free, r)) / edge;
-            // The closed form cancels digits; its terms are about a hundred times the sum.
+            // The closed form loses digits by cancellation: its terms are about a hundred times their sum.
             assert!(error.abs() < 1e-11, "{clamp}/{free} at {r}: {error:e}");
         }
     }
@@ -77,7 +77,7 @@ fn the_papers_constants_give_the_same_deflection_at_every_radius() {
 
 #[test]
 fn a_narrow_ring_is_a_cantilever() {
-    // For r_n -> r_w: w = p l^4/(8 D), M = p l^2/2.
+    // For r_n close to r_w, the disc is a cantilever of length l: w = p l^4/(8 D), M = p l^2/2.
     let (clamp, free) = (0.0995, 0.1);
     let length: f64 = free - clamp;
     let disc = disc(clamp, free);
@@ -113,7 +113,8 @@ fn a_pack_is_as_stiff_as_its_discs_together() {
 
 #[test]
 fn the_edge_hangs_free() {
-    // No moment at r_w: w'' + nu w'/r = 0, by central differences at two points just inside, extrapolated to the edge.
+    // There is no moment at r_w: w'' + nu w'/r = 0, from central differences at two points just inside, extrapolated to
+    // the edge.
     let (clamp, free) = (16e-3, 29e-3);
     let disc = disc(clamp, free);
     let step: f64 = 1e-5;

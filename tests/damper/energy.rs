@@ -1,18 +1,18 @@
-//! Energy of a cycle of power-law dampers. For `F = c v^n` under a harmonic motion `E = 4 F x0 W(n + 1)`, where W is
-//! Wallis' integral of cos^m over a quarter turn, and the factor is `E/(pi F x0) = 4 W(n + 1)/pi`.
+//! Energy per cycle of power-law dampers. For `F = c v^n` under a harmonic motion, `E = 4 F x0 W(n + 1)`, where `W(m)`
+//! is Wallis' integral of cos^m over a quarter turn. The energy factor is `E/(pi F x0) = 4 W(n + 1)/pi`.
 
 use std::f64::consts::PI;
 
 use dashpot::bench_test::{Harmonic, settled_cycle};
 use dashpot::damper;
 
-/// The paper's nominal motion, Table 5.
+/// The paper's nominal motion (Table 5).
 const NOMINAL: Harmonic = Harmonic {
     amplitude_m: 24.875e-3,
     frequency_hz: 0.64,
 };
 
-/// Springs so stiff that the piston follows the whole motion.
+/// Springs so stiff that the piston follows the whole motion of the seats.
 const STIFF: &str = "mount.stiffness_n_per_m=1e10";
 
 /// `4 W(n + 1)/pi` with `W(m) = sqrt(pi)/2 Gamma((m + 1)/2)/Gamma(m/2 + 1)`.
@@ -94,7 +94,7 @@ fn the_reduced_element_is_linear_below_saturation() {
 
 #[test]
 fn a_saturated_element_dissipates_a_trapezium() {
-    // C = 120 kN s/m, V_r = 0.03 m/s under 0.1 m/s: with s = V_r/v0 and phase p from the dead centre,
+    // C = 120 kN s/m and V_r = 0.03 m/s, driven at v0 = 0.1 m/s. With s = V_r/v0,
     // E = 4 F_r x0 [cos(asin s) + (asin s - s cos(asin s))/(2 s)].
     let velocity = 2.0 * PI * NOMINAL.frequency_hz * NOMINAL.amplitude_m;
     let share = 0.03 / velocity;
@@ -106,8 +106,9 @@ fn a_saturated_element_dissipates_a_trapezium() {
 
 #[test]
 fn clearance_takes_its_share_of_the_stroke() {
-    // After each dead centre the piston rests while the play 2a is crossed, up to the angle p with cos p = 1 - 2a/x0.
-    // Below saturation that part of a half stroke would have taken F_r x0/s (p/2 - sin(2p)/4), s = V_r/v0.
+    // After each dead centre the piston rests while the seats cross the play 2a, up to the angle p with
+    // cos p = 1 - 2a/x0. Below saturation, this part of a half stroke would have dissipated
+    // F_r x0/s (p/2 - sin(2p)/4), with s = V_r/v0.
     let share = 0.03 / (2.0 * PI * NOMINAL.frequency_hz * NOMINAL.amplitude_m);
     let angle = (1.0 - 1e-3 / NOMINAL.amplitude_m).acos();
     assert!(angle.sin() < share, "the play is over before saturation");

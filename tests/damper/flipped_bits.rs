@@ -1,5 +1,6 @@
-//! Flips one bit of a running state: every bit, at many moments. A value that no step produces restarts the damper at
-//! rest in the same tick with a status bit. docs/numerics.md lists the resulting force error and its duration.
+//! Flips each bit of a running state, one at a time, at several moments. A value that no step produces must restart the
+//! damper at rest in the same tick and set a status bit. docs/numerics.md lists the resulting force error and its
+//! duration.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -25,7 +26,7 @@ const MOMENTS: [u32; 7] = [60, 131, 202, 273, 344, 415, 486];
 const COMPARED: u32 = 400;
 /// A force is right if its error is below this fraction of the force limit.
 const RIGHT: f64 = 0.01;
-/// The values of a state, and the words after them.
+/// Names of the values of a state, and of the words after them.
 const PARTS: [&str; 6] = [
     "displacement",
     "stretch",
@@ -35,18 +36,18 @@ const PARTS: [&str; 6] = [
     "status, mark and counter",
 ];
 
-/// Effect of flips of one value.
+/// Effect of flipping bits of one value.
 #[derive(Clone, Copy, Default)]
 struct Effect {
     flips: u32,
     started_over: u32,
     /// Largest difference of the force over the force limit.
     worst: f64,
-    /// Maximum number of ticks until the force was right again and stayed so.
+    /// Maximum number of ticks until the force was right again and stayed right.
     longest: u32,
 }
 
-/// Displacement (m) at a tick: up to 0.22 m/s.
+/// Displacement (m) at a tick; the speed is at most 0.22 m/s.
 fn displacement<T: Real>(tick: u32) -> T {
     let t = STEP_S * f64::from(tick);
     let wave =
@@ -54,7 +55,7 @@ fn displacement<T: Real>(tick: u32) -> T {
     T::from_f64(wave(8e-3, 2.3) + wave(1e-3, 17.0))
 }
 
-/// Steps a sound state and one with a flipped bit in parallel.
+/// Steps an undamaged state and one with a flipped bit in parallel.
 fn compare<T: Real>(
     damper: &Damper<T>,
     tick: u32,
@@ -101,7 +102,7 @@ fn compare<T: Real>(
     }
 }
 
-/// The state with a sound mark and without status, so that only its values remain.
+/// The state with a valid mark and without status, so that only its values matter.
 fn unmarked<T: Real>(state: DamperState<T>) -> DamperState<T>
 where
     DamperState<T>: PlainData,
@@ -150,7 +151,8 @@ fn the_effect_of_a_flipped_bit_ends_and_is_reported_if_possible() {
     let presets = effects(PRESETS.iter().map(|name| damper(name, &[])));
     let random = effects((0..8).map(|seed| random_damper::damper(&mut Random(seed))));
     let mut table = String::from(
-        "| number | dampers | flips | started over | largest error, % of the force limit | until within 1 %, ms |\n\
+        "| field | dampers | flips | restarts at rest | largest error, % of the force limit | \
+         time until within 1 %, ms |\n\
          |---|---|---|---|---|---|\n",
     );
     for (part, name) in PARTS.iter().enumerate() {

@@ -4,7 +4,7 @@ use dashpot::damper;
 use dashpot_core::{Damper, Real, Status};
 use dashpot_testbench::excitation::Excitation;
 
-/// Ticks at the limit, out of all ticks close to it in one direction.
+/// Counts the ticks at the limit and all ticks close to it, in one direction.
 fn plateau<T: Real>(direction: f64, step_s: f64) {
     let built: Damper<T> = damper("paper", &[]).build(step_s).expect("a preset");
     let limit = built.force_limit_n().to_f64();

@@ -1,4 +1,4 @@
-//! A damper as bytes: it is restored completely or refused completely.
+//! A damper saved as bytes is restored completely or refused completely.
 
 use dashpot::damper;
 use dashpot::signed_image::{self, SCALARS, TABLE, crc_32, revise_and_sign, sign};
@@ -104,7 +104,8 @@ fn the_other_scalar_is_refused() {
     assert_eq!(refused, Err(ImageError::Scalar(4)));
 }
 
-/// Constants that a valid CRC-32 does not excuse: each word in turn is set to a non-finite and to another number.
+/// Invalid constants are refused despite a valid CRC-32: each word in turn is set to a non-finite number and to another
+/// number.
 #[test]
 fn constants_of_no_build_are_refused_though_signed() {
     let image = image();
@@ -115,7 +116,7 @@ fn constants_of_no_build_are_refused_though_signed() {
             let mut changed = image.clone();
             changed[at..at + 4].copy_from_slice(&other.to_le_bytes());
             sign(&mut changed);
-            // 16 bytes of header, thirteen words, then pieces of thirteen words.
+            // The image has a header of 16 bytes, thirteen words, then table pieces of thirteen words each.
             let piece = (at / 4).checked_sub(17).map(|word| word as u32 / 13);
             let finite = f32::from_bits(other).is_finite();
             let expected = match piece {
@@ -127,7 +128,7 @@ fn constants_of_no_build_are_refused_though_signed() {
     }
 }
 
-/// The image of the preset with some words set to these numbers, and with valid revisions and CRC-32.
+/// The preset's image with some words replaced by these numbers, and with valid revisions and CRC-32.
 fn forged(changes: &[(usize, f32)]) -> Vec<u8> {
     let mut image = image();
     for (index, value) in changes {
@@ -143,15 +144,15 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
     let words = damper.to_words();
     assert_eq!(words[SCALARS], damper.revision());
     assert_eq!(read(&forged(&[])), Ok(damper));
-    // Step, offset, first knot, half the clearance, bounds of displacement and stretch: words in the order of the
-    // scalars.
+    // The changed words are, in the order of the scalars: step, offset, first knot, half the clearance, and the bounds
+    // of displacement and stretch.
     let bound = |metres: f32| f32::from_bits(metres.to_bits() << 1);
     let mut cases = vec![(3, 0.0_f32), (4, 1e-3), (5, 0.0), (6, 1e-3)];
     cases.extend([(9, bound(0.71)), (9, bound(9e-4)), (10, bound(0.2))]);
     for scalar in 0..SCALARS {
         cases.extend([f32::NAN, f32::INFINITY, -1.0].map(|value| (scalar, value)));
     }
-    // Beyond the maximum clearance, with the dependent sum adjusted.
+    // A clearance beyond the maximum, with the dependent sum adjusted.
     let loose = [(6, 0.051), (4, 0.051 + f32::from_bits(words[8]))];
     assert_eq!(read(&forged(&loose)), Err(ImageError::Scalars));
     let last = words.len() - 1;
@@ -172,7 +173,7 @@ fn constants_out_of_range_are_refused_though_their_revision_is_right() {
 fn errors_say_what_is_wrong() {
     let expected = Damper::<f32>::IMAGE_BYTES;
     for (bytes, part) in [
-        (&b""[..], format!("0 bytes where a damper has {expected}")),
+        (&b""[..], format!("0 bytes, but a damper has {expected}")),
         (&[0; 40][..], "DASH".into()),
         (&image()[1..], "DASH".into()),
     ] {
@@ -201,7 +202,7 @@ proptest! {
             signed_image::sign(&mut damaged);
         }
         match read(&damaged) {
-            // Damage to the CRC-32 alone is repaired by signing again; zero damage is none.
+            // Signing again repairs damage to the CRC-32 alone, and the random damage may change nothing.
             Ok(read) => prop_assert!(damaged == image() && read == single()),
             Err(_) => prop_assert_ne!(damaged, image()),
         }

@@ -1,4 +1,4 @@
-//! Damaged memory: no bits of constants or state produce a force that is not finite or beyond its limit, and the slow
+//! Damaged memory: whatever the bits of constants and state, the force is finite and within its limit, and the slow
 //! check finds every flipped bit.
 
 use dashpot::damper;
@@ -8,10 +8,10 @@ use dashpot_core::parameters::MAX_FORCE_N;
 use dashpot_core::{Damper, DamperState, Real, step_bank};
 use fastrand::Rng;
 
-/// Dampers of a bank: one full group of lanes and some more.
+/// Number of dampers in the bank: one full group of lanes and some more.
 const DAMPERS: usize = 11;
 
-/// Damages memory: all of it, some of its values, or one bit.
+/// Damages all of the memory, some of its values, or one bit.
 fn damage(memory: &mut [u8], random: &mut Rng) {
     const UNUSUAL: [u32; 8] = [
         0x7f80_0000,
@@ -30,7 +30,7 @@ fn damage(memory: &mut [u8], random: &mut Rng) {
             for _ in 0..random.u32(1..20) {
                 let value = UNUSUAL[random.usize(..UNUSUAL.len())];
                 let offset = 4 * random.usize(..memory.len() / 4);
-                // The upper half of a double determines its kind, so both halves are damaged in turn.
+                // In a double, the offset is in either half; only the upper half can make it NaN or infinite.
                 memory[offset..offset + 4].copy_from_slice(&value.to_le_bytes());
             }
         }
@@ -58,7 +58,7 @@ where
                 let revision = damper.revision();
                 damage(bytes(state), &mut random);
                 if random.bool() {
-                    // Stored as if the damper itself had produced it, so that it is not adopted first.
+                    // The damaged state has this damper's revision, so that the step does not adopt it first.
                     let revision_at = 4 * size_of::<T>();
                     bytes(state)[revision_at..revision_at + 4]
                         .copy_from_slice(&revision.to_ne_bytes());
@@ -127,7 +127,7 @@ fn every_flipped_bit_of_the_constants_is_found() {
     let (meaningless, length) = (56..64, size_of::<Damper<f32>>());
     let mut random = Rng::with_seed(3);
     for bit in (0..8 * length).filter(|bit| !meaningless.contains(&(bit / 8))) {
-        // All bits of the scalars, a sample of the table.
+        // Tests all bits of the scalars, but only a sample of the table's bits.
         if bit > 512 && random.u32(..61) != 0 {
             continue;
         }

@@ -1,4 +1,4 @@
-//! The damper: its laws, accuracy, safety and encodings.
+//! Tests of the damper: its laws, accuracy, safety and encodings.
 
 mod accuracy;
 mod bank;

@@ -16,7 +16,7 @@ fn cycle(stiffness: f64, frequency_hz: f64) -> Indices {
         &[
             &stiffness,
             "mount.clearance_m=0.0",
-            // Maxwell's limits have no saturation.
+            // A Maxwell element has no saturation.
             "reduced.saturation_velocity_m_per_s=1.0",
             "limits.force_n=1e6",
         ],
@@ -42,7 +42,7 @@ fn stiffness_and_damping_follow_maxwell_over_frequency() {
         for frequency in [0.5, 2.0, 10.0, 40.0] {
             let found = cycle(stiffness, frequency);
             let (storage, damping) = maxwell(stiffness, frequency);
-            // Both as fractions of the total dynamic stiffness; second order in the step.
+            // Both errors are fractions of the total dynamic stiffness, and of second order in the step.
             let angular = TAU * frequency;
             let whole = storage.hypot(angular * damping);
             let tolerance = 5e-6 + 0.2 * (angular * STEP_S).powi(2);
@@ -71,8 +71,8 @@ fn a_stiff_spring_leaves_the_damper() {
 #[test]
 fn a_soft_spring_leaves_the_spring() {
     const STIFFNESS: f64 = 2e4;
-    // tau = 6 s: the spring takes all of the motion except 1/(w tau)^2 = 4e-7. The initial transient decays as slowly,
-    // by 1/240 within a cycle.
+    // With tau = 6 s, the spring takes all of the motion except 1/(w tau)^2 = 4e-7. The initial transient decays
+    // slowly, by 1/240 per cycle.
     let found = cycle(STIFFNESS, 40.0);
     assert!((found.storage_stiffness_n_per_m / STIFFNESS - 1.0).abs() < 1e-3);
     assert!(found.dynamic_damping_n_s_per_m < 1e-3 * DAMPING);

@@ -1,4 +1,4 @@
-//! A displacement far from zero: the rounding of `f32` stays within the promise up to 0.25 m.
+//! At displacements far from zero, the rounding of `f32` stays within the promise up to 0.25 m.
 
 use dashpot::accuracy::{displacements_m, stepped};
 use dashpot::damper;
@@ -44,7 +44,7 @@ fn the_promise_holds_up_to_a_quarter_of_a_metre() {
             assert!(error < promised, "{preset} about {offset_m} m: {error:.1e}");
         }
     }
-    // Rounding limits it: farther out the error grows with the unit in the last place.
+    // Rounding limits the accuracy: farther from zero the error grows with the unit in the last place.
     let (near, far) = (error_about("paper", 0.25), error_about("paper", 2.5));
     assert!(far > 4.0 * near, "{near:.1e}, {far:.1e}");
 }

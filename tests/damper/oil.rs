@@ -1,4 +1,4 @@
-//! Oil: density, viscosity and modulus compared with closed forms and published points.
+//! Compares the oil's density, viscosity and modulus with closed forms and published points.
 
 use dashpot_core::parameters::{ATMOSPHERIC_PRESSURE_PA as ATMOSPHERE, Oil, OilColumn};
 
@@ -37,7 +37,7 @@ fn air_lowers_the_density_by_its_volume_and_pressure_takes_it_back() {
     // 5 % of the volume is air of 1.225 kg/m3 (ISO 2533 at 15 degC).
     let expected = 0.95 * 870.0 + 0.05 * 1.225;
     assert!((mixed.density_kg_per_m3(0.0) - expected).abs() < 1e-4);
-    // At nine times the pressure a tenth of the air's volume remains; the oil shortens by P/E.
+    // At a gauge pressure of nine atmospheres a tenth of the air's volume remains; the oil shortens by P/E.
     let pressure = 9.0 * ATMOSPHERE;
     let volume = 0.95 * (1.0 - pressure / 1.5e9) + 0.05 / 10.0;
     assert!((mixed.density_kg_per_m3(pressure) - expected / volume).abs() < 1e-4);
@@ -48,7 +48,7 @@ fn viscosity_goes_through_its_points_and_straight_between_on_the_chart() {
     let at = |temperature: f64| oil(temperature, None).kinematic_viscosity_m2_per_s();
     assert!((at(40.0) / 15e-6 - 1.0).abs() < 1e-12);
     assert!((at(100.0) / 3.8e-6 - 1.0).abs() < 1e-12);
-    // ASTM D341: log log(nu + 0.7) is straight over log T. Ordinates by hand:
+    // ASTM D341: log log(nu + 0.7) is a linear function of log T. The ordinates were computed by hand:
     // log10 log10 15.7 = 0.0776947, log10 log10 4.5 = -0.1849455;
     // log10 T at 40, 70, 100 degC = 2.4957527, 2.5354842, 2.5718834.
     let between = -0.184_945_5
@@ -67,7 +67,7 @@ fn modulus_agrees_with_the_closed_form() {
             for absolute in [ATMOSPHERE, 1e6, 1e7] {
                 let found = column(alpha, n).bulk_modulus_pa(absolute);
                 let expected = modulus(alpha, n, absolute);
-                // The closed form is of first order in the air and in P/E_l.
+                // The closed form is only of first order in the air ratio and in P/E_l.
                 let tolerance = 2.0 * alpha + 1.1 * absolute / 1.5e9;
                 let share = (found / expected - 1.0).abs();
                 assert!(
@@ -95,12 +95,13 @@ fn lee_chart_points() {
 
 #[test]
 fn limits_of_the_modulus() {
-    // High pressure crushes the air; much air at low pressure behaves as a gas of modulus n p.
+    // High pressure compresses the air until it has no effect. Much air at low pressure behaves as a gas with the
+    // modulus n p.
     let found = column(0.02, 1.0).bulk_modulus_pa(1e8) / column(0.0, 1.0).bulk_modulus_pa(1e8);
     assert!((found - 1.0).abs() < 0.025, "{found}");
     for n in [1.0, 1.4] {
         let found = column(0.2, n).bulk_modulus_pa(ATMOSPHERE);
-        // V/(-dV/dp): 1 over 0.2/(n p_a) plus the oil's contribution.
+        // V/(-dV/dp) for V = 1: the air contributes 0.2/(n p_a) to -dV/dp, and the oil the rest.
         let expected = 1.0 / (0.2 / (n * ATMOSPHERE) + 0.8 / 1.5e9);
         assert!((found / expected - 1.0).abs() < 1e-12, "{found}");
     }

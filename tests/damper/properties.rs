@@ -1,4 +1,4 @@
-//! Properties of every motion: passivity, symmetry, clearance, compliance, saving, order, drift.
+//! Properties that hold for every motion: passivity, symmetry, clearance, compliance, saving, order and drift.
 
 use dashpot::bench_test::settled_force;
 use dashpot::damper;
@@ -12,7 +12,7 @@ fn build<T: Real>(parameters: &DamperParameters, step_s: f64) -> Damper<T> {
     parameters.build(step_s).expect("a valid damper")
 }
 
-/// A motion of straight segments through `corners` [m], each `ticks` long, from 0.
+/// A motion of straight segments from 0 through `corners` (m); each segment lasts `ticks`.
 fn through(corners: &[f64], ticks: usize) -> Vec<f64> {
     let mut motion = vec![0.0];
     let mut from = 0.0;
@@ -29,8 +29,8 @@ fn corners(amplitude_m: f64) -> impl Strategy<Value = Vec<f64>> {
     prop::collection::vec(-amplitude_m..amplitude_m, 4..20)
 }
 
-/// Minimum of the work put in so far minus the energy `K u^2/2` stored in the springs, over the work done on the way in
-/// either direction [1].
+/// Minimum over time of the work put in so far minus the energy `K u^2/2` stored in the springs, divided by the sum of
+/// the magnitudes of the work of all ticks (1).
 fn min_dissipation(parameters: &DamperParameters, stiffness: f64, motion: &[f64]) -> f64 {
     let damper: Damper<f64> = build(parameters, STEP_S);
     let mut state = damper.at_rest(motion[0]);
@@ -59,7 +59,7 @@ proptest! {
             (damper("reduced-vertical", &[]), 8e6),
         ][preset].clone();
         let least = min_dissipation(&parameters, stiffness, &through(&corners, ticks));
-        // The trapezoidal work has an error from the clearance's corner inside a tick.
+        // The trapezoidal rule has an error in the work where the clearance ends within a tick.
         prop_assert!(least > -1e-3, "{least:e}");
     }
 
@@ -144,7 +144,8 @@ fn odd<T: Real>(parameters: &DamperParameters, motion: &[f64]) -> Result<(), Tes
     Ok(())
 }
 
-/// RMS error of the force [N] at `step_s` against a step 32 times smaller than the smallest one used, at common times.
+/// RMS error of the force (N) at `step_s`, compared at common times with a step 32 times smaller than the smallest
+/// used.
 fn error(parameters: &DamperParameters, step_s: f64, motion: impl Fn(f64) -> f64) -> f64 {
     const FINE_S: f64 = 1.0 / 65_536.0;
     const DURATION_S: f64 = 1.0;
@@ -162,7 +163,7 @@ fn error(parameters: &DamperParameters, step_s: f64, motion: impl Fn(f64) -> f64
     root_mean_square(errors(&coarse, &fine))
 }
 
-/// Mean order over three halvings from `largest_s`.
+/// Mean order of convergence over three halvings of the step, from `largest_s`.
 fn order(parameters: &DamperParameters, largest_s: f64, motion: impl Fn(f64) -> f64) -> f64 {
     let coarse = error(parameters, largest_s, &motion);
     let fine = error(parameters, largest_s / 8.0, &motion);
@@ -188,7 +189,7 @@ fn halving_the_step_quarters_the_error_of_a_linear_element() {
 
 #[test]
 fn halving_the_step_quarters_the_error_on_one_side() {
-    // Pulled out with a ripple: never through zero after the start.
+    // The damper is pulled out with a ripple, so that the motion never passes zero after the start.
     let parameters = damper("paper", &[]);
     let ripple = harmonic(1e-3, 4.0);
     let found = order(&parameters, 1.0 / 256.0, |time| {
@@ -209,7 +210,7 @@ fn halving_the_step_quarters_the_error_through_zero_and_clearance() {
     }
 }
 
-/// Displacement of a tick on a triangle of 2000 ticks, in `f32`.
+/// Displacement at a tick of a triangle wave with a period of 2000 ticks, in `f32`.
 fn triangle(tick: u32, amplitude_m: f32) -> f32 {
     let phase = tick % 2000;
     let rise = phase.min(2000 - phase) as f32;

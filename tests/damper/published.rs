@@ -32,12 +32,12 @@ fn pack(valve: &Valve) -> Pack {
     Pack::new("valve", valve).expect("the preset has packs")
 }
 
-/// Theory of Table 1 at the edge under uniform pressure [m/Pa].
+/// Compliance at the edge under uniform pressure from the theory of Table 1 (m/Pa).
 fn theory(valve: &Valve) -> f64 {
     pack(valve).compliance_m_per_pa(valve.free_radius_m)
 }
 
-/// Compliance of the same discs bonded to one plate of their total thickness [m/Pa].
+/// Compliance of the same discs, bonded to one plate of their total thickness (m/Pa).
 fn bonded(valve: &Valve) -> f64 {
     let thickness: f64 = valve.shims_m.iter().sum();
     pack(valve)
@@ -52,7 +52,7 @@ fn given(valve: &Valve) -> f64 {
         .expect("the preset gives compliances")
 }
 
-/// Value the preset uses for a symbol of Table 1.
+/// Value that the preset uses for a symbol of Table 1.
 fn of_preset(symbol: &str, valves: &dashpot_core::parameters::Valves) -> f64 {
     let (extension, compression, foot) = (
         &valves.piston_extension,
@@ -72,7 +72,7 @@ fn of_preset(symbol: &str, valves: &dashpot_core::parameters::Valves) -> f64 {
         "rw12" => compression.free_radius_m,
         "rw23" => extension.free_radius_m,
         "rw4" => foot.free_radius_m,
-        other => panic!("Table 1 has a symbol `{other}` nothing uses"),
+        other => panic!("Table 1 has a symbol `{other}` that nothing uses"),
     }
 }
 
@@ -143,7 +143,7 @@ fn deflections(page: &mut String, title: &str, file: &str, valve: &Valve) {
             row[4],
         )
         .unwrap();
-        // The preset reproduces its table to the printed digits.
+        // The preset reproduces the published table to the printed digits.
         assert!(
             (ours / uniform - 1.0).abs() < 3e-3,
             "{file} at {pressure} Pa"
@@ -168,7 +168,7 @@ fn first_erratum(page: &mut String, valves: &dashpot_core::parameters::Valves) {
         reason.\n\n\
         | valve | sliding discs | bonded discs | printed | sliding/printed | bonded/printed \
         |\n|---|---|---|---|---|---|\n";
-    // Ratios of the model page, to its digits.
+    // The ratios that docs/model.md states, to its digits.
     for (name, valve, stated) in [
         ("piston extension", &valves.piston_extension, 33.0),
         ("piston compression", &valves.piston_compression, 41.0),
@@ -198,7 +198,7 @@ fn index(name: &str, indices: &Indices) -> f64 {
         "maximum compression force" => indices.max_compression_force_n,
         "asymmetry rate" => 100.0 * indices.asymmetry_rate(),
         "energy per cycle" => indices.energy_per_cycle_j,
-        other => panic!("Table 5 has an index `{other}` nothing computes"),
+        other => panic!("Table 5 has an index `{other}` that nothing computes"),
     }
 }
 
@@ -230,7 +230,7 @@ fn table_5(page: &mut String) {
             ours / number(&row[3])
         )
         .unwrap();
-        // The printed error relates the printed columns.
+        // The printed error must follow from the printed columns.
         let printed = number(&row[4]);
         let error = 100.0 * (number(&row[2]) / number(&row[3]) - 1.0).abs();
         assert!((error - printed).abs() < 0.011, "{}: {error}", row[0]);
@@ -258,7 +258,7 @@ fn table_5(page: &mut String) {
         published(3),
     )
     .unwrap();
-    // The conditions that the erratum states.
+    // These are the conditions that the erratum states.
     assert!(indices.asymmetry_rate() < -0.1 && published(2) > 1.02);
 }
 

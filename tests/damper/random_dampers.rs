@@ -1,7 +1,7 @@
 //! Random dampers from the full documented ranges under random motions: the promise that docs/numerics.md bases on
 //! `dashpot verify` holds for arbitrary inputs.
 //!
-//! A seed determines a damper and its motions. `DASHPOT_RANDOM_DAMPERS=1000..2000` tries others.
+//! A seed determines a damper and its motions. `DASHPOT_RANDOM_DAMPERS=1000..2000` tries other seeds.
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -14,7 +14,7 @@ use dashpot::searched_motion::{Form, SearchedMotion};
 use dashpot_core::characteristic::{Characteristic, Corner};
 use dashpot_testbench::step_errors::{SCALARS, StepErrors};
 
-/// Seeds tried.
+/// Seeds that are tried.
 const NUMBERS: Range<u64> = 0..5;
 /// Motions per damper, at each step size.
 const MOTIONS: usize = 8;
@@ -24,14 +24,14 @@ const MOTIONS: usize = 8;
 struct Case {
     /// Errors above the promise, in words.
     complaints: Vec<String>,
-    /// Largest figure relative to its promise.
+    /// Largest ratio of a measured error to its promise.
     largest_ratio: f64,
     /// Corners that the reference's force passed through.
     reached: Vec<Corner>,
     forms: Vec<Form>,
 }
 
-/// Measures one damper; the error is the reason why the reference has no solution, which `verify` reports.
+/// Measures one damper. If the reference has no solution, the error is the reason, as `verify` reports it.
 fn measure(number: u64) -> Result<Case, String> {
     let mut random = Random(number);
     let parameters = documented_damper(&mut random);
@@ -111,7 +111,10 @@ fn the_promise_holds_for_random_dampers_and_motions() {
         println!("no promise: {reason}");
     }
     let ratios = solved.iter().map(|case| case.largest_ratio);
-    println!("largest of the promise: {:.2}", ratios.fold(0.0, f64::max));
+    println!(
+        "largest ratio to the promise: {:.2}",
+        ratios.fold(0.0, f64::max)
+    );
     let complaints: Vec<&str> = solved
         .iter()
         .flat_map(|case| case.complaints.iter().map(String::as_str))
@@ -126,7 +129,7 @@ fn the_promise_holds_for_random_dampers_and_motions() {
     ];
     let is_reached = |corner: &&Corner| solved.iter().any(|case| case.reached.contains(corner));
     let reached: Vec<&Corner> = corners.iter().filter(is_reached).collect();
-    assert!(reached.len() >= 3, "the motions reached {reached:?} alone");
+    assert!(reached.len() >= 3, "the motions reached only {reached:?}");
     for form in [
         Form::Saw,
         Form::MoveAndStop,

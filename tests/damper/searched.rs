@@ -1,9 +1,9 @@
-//! The accuracy promise under a search of bounded length for its worst case; `cargo xtask search` searches for as long
-//! as you like.
+//! Checks the accuracy promise with a short search for its worst case; `cargo xtask search` searches for as long as you
+//! like.
 
 use dashpot::search::search;
 
-/// Motions tried, of four dampers: a few minutes of processor time, most of it in the reference.
+/// Number of motions tried, on four dampers. They take a few minutes of processor time, mostly in the reference.
 const EVALUATIONS: usize = 208;
 
 #[test]
@@ -21,7 +21,7 @@ fn the_promise_survives_a_search_for_its_worst_case() {
         "the promise is broken: {}\nwrite it by `cargo xtask search`",
         worst.line()
     );
-    // A search that finds nothing near the promise is not searching.
+    // A search whose worst error is far below the promise does not work.
     assert!(worst.ratio() > 0.15, "{}", worst.line());
 }
 

@@ -1,4 +1,4 @@
-//! Force at constant velocity compared with the flow laws worked by hand, every term alone.
+//! Compares the force at constant velocity with the flow laws worked by hand, each term alone.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use dashpot::damper;
 use dashpot_core::characteristic::{Characteristic, ShimPackValve};
 use dashpot_reference::damper::Reference;
 
-/// Areas of the paper's damper [m^2].
+/// Areas of the paper's damper (m^2).
 const ROD_SIDE: f64 = PI / 4.0 * (0.0698 * 0.0698 - 0.028 * 0.028);
 const PISTON: f64 = PI / 4.0 * 0.0698 * 0.0698;
 const ROD: f64 = PI / 4.0 * 0.028 * 0.028;
@@ -21,7 +21,7 @@ fn orifice(pressure: f64) -> f64 {
     0.72 * PI / 4.0 * 0.002 * 0.002 * jet(pressure)
 }
 
-/// Flow of a shim valve of `radius` and `compliance` [m/Pa, including Ce] with preload and back pressure.
+/// Flow of a shim valve with `radius`, `compliance` (m/Pa, including Ce), preload and back pressure.
 fn shim(radius: f64, compliance: f64, pressure: f64, preload: f64, back: f64) -> f64 {
     0.61 * 2.0 * PI * radius * compliance * (pressure - preload).max(0.0) * jet(pressure - back)
 }
@@ -46,11 +46,11 @@ fn compression(pressure: f64) -> f64 {
     orifice(pressure) + compression_shim(pressure) + foot_shim(pressure, 0.0)
 }
 
-/// Error of the tables near zero, a force rather than a fraction of it [N].
+/// Error of the tables near zero (N): an absolute force, not a fraction of the force.
 const NEAR_ZERO_N: f64 = 5e-3;
 
-/// A laminar orifice straightens the law at zero, where the tables are designed for its square root: up to this error
-/// [N], measured at 48 N.
+/// Error of the tables with a laminar orifice (N), measured at 48 N. It makes the law linear at zero, but the tables
+/// are designed for a square root there.
 const LAMINAR_N: f64 = 0.08;
 
 /// Checks that the step and the reference, driven at `velocity` (negative in compression), both have `force`.
@@ -58,7 +58,7 @@ fn check(overrides: &[&str], velocity: f64, force: f64) {
     check_near_zero(overrides, velocity, force, NEAR_ZERO_N);
 }
 
-/// Like [`check`], with the step within `near_zero` [N] plus a fraction.
+/// Like [`check`], but the step may deviate by `near_zero` (N) plus a fraction.
 fn check_near_zero(overrides: &[&str], velocity: f64, force: f64, near_zero: f64) {
     let parameters = damper("paper", overrides);
     let found = settled_force(&parameters, velocity);
@@ -86,7 +86,7 @@ fn literal_values_of_the_published_damper() {
     let parameters = damper("paper", &[]);
     for (velocity, expected) in literal {
         let found = settled_force(&parameters, velocity);
-        // The values are rounded to a newton.
+        // The expected values are rounded to a newton.
         assert!((found - expected).abs() < 0.6, "{velocity} m/s: {found} N");
     }
 }
@@ -121,7 +121,7 @@ fn seal_friction_adds_to_the_force() {
 
 #[test]
 fn back_pressure_opposes_the_foot_valve() {
-    // Filled at the working temperature with no rod inserted: the fill pressure itself.
+    // Filled at the working temperature with no rod inserted, the reservoir has the fill pressure itself.
     let overrides = [
         "reservoir.fill_pressure_pa=6e5",
         "reservoir.gas_volume_m3=6e-4",
@@ -135,7 +135,7 @@ fn back_pressure_opposes_the_foot_valve() {
 
 #[test]
 fn reservoir_gas_follows_its_law() {
-    // Half the gas volume displaced by the rod, and 20 to 45 degC.
+    // The rod displaces half the gas volume, and the temperature rises from 20 to 45 degC.
     let insertion = format!("reservoir.rod_insertion_m={:e}", 3e-4 / ROD);
     let overrides = [
         "reservoir.fill_pressure_pa=2e5",
@@ -193,7 +193,7 @@ fn orifice_turns_laminar_at_low_flow() {
     let bore = PI / 4.0 * 0.002 * 0.002;
     let turbulent = DENSITY / (2.0 * (0.72 * bore).powi(2));
     let transition = REYNOLDS * 15e-6 * bore / 0.002;
-    // The pressure for a chosen flow by the law P = R_t Q^2 + R_t Q_t Q.
+    // The law P = R_t Q^2 + R_t Q_t Q gives the pressure for a chosen flow.
     for flow in [0.1 * transition, transition, 5.0 * transition] {
         let pressure = turbulent * flow * (flow + transition);
         let flow = flow + extension_shim(pressure, 0.0);
@@ -230,7 +230,7 @@ fn two_chambers_share_the_compression() {
 
 #[test]
 fn a_starved_rod_side_stays_at_the_vapour_pressure() {
-    // A foot valve so soft that it builds no pressure against the piston's flow.
+    // The foot valve is so soft that it does not build up pressure.
     let overrides = [
         "two_chamber.vapour_pressure_pa=-9e4",
         "valves.foot_compression.edge_compliance_m_per_pa=1e-10",
@@ -252,8 +252,8 @@ fn areas_are_the_stated_ones() {
 
 #[test]
 fn a_seal_releases_where_its_friction_ends() {
-    // The oil column softens the springs at that force by a factor. With every term on, the force at 1 mm/s is close to
-    // it.
+    // The oil column softens the springs by a factor at the closed force. With every term on, the force at 1 mm/s is
+    // close to that force.
     for overrides in [&[][..], &["two_chamber.vapour_pressure_pa=-9e4"]] {
         let parameters = damper("in-service", overrides);
         let reference = Reference::new(&parameters).expect("a valid damper");

@@ -1,4 +1,4 @@
-//! The yardstick of the benches solves the same damper; otherwise its time would be meaningless.
+//! Checks that the yardstick of the benches solves the same damper; otherwise its time would be meaningless.
 
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;

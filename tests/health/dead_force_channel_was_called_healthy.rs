@@ -1,5 +1,5 @@
-//! A force channel reduced to noise, and oil full of air, were taken for a healthy damper with narrow intervals and
-//! without a status bit, for as long as the damper moved.
+//! Fixed bug: for as long as the damper moved, a force channel reduced to noise and oil full of air were taken for a
+//! healthy damper, with narrow intervals and without a status bit.
 
 use dashpot_core::health::HealthStatus;
 
@@ -13,7 +13,7 @@ fn check(preset: &str, run: &Run) {
         "{preset}: {after_s:?}"
     );
     assert!(!run.last.is_trusted(), "{preset}: {:?}", run.last);
-    // Earlier knowledge fades.
+    // The knowledge from before the fault must fade.
     assert!(run.last.flow_factor.sd > 0.25, "{preset}: {:?}", run.last);
     assert!(run.last.status.contains(HealthStatus::LITTLE_EXCITATION));
     assert!(!run.had_alarm, "{preset}: no wear was measured");

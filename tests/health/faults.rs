@@ -1,5 +1,5 @@
-//! Detects each fault within 10 s of the ride with noise of 2 % of each signal's root mean square: after a change
-//! during a run, and from a start that knows only the nominal damper.
+//! Checks that each fault is detected within 10 s of the ride, with noise of 2 % of each signal's root mean square: if
+//! it begins during a run, and from a start that knows only the nominal damper.
 
 use std::fmt::Write;
 
@@ -53,8 +53,8 @@ fn runs(preset: &str, fault: Fault, random: bool, before: usize) -> Vec<([f64; 6
     })
 }
 
-/// Checks that the parameter changed by the fault is within its bound for every seed, and that only that fault is an
-/// alarm.
+/// Checks for every seed that the estimate of the parameter that the fault changes is within its bound, and that only
+/// this fault raises an alarm.
 fn check(label: &str, fault: Fault, runs: &[([f64; 6], HealthStatus)]) {
     let max = |column: usize| largest(runs.iter().map(|(errors, _)| errors[column]));
     match fault {
@@ -154,7 +154,7 @@ fn a_faulty_damper_is_known_from_ten_seconds_alone() {
     }
 }
 
-/// Reported standard deviations match the actual errors: errors relative to them have a root mean square near 1.
+/// Reported standard deviations match the actual errors: the ratios of errors to deviations have an RMS near 1.
 #[test]
 fn reported_uncertainty_matches_the_errors() {
     for preset in PRESETS {

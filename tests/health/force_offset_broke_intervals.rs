@@ -1,5 +1,5 @@
-//! An offset of the force sensor moved flow, stiffness and clearance by ten standard deviations and was reported as
-//! wear.
+//! Fixed bug: an offset of the force sensor moved flow, stiffness and clearance by ten standard deviations and was
+//! reported as wear.
 
 use dashpot_core::health::HealthStatus;
 

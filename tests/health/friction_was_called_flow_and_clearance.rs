@@ -1,4 +1,4 @@
-//! An increase of the seal friction by 400 N was reported as less flow and another clearance.
+//! Fixed bug: an increase of the seal friction by 400 N was reported as less flow and another clearance.
 
 use crate::sensors::{CONTAINED, Wrong};
 use crate::synthetic::varied;

@@ -1,4 +1,4 @@
-//! No faults, and none reported.
+//! Without a fault, none is reported.
 
 use std::thread;
 
@@ -55,7 +55,7 @@ fn a_damper_at_rest_for_an_hour_keeps_its_estimate() {
     let samples = noisy_x.iter().zip(&noisy_force);
     samples.clone().for_each(|sample| tick(&mut health, sample));
     let before = health.reading(&model);
-    // At rest in its clearance, then with an offset of the force sensor.
+    // The damper rests in its clearance, first without and then with an offset of the force sensor.
     for standing in [0.0, 200.0] {
         let (still_x, still_force) =
             noise.add_to(&vec![x[0]; 1_800_000], &vec![standing; 1_800_000], 4);

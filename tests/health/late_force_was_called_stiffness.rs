@@ -1,4 +1,4 @@
-//! A force that was 5 ms late was reported as another stiffness with a narrow interval.
+//! Fixed bug: a force that was 5 ms late was reported as another stiffness with a narrow interval.
 
 use dashpot_core::health::HealthStatus;
 

@@ -1,5 +1,5 @@
-//! When the clearance grew to 4 mm under a motion of 0.44 mm rms, the old estimate kept its narrow intervals for the
-//! rest of the run, because nothing was measured and nothing was forgotten.
+//! Fixed bug: when the clearance grew to 4 mm under a motion of 0.44 mm rms, the old estimate kept its narrow intervals
+//! for the rest of the run, because nothing was measured and nothing was forgotten.
 
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_testbench::health::Noise;

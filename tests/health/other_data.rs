@@ -1,4 +1,5 @@
-//! Samples from outside the core's step: the reference solution, and a law that no parameter describes.
+//! Estimates from samples that the core's step did not compute: from the reference solution, and from a law that no
+//! parameter describes.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::health::{Health, HealthSettings, HealthStatus};
@@ -41,7 +42,8 @@ fn faults_in_forces_of_the_reference_are_known() {
     }
 }
 
-/// A chain whose law `F = C v (1 + 0.4 tanh(v/v_t))` bends unlike any preset's; the flow of a fault scales it.
+/// A damper in series with its springs, with the law `F = C v (1 + 0.4 tanh(v/v_t))`, which bends unlike any preset's.
+/// A flow fault scales the law.
 struct Bent {
     flow: f64,
     stiffness_n_per_m: f64,
@@ -67,7 +69,7 @@ impl Bent {
         self.flow * low.copysign(force)
     }
 
-    /// Forces (N) from rest, by explicit steps of a fiftieth of a tick.
+    /// Forces (N) from rest, computed with explicit steps of a fiftieth of a tick.
     fn forces(&self, displacements: &[f64]) -> Vec<f64> {
         const PARTS: u32 = 50;
         let mut stretch = 0.0_f64;
@@ -90,7 +92,7 @@ impl Bent {
     }
 }
 
-/// The model assumes a straight law. It learns a baseline from the healthy damper and finds faults as changes from it.
+/// The model assumes a linear law. It learns a baseline from the healthy damper and finds faults as changes from it.
 #[test]
 fn faults_of_another_law_are_known_against_its_baseline() {
     const TICKS: usize = 20_000;

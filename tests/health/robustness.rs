@@ -1,4 +1,4 @@
-//! Any input produces finite estimates; a copy continues exactly like the original.
+//! Any input produces finite estimates, and a copy continues exactly like the original.
 
 use dashpot_core::health::{Health, HealthStatus};
 use dashpot_testbench::health::Noise;
@@ -37,7 +37,7 @@ fn any_bits_give_numbers_and_are_forgotten() {
     for _ in 0..500_000 {
         let any = |rng: &mut Rng| f32::from_bits(rng.u32(..));
         let some = |rng: &mut Rng, most: f32| most * (2.0 * rng.f32() - 1.0);
-        // Random bits, then plausible but meaningless sensor values.
+        // The samples are random bits, or plausible but meaningless sensor values.
         let sample = match rng.u32(..4) {
             0 => (any(rng), any(rng)),
             1 => (any(rng), some(rng, 1e4)),
@@ -130,8 +130,8 @@ fn a_copy_continues_bit_for_bit() {
     assert_eq!(format!("{health:?}"), format!("{copy:?}"));
 }
 
-/// The force is 1 or 2 ms late, as after a filter. The lag is estimated along with the faults, which stay within their
-/// bounds.
+/// The force is 1 or 2 ms late, as after a filter. The lag is estimated together with the faults, whose estimates stay
+/// within their bounds.
 #[test]
 fn a_late_force_hides_no_fault() {
     for preset in PRESETS {

@@ -1,4 +1,4 @@
-//! For every sensor fault, either an interval contains the truth or a bit reports that it may not.
+//! For every sensor fault, either the interval contains the true value or a status bit reports that it may not.
 
 use std::fmt::Write;
 use std::thread;
@@ -10,11 +10,11 @@ use crate::sensors::{CONTAINED, Run, Wrong};
 use crate::synthetic::{PRESETS, varied};
 
 const SEEDS: u64 = 10;
-/// Time (s) after which each reading must contain the truth or be untrusted.
+/// Time (s) after which each reading must contain the true values or be marked as untrusted.
 const SETTLED_S: f64 = 35.0;
 
-/// Faults, each with true if its effect on the estimates must be contained or untrusted. The others cannot be
-/// distinguished from wear.
+/// Faults, each with `true` if the readings must contain the true values or be marked as untrusted. The other faults
+/// cannot be distinguished from wear.
 const FAULTS: [(&str, Wrong, bool); 34] = [
     ("force + 50 N", Wrong::ForceBias(50.0), true),
     ("force + 200 N", Wrong::ForceBias(200.0), true),

@@ -26,12 +26,12 @@ pub enum Wrong {
     ForceDropout,
     ForceLost,
     DisplacementDropout,
-    /// Permanently constant: force (N), or the displacement at its last value.
+    /// A sensor is stuck: the force at this value (N), or the displacement at its last value.
     ForceStuck(f64),
     DisplacementStuck,
     ForceReversed,
     DisplacementReversed,
-    /// Noise alone.
+    /// The sensor delivers only noise.
     ForceDead,
     /// Additional seal friction (N).
     Friction(f64),
@@ -42,9 +42,9 @@ pub enum Wrong {
 /// Result of a run.
 pub struct Run {
     pub last: HealthReading,
-    /// Largest error over its standard deviation of flow, compliance and clearance at the end.
+    /// Largest ratio of error to standard deviation among flow, compliance and clearance at the end.
     pub error: f64,
-    /// Time after the fault (s) from which on every reading contained the truth or was untrusted.
+    /// Time after the fault (s) after which every reading contained the true values or was untrusted.
     pub right_after_s: f64,
     /// Time after the fault (s) at which the missing force was first reported.
     pub no_force_after_s: Option<f64>,
@@ -55,7 +55,7 @@ pub struct Run {
 pub const BEFORE: usize = 20_000;
 /// Ticks with the fault.
 pub const WITH: usize = 40_000;
-/// Standard deviations within which an interval contains the truth.
+/// An interval counts as containing the true value if that is within this number of standard deviations.
 pub const CONTAINED: f64 = 5.0;
 
 impl Wrong {
@@ -74,7 +74,7 @@ impl Wrong {
         Some(faulty)
     }
 
-    /// Sensor readings at a tick of the fault, from the correct, noisy `x` and `force`.
+    /// Sensor readings at a tick with the fault, computed from the correct, noisy `x` and `force`.
     fn sample(self, tick: usize, x: &[f64], force: &[f64], noise: f64) -> (f64, f64) {
         let since_s = (tick - BEFORE) as f64 * STEP_S;
         let drops = tick % 1000 < 100;

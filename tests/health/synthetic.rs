@@ -14,13 +14,13 @@ pub const STEP_S: f64 = 1e-3;
 /// Every preset.
 pub const PRESETS: [&str; 4] = ["paper", "in-service", "reduced-vertical", "reduced-lateral"];
 
-/// Alarms of wear.
+/// Status bits that report wear.
 pub const WEAR: HealthStatus = HealthStatus::FLOW
     .union(HealthStatus::STIFFNESS)
     .union(HealthStatus::CLEARANCE);
 
-/// Displacements (m) of the ride of `Excitation::Ride` (98 lines from 0.4 to 20 Hz, v_rms 0.04 m/s) with frequencies
-/// and phases from a seed.
+/// Displacements (m) of the ride of `Excitation::Ride` (98 harmonics from 0.4 to 20 Hz, v_rms 0.04 m/s) with
+/// frequencies and phases from a seed.
 pub fn ride(seed: u64, ticks: usize) -> Vec<f64> {
     const VELOCITY_RMS: f64 = 0.04;
     let mut rng = Rng::with_seed(seed);
@@ -59,7 +59,7 @@ pub enum Fault {
     Clearance,
     /// Ke halved: rubber and seats.
     Stiffness,
-    /// Every discharge coefficient increased by 25 %; for the reduced element the velocity at the same force.
+    /// Every discharge coefficient increased by 25 %; for the reduced element, the velocity at the same force.
     Flow,
 }
 
@@ -161,8 +161,8 @@ pub fn estimate(model: &HealthModel, displacements_m: &[f64], forces_n: &[f64]) 
     health.reading(model)
 }
 
-/// Errors of an estimate: flow factor (relative), stiffness (relative), clearance (m), and each over its standard
-/// deviation.
+/// Errors of an estimate: flow factor (relative), stiffness (relative) and clearance (m), then each error divided by
+/// its standard deviation.
 pub fn errors(reading: &HealthReading, truth: &DamperParameters, fault: Fault) -> [f64; 6] {
     let part = |value: f32, truth: f64| f64::from(value) / truth - 1.0;
     let compliance = truth.mount.compliance_m_per_n();

@@ -1,5 +1,5 @@
-//! Memory damaged while the tick runs free is found, latched and counted, and the device switches to the safe output
-//! until the damper is loaded again.
+//! Damage to memory while the tick runs freely is found, latched and counted, and the device switches to the safe
+//! output until the damper is loaded again.
 
 use dashpot_core::Status;
 use dashpot_core::integrity::SLICES;
@@ -46,8 +46,8 @@ fn run() -> Request<'static> {
     }
 }
 
-/// Ticks until the damage is found. The outputs fall to zero, that of the damaged damper from a force computed before
-/// the damage.
+/// Returns the number of ticks until the damage is found, and checks that the outputs then fall to zero. The damaged
+/// damper's output starts at a force computed before the damage.
 fn falls_to_zero(bench: &mut Bench, damaged: usize, sound_n: f32) -> u32 {
     let mut ticks = 0;
     let mut last_good = *bench.device.outputs_n();
@@ -79,8 +79,8 @@ fn damaged_constants_take_the_safe_output_until_the_damper_is_loaded_again() {
         .flat_map(|word| word.to_le_bytes());
     let piece: Vec<u8> = piece.collect();
     flip_a_bit_of(&mut bench.device, &piece);
-    // A round of either damper, and the rest of the round in progress. No round was complete since the dampers were at
-    // rest.
+    // A check takes one round for each damper, plus the rest of the round in progress. No round has been completed
+    // since the dampers were at rest.
     assert!(falls_to_zero(&mut bench, 0, 0.0) <= 3 * SLICES);
     let (status, _) = bench.status(&Request::Status);
     let damaged = |bits: u16| bits & Status::CORRUPTED.bits() != 0;
@@ -98,13 +98,13 @@ fn damaged_constants_take_the_safe_output_until_the_damper_is_loaded_again() {
     assert_eq!(bench.counters().corruptions, 1, "undamaged again");
 }
 
-/// The step of the first damper, which is also that of the bank.
+/// The damaged value is the step of the first damper, which is also the step of the bank.
 #[test]
 fn a_damper_with_a_damaged_step_can_be_loaded_again() {
     let mut bench = running();
     let scalars = bench.dampers[0].to_words()[..11].to_vec();
     let scalars: Vec<u8> = scalars.iter().flat_map(|word| word.to_le_bytes()).collect();
-    // Starts at the step, so that the flipped bit belongs to it.
+    // The bytes start at the step, so that the flipped bit belongs to it.
     flip_a_bit_of(&mut bench.device, &scalars[12..]);
     falls_to_zero(&mut bench, 0, 0.0);
     let image = bench.dampers[0].to_image();
@@ -115,7 +115,7 @@ fn a_damper_with_a_damaged_step_can_be_loaded_again() {
 #[test]
 fn a_damaged_state_takes_the_safe_output_until_run() {
     let mut bench = running();
-    // The revision in the second state, and with it the mark, as if the state had never been written.
+    // Overwrites the second state, including its revision and mark, as if it had never been written.
     let state = bench.device.states()[1].to_bytes();
     let before = bench.device.tick_number();
     bench.device.tick(1); // in which the second state is checked

@@ -1,4 +1,4 @@
-//! The device: only a valid request, in sequence, changes a state; everything else is counted and answered.
+//! Tests of the device: only a valid request in sequence changes a state; everything else is counted and answered.
 
 use dashpot_core::DamperState;
 use dashpot_core::link::{
@@ -273,7 +273,7 @@ proptest! {
         prop_assert_eq!(forces.forces_n[0].to_bits(), bench.dampers[0].step(&mut state, 5e-3).to_bits());
     }
 
-    /// Valid frames with any body are executed or refused, never panic, and always have one answer.
+    /// A valid frame with any body is executed or refused, never causes a panic, and always has one answer.
     #[test]
     fn any_message_is_answered(bodies in prop::collection::vec(prop::collection::vec(any::<u8>(), 0..100), 1..50)) {
         let mut bench = Bench::open();

@@ -1,5 +1,5 @@
-//! docs/link.md suffices for a host in another language: its numbers and names are those of the code, its frames are
-//! what a device sends, and the client written from it drives a device.
+//! Checks that docs/link.md suffices to write a host in another language: its numbers and names are those of the code,
+//! its frames are what a device sends, and the client written from it drives a device.
 
 use std::fmt::Write as _;
 use std::io::{Read, Write as _};
@@ -29,7 +29,7 @@ fn desk<const N: usize>(names: [&str; N]) -> Desk<N> {
     Desk::new(names.map(|name| damper(name, &[]).build(1e-3).expect("a preset"))).expect("one step")
 }
 
-/// Number of a choice on the wire.
+/// Number that represents an enum variant on the wire.
 fn number(choice: &impl Serialize) -> u8 {
     let mut bytes = [0; 64];
     postcard::to_slice(choice, &mut bytes).expect("a short message")[0]
@@ -50,7 +50,7 @@ fn rows(kind: &str) -> Vec<(u8, String)> {
     .collect()
 }
 
-/// `Step { .. }` is Step.
+/// Name of a variant from its debug text: `Step` from `Step { .. }`.
 fn name(choice: &impl std::fmt::Debug) -> String {
     let text = format!("{choice:?}");
     let end = text.find(|letter: char| !letter.is_alphanumeric());
@@ -191,7 +191,7 @@ fn the_numbers_are_those_of_the_code() {
     assert!(text.contains(&samples), "{samples}");
     let bytes = format!("{} bytes, whole", HealthModel::IMAGE_BYTES);
     assert!(text.contains(&bytes), "{bytes}");
-    // Fields must appear in order, because they have no numbers.
+    // The document must list fields in order, because they have no numbers.
     let in_order = |fields: String| {
         let mut rest = &text[..];
         for field in fields
@@ -207,12 +207,12 @@ fn the_numbers_are_those_of_the_code() {
     in_order(format!("{:?}", Counters::default()));
     in_order(format!("{:?}", Sample::default()));
     let reading = format!("{:?}", HealthReading::default());
-    // The document states value and deviation once for all estimates.
+    // The document describes the fields of an estimate (value and deviation) only once, so they are left out here.
     let estimate = format!("{:?}", Estimate::default());
     in_order(reading.replace(&estimate, "number"));
 }
 
-/// Health model of the damper of the worked frames.
+/// Health model of the damper in the worked frames.
 fn model() -> HealthModel {
     let checked = damper("reduced-vertical", &[]).check().expect("a preset");
     let settings = HealthSettings::new(20e-6, 20.0);
@@ -321,7 +321,7 @@ fn the_revision_is_computed_as_the_document_says() {
     }
 }
 
-/// The Python client against a device behind a TCP port receives the core's forces.
+/// The Python client receives the core's forces from a device behind a TCP port.
 #[test]
 fn the_client_in_python_drives_a_device() {
     if !have(&[PYTHON], "the client in Python") {
@@ -333,7 +333,7 @@ fn the_client_in_python_drives_a_device() {
         let (mut line, _) = listener.accept().expect("a host");
         let mut desk = desk(["reduced-vertical", "in-service"]);
         let mut buffer = [0; 1024];
-        // A broken answer first: the client asks again.
+        // The first answer is broken, so the client asks again.
         let mut broken = false;
         while let Ok(count @ 1..) = line.read(&mut buffer) {
             desk.send(&buffer[..count]).expect("a device");
@@ -396,7 +396,7 @@ fn the_client_in_python_drives_a_device() {
     let counters = target.join().expect("the target");
     assert_eq!(
         (counters.accepted, counters.repeated, counters.corrupt),
-        // Hello, 100 steps, a model, 100 samples in groups of eight, a reading.
+        // The requests are hello, 100 steps, a model, 100 samples in groups of eight, and a reading.
         (1 + 100 + 1 + 13 + 1, 1, 0)
     );
 }

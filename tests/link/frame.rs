@@ -1,4 +1,4 @@
-//! Frames: decoded content, refusals, and resynchronisation at a zero byte.
+//! Tests of frames: decoded content, refusals, and resynchronisation at a zero byte.
 
 use dashpot::signed_image::crc_32;
 use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
@@ -35,7 +35,7 @@ fn step(tick: u32) -> (Header, Request<'static>) {
     )
 }
 
-/// COBS by its definition (Cheshire and Baker 1999): each code byte is the distance to the next.
+/// Decodes COBS by its definition (Cheshire and Baker 1999): each code byte is the distance to the next.
 fn cobs_decoded(bytes: &[u8]) -> Vec<u8> {
     let (mut decoded, mut position) = (Vec::new(), 0);
     while position < bytes.len() {

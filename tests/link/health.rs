@@ -1,4 +1,5 @@
-//! Health over the link: a model loaded whole or not at all, samples sent, and the reading of the desk's own estimator.
+//! Health over the link: a model is loaded completely or not at all, samples are sent, and the reading equals that of
+//! an estimator on this machine.
 
 use dashpot::damper;
 use dashpot::signed_image::crc_32;
@@ -57,7 +58,7 @@ fn a_measured_damper_has_the_reading_of_the_desk() {
     let rest = bench.states();
     let mut samples = samples(&bench, 6000);
     samples[1000].0 = f32::NAN;
-    // Batches of every size.
+    // The samples are sent in batches of every size.
     let (mut rest_of_them, mut size) = (&samples[..], 1);
     while !rest_of_them.is_empty() {
         let (batch, rest) = rest_of_them.split_at(size.min(rest_of_them.len()));
@@ -78,7 +79,7 @@ fn a_measured_damper_has_the_reading_of_the_desk() {
     );
     assert_eq!(found.rejected, 1);
     assert_eq!(bench.states(), rest, "no damper was stepped");
-    // The answer contains what was cleared.
+    // The answer contains the status that was cleared.
     let cleared = reading(&mut bench, &Request::ClearHealth { damper: 1 });
     assert_eq!(cleared, expected);
     let after = reading(&mut bench, &ask);
@@ -154,7 +155,7 @@ fn a_damaged_model_is_refused_and_the_estimate_continues() {
         (&signed(0, 7), HealthImageError::Magic),
         (&signed(4, 99), HealthImageError::Version(99)),
         (&flipped, HealthImageError::Checksum),
-        // The mark, half the step, the ticks of a block.
+        // These change the mark, half the step, and the number of ticks in a block.
         (&signed(8, 0), HealthImageError::Values),
         (&signed(12, f32::NAN.to_bits()), HealthImageError::Values),
         (&signed(12, 0), HealthImageError::Values),
@@ -175,7 +176,7 @@ fn a_damaged_model_is_refused_and_the_estimate_continues() {
     assert_eq!(reading(&mut bench, &Request::Health { damper: 1 }), fresh);
 }
 
-/// Ticks do not depend on a load in progress, and a firmware's own sensors feed the same estimate.
+/// A load in progress does not change the ticks, and a firmware's own sensors feed the same estimate.
 #[test]
 fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
     let mut bench = Bench::open();
@@ -222,7 +223,7 @@ fn a_model_is_loaded_between_ticks_and_fed_by_the_board() {
     assert_eq!(found, expected.reading(&model));
 }
 
-/// A device may watch only some slots, or none; a model for another slot is refused before anything is loaded.
+/// A device may watch only some slots, or none; it refuses a model for another slot before it loads anything.
 #[test]
 fn unwatched_slots_take_no_model() {
     let bench = Bench::new();

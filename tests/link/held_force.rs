@@ -1,5 +1,5 @@
-//! After damage the outputs held the force of the tick before the damage was found. Damaged memory had produced it for
-//! up to ten seconds, so it was up to 37.9 kN wrong.
+//! Fixed bug: after damage, the outputs held the force of the tick before the damage was found. By then, damaged memory
+//! had produced forces for up to ten seconds, so the held force was wrong by up to 37.9 kN.
 
 use dashpot_core::integrity::SLICES;
 use dashpot_core::link::{LossOfLink, Request, SafeOutput};
@@ -49,7 +49,7 @@ impl Moving {
 #[test]
 fn constants_found_damaged_hold_a_force_from_before_the_damage() {
     let mut moving = Moving::new();
-    // A round of either damper.
+    // Waits until both dampers have been checked for a round.
     while moving.tick < 2 * SLICES + 100 {
         moving.tick();
     }
@@ -64,7 +64,7 @@ fn constants_found_damaged_hold_a_force_from_before_the_damage() {
         moving.tick();
         assert!(moving.tick < 6 * SLICES, "not found");
     }
-    // The round that began at the first tick found them sound, the one at 2 SLICES + 1 did not.
+    // The check round that began at the first tick found no damage; the one that began at 2 SLICES + 1 did.
     let held = moving.bench.device.outputs_n()[0];
     let sound = moving.forces_n[1];
     assert_eq!(held, sound);

@@ -1,4 +1,4 @@
-//! Loading a damper over the link: whole or not at all, in slices, while the others step.
+//! A damper is loaded over the link completely or not at all, in slices, while the others step.
 
 use dashpot::damper;
 use dashpot_core::link::{PROTOCOL, Parameter, Refusal, Request, Response, request_frame};
@@ -66,8 +66,8 @@ fn a_loaded_damper_and_a_set_clearance_continue_with_the_cores_bits() {
     }
 }
 
-/// Ticks and their forces do not depend on a load in progress. Bytes that arrive meanwhile are dropped and reported as
-/// broken.
+/// A load in progress does not change the ticks and their forces. Bytes that arrive during the load are dropped and
+/// reported as a broken frame.
 #[test]
 fn a_load_continues_in_slices_between_the_ticks() {
     let mut bench = Bench::open();

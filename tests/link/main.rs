@@ -1,4 +1,4 @@
-//! The link: frames, the device, and the document that describes them.
+//! Tests of the link: frames, the device, and the document that describes them.
 
 mod common;
 mod damage;

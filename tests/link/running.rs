@@ -23,7 +23,7 @@ fn a_lost_link_ends_in_the_safe_output_until_run() {
             output,
         };
         bench.done(&Request::LossOfLink(configuration));
-        bench.device.tick(3); // the host steps: no time passes
+        bench.device.tick(3); // while the host steps, no time passes
         assert_eq!(bench.states().0, 0);
         let run = Request::Run {
             displacements_m: reals([0.0; 2]),
@@ -111,8 +111,8 @@ fn telemetry_has_the_last_ticks_of_every_damper() {
         let x = tick as f32 / 65_536.0;
         forces.push(bench.step(tick, [-x, x]).forces().forces_n);
     }
-    // A ring of 64 samples; displacements on the step's grid are used unchanged. Reading one damper's samples leaves
-    // the other's.
+    // The ring has 64 samples; displacements on the step's grid are used unchanged. Reading one damper's samples does
+    // not remove the other's.
     for (slot, sign, first) in [(1, 1.0, 7), (0, -1.0, 7), (1, 1.0, 15)] {
         let (overwritten, samples) = bench.telemetry(slot);
         assert_eq!((overwritten, samples.len()), (6, 8));

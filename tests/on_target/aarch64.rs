@@ -1,4 +1,4 @@
-//! Force bits on a 64-bit Arm processor, where a bank uses another vector path than on x86-64.
+//! Force bits on a 64-bit Arm processor, where a bank uses other vector instructions than on x86-64.
 
 use std::process::Command;
 

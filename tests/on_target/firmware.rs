@@ -1,4 +1,5 @@
-//! The firmware under QEMU: it has the host's bits through every fault, and the cost of a tick is within its budget.
+//! Tests of the firmware under QEMU: its forces have the host's bits through every fault, and the cost of a tick is
+//! within its budget.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -25,7 +26,7 @@ const FIRMWARE: &str = "docs/firmware.md";
 const BUDGET_1_KHZ: f64 = 0.03 * 400e6 / 1e3;
 /// Maximum instructions of a slice of a load, as stated in docs/link.md.
 const MAX_SLICE: f64 = 2433.0;
-/// 25 % at 10 kHz.
+/// The same for 25 % at 10 kHz.
 const BUDGET_10_KHZ: f64 = 0.25 * 400e6 / 10e3;
 
 fn run(rates: &str, resets: &'static [u32], ticks: usize) -> Option<Report> {
@@ -60,7 +61,7 @@ fn the_target_has_the_hosts_bits() {
 #[test]
 fn the_target_has_the_hosts_bits_through_every_fault() {
     let faults = "drop=0.01,corrupt=0.02,delay=0.01,duplicate=0.02,reorder=0.01";
-    // During the steps, during the reload after that, and late in the run.
+    // The resets occur during the steps, during the reload that follows, and late in the run.
     let Some(report) = run(faults, &[300, 310, 500], 600) else {
         return;
     };
@@ -77,7 +78,7 @@ fn dampers_that_are_stepped_one_tick_at_a_time_have_the_hosts_bits() {
     let Some(images) = images() else {
         return;
     };
-    // Reset during the steps: two dampers outside a vehicle continue as before.
+    // After a reset during the steps, two dampers outside a vehicle continue as before.
     let link = InTurn::start(&images.join("dashpot-firmware"), &[150], None);
     let session = Session::open(Client::new(link, RETRY_LIMITS, 4)).unwrap();
     let dampers: [Damper<f32>; 2] =
@@ -111,14 +112,14 @@ fn the_free_running_target_loses_the_link_and_outputs_zero() {
             output: SafeOutput::RampToZero { ticks: 10 },
         })
     };
-    // The link holds for now, however slow this host is.
+    // With this limit the link is not lost, however slow this host is.
     client.request(&lose_after(u32::MAX)).unwrap();
     let all = |x: f32| -> Reals { (0..12).map(|_| x).collect() };
     let run = Request::Run {
         displacements_m: all(0.0),
     };
     client.request(&run).unwrap();
-    // Moved back and forth at every answer, so that forces occur; the tick is the target's own.
+    // The dampers move back and forth with every answer, so that forces occur; the target counts its own ticks.
     let (mut tick, mut x, mut moved) = (0, 0.0, false);
     for answer in 0..MAX_ANSWERS {
         if tick >= 100 && moved {
@@ -208,11 +209,11 @@ fn a_tick_with_everything_the_link_takes_keeps_the_budget() {
     let share = |frequency_hz: f64| 100.0 * most * frequency_hz / 400e6;
     let cost = format!(
         "| {compiler} | |\n|---|---|\n| instructions, mean | {mean:.0} |\n| instructions, most | {most:.0} |\n\
-         | instructions where the input of every damper is limited | {limited:.0} |\n\
+         | instructions if the input of every damper is limited | {limited:.0} |\n\
          | share at 1 kHz, at 10 kHz | {:.1} %, {:.0} % |\n| bytes in, out | {bytes_in:.0}, {bytes_out:.0} |\n\
-         | a slice of loading a model of health, the most | {slice:.0} |\n\
-         | a request of 8 measured samples, the most | {measure:.0} |\n\
-         | a request for a reading of health, the most | {reading:.0} |\n",
+         | largest slice of loading a health model | {slice:.0} |\n\
+         | a request with 8 measured samples, maximum | {measure:.0} |\n\
+         | a request for a health reading, maximum | {reading:.0} |\n",
         share(1e3),
         share(1e4),
     );
@@ -239,7 +240,7 @@ fn memory(device_bytes: &serde_json::Value, watching: &serde_json::Value) -> Str
     table
 }
 
-/// The memory map provides exactly the documented memory; the other tests here ran in it.
+/// The memory map provides exactly the documented memory; the other tests of this file run in it.
 #[test]
 fn the_map_has_exactly_the_documented_memory() {
     let kilobytes = |region: &str| -> u32 {

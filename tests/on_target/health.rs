@@ -1,4 +1,5 @@
-//! The health estimator on an emulated Cortex-M7: it has the bits of this machine, and no tick exceeds its bound.
+//! Tests of the health estimator on an emulated Cortex-M7: its results have the bits of this machine, and no tick
+//! exceeds its bound.
 
 use std::io::Write;
 
@@ -25,7 +26,7 @@ const MAX_INSTRUCTIONS: f64 = 270.0;
 /// Maximum for `dashpot_health_tick`, which checks its pointers first; dashpot.h states it.
 const MAX_INSTRUCTIONS_IN_C: f64 = 300.0;
 
-/// Displacement and force of a damper over the ride forwards and backwards, with noise of 2 %, and values that no
+/// Displacement and force of a damper while the ride runs forwards and backwards, with noise of 2 %, and values that no
 /// sensor should deliver.
 fn samples(preset: &str) -> Vec<[u8; 8]> {
     let damper: Damper<f64> = damper(preset, &[]).build(1e-3).unwrap();
@@ -40,7 +41,7 @@ fn samples(preset: &str) -> Vec<[u8; 8]> {
     forces[16_000] = f64::INFINITY;
     forces[17_000] = 1e9;
     motion[18_000] += 1.0;
-    // Contradictory values until the estimate restarts.
+    // These values contradict each other, until the estimate restarts.
     (20_000..20_400).for_each(|tick| {
         motion[tick] = 1.5e-3 * (tick - 20_000) as f64;
         forces[tick] = 1500.0;
@@ -104,7 +105,9 @@ fn a_tick_keeps_its_bound_and_the_bits_of_this_machine() {
         table += &format!("| `{preset}` | {mean:.0} | {most:.0} | {c_most:.0} |\n");
         if preset == "reduced-lateral" {
             let (model, health) = (number("model_bytes"), number("health_bytes"));
-            table += &format!("\nBytes of the constants {model}, of what changes {health}.\n");
+            table += &format!(
+                "\nThe constants take {model} bytes, the changing state {health} bytes.\n"
+            );
         }
     }
     let compiler = TargetToolchain::find(CORTEX_M7.target).and_then(|found| found.version());

@@ -1,4 +1,4 @@
-//! Tests on emulated processors: the step, the firmware, its outputs.
+//! Tests on emulated processors: the step, the firmware and its outputs.
 
 mod aarch64;
 mod firmware;

@@ -1,5 +1,5 @@
-//! No panic can be reached from the functions that firmware calls in a tick, according to the relocations of a `no_std`
-//! release build.
+//! The functions that firmware calls in a tick cannot reach a panic, according to the relocations of a `no_std` release
+//! build.
 
 use std::collections::{BTreeSet, HashMap};
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Runs cargo; its failures fail the test.
+/// Runs cargo; fails the test if cargo fails.
 fn cargo(arguments: &[&str], variables: &[(&str, &str)]) {
     let output = Command::new(env!("CARGO"))
         .args(arguments)
@@ -28,7 +28,7 @@ fn cargo(arguments: &[&str], variables: &[(&str, &str)]) {
     );
 }
 
-/// Symbols referred to by the code of each symbol.
+/// For each symbol, the symbols to which its code refers.
 struct References(HashMap<String, BTreeSet<String>>);
 
 impl References {
@@ -42,7 +42,7 @@ impl References {
             let Ok(file) = object::File::parse(member.data(&*data).expect("its bytes")) else {
                 continue; // metadata, not code
             };
-            // Sections are nodes too, so that reading them through a section symbol counts.
+            // Sections are nodes too, so that references through a section symbol count.
             let section_name = |index: usize| format!("section {number}.{index}");
             for section in file.sections() {
                 let targets = references

@@ -1,5 +1,5 @@
-//! The forces that the firmware's second UART sends to the actuators: forces while the tick runs free, the safe output
-//! after a loss of the link, zeros after a fault.
+//! The outputs that the firmware's second UART sends to the actuators: forces while the tick runs freely, the safe
+//! output after a loss of the link, and zeros after a fault.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ const DAMPERS: usize = 12;
 
 type Forces = [f32; DAMPERS];
 
-/// The packets in a file, without repetitions: `ff ff ff ff`, then the forces, as documented in docs/link.md. The last
-/// packet may be incomplete.
+/// Reads the packets in a file and drops repetitions. A packet is `ff ff ff ff`, then the forces, as documented in
+/// docs/link.md. The last packet may be incomplete.
 fn packets(file: &Path) -> Vec<Forces> {
     let bytes = std::fs::read(file).expect("the outputs");
     let mut packets: Vec<Forces> = Vec::new();
@@ -32,8 +32,8 @@ fn packets(file: &Path) -> Vec<Forces> {
     packets
 }
 
-/// Runs free under force, then sends only queries until the link is lost and the safe output has long ended. Returns
-/// the packets, and the outputs reported by the target.
+/// Lets the target run freely under force, then sends only queries until the link is lost and the safe output has long
+/// ended. Returns the packets, and the outputs that the target reports.
 fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
     let images = images()?;
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -53,7 +53,7 @@ fn lose_the_link(output: SafeOutput) -> Option<(Vec<Forces>, Reals)> {
             _ => (0, Vec::new()),
         }
     };
-    // The link holds for now, however slow this host is.
+    // With this limit the link is not lost, however slow this host is.
     let lose_after = |after_ticks, output| {
         Request::LossOfLink(LossOfLink {
             after_ticks,
@@ -132,7 +132,7 @@ fn zeros_come_out_after_a_fault() {
     let file = folder.path().join("outputs.bin");
     let emulator = Qemu::start_with_outputs(&images.join("fault"), Some(&file));
     let emulator = emulator.expect("the emulator starts");
-    // The image ends in a loop; sending the last packet takes a few thousand instructions before that.
+    // The image ends in a loop; before that, it takes a few thousand instructions to send the last packet.
     let zero = |packets: &[Forces]| packets.last() == Some(&[0.0; DAMPERS]);
     let came = (0..MAX_ANSWERS).any(|_| {
         std::thread::yield_now();

@@ -1,8 +1,8 @@
-//! The core on emulated processors: instructions of a step, stack, bytes and force bits, each figure within its row of
-//! `tests/support/target_budget.csv`.
+//! Measures the core on emulated processors: instructions of a step, stack, bytes and force bits. Each figure must be
+//! within its row of `tests/support/target_budget.csv`.
 //!
-//! `cargo xtask target` prints these measurements; `DASHPOT_TARGET_REPORT` names a file for them as JSON. With
-//! `DASHPOT_BLESS=1` the limits and the tables of the documents are updated to the measurements.
+//! `cargo xtask target` prints these measurements; `DASHPOT_TARGET_REPORT` names a JSON file for them. With
+//! `DASHPOT_BLESS=1`, the test updates the limits and the tables of the documents to the measurements.
 
 use std::fmt::Write;
 
@@ -31,12 +31,12 @@ struct Column {
     name: &'static str,
     toolchain: TargetToolchain,
     processor: Processor,
-    /// Fraction of all steps.
+    /// Fraction of the steps that is run.
     share: f64,
 }
 
-/// The columns that this machine can measure: those of the compiler found first, and the Cortex-M7 with a
-/// distribution's compiler if that is another one.
+/// The columns that this machine can measure: those of the first choice of compiler, and the Cortex-M7 with a
+/// distribution's compiler if that is a different compiler.
 fn columns() -> Vec<Column> {
     let mut columns = Vec::new();
     for (processor, share) in [(CORTEX_M7, 1.0), (CORTEX_M4F, 0.1), (CORTEX_M33, 0.1)] {
@@ -152,7 +152,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
         return;
     }
     let columns = columns();
-    // One after the other, because each is a build and an emulator that occupies a core.
+    // The columns are measured one after the other, because each needs a build and an emulator that occupies a core.
     let measured: Vec<(&Column, Figures)> = columns
         .iter()
         .map(|column| (column, measure(column)))
@@ -190,7 +190,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
 /// Rows of the documents' tables: title and figures.
 const ROWS: [(&str, &[&str]); 23] = [
     (
-        "instructions of a step: least, mean, most over four excitations",
+        "instructions of a step: minimum, mean, maximum over four excitations",
         &[
             "physical_least_instructions",
             "physical_mean_instructions",
@@ -206,7 +206,7 @@ const ROWS: [(&str, &[&str]); 23] = [
         &["physical_held_input_instructions"],
     ),
     (
-        "step whose input is limited to the largest rate",
+        "step whose input is limited to the maximum rate",
         &["physical_limited_input_instructions"],
     ),
     (
@@ -223,7 +223,7 @@ const ROWS: [(&str, &[&str]); 23] = [
     ),
     ("bank of 12 in one call", &["bank_most_instructions"]),
     (
-        "a slice of loading a damper, the most",
+        "largest slice of loading a damper",
         &["load_slice_instructions"],
     ),
     ("C: `dashpot_step`", &["c_step_instructions"]),
@@ -237,11 +237,11 @@ const ROWS: [(&str, &[&str]); 23] = [
     ),
     ("C: `dashpot_damper_init`", &["c_damper_init_instructions"]),
     (
-        "C: `dashpot_check_slice`, the most of a round",
+        "C: `dashpot_check_slice`, maximum over a round",
         &["c_check_slice_instructions"],
     ),
     (
-        "portable C: least and most of a step",
+        "portable C: minimum and maximum of a step",
         &[
             "standalone_least_instructions",
             "standalone_most_instructions",
@@ -257,11 +257,11 @@ const ROWS: [(&str, &[&str]); 23] = [
         ],
     ),
     (
-        "portable C: a step over the core's, %",
+        "portable C: a step divided by the core's, %",
         &["standalone_percent_of_the_core"],
     ),
     (
-        "stack of a step, the unusual ones included, bytes",
+        "stack of a step, including the unusual ones above, bytes",
         &["stack_bytes"],
     ),
     (
@@ -269,7 +269,7 @@ const ROWS: [(&str, &[&str]); 23] = [
         &["code_and_constant_bytes"],
     ),
     (
-        "what its functions of health add, bytes",
+        "what its health functions add, bytes",
         &["health_code_and_constant_bytes"],
     ),
     ("damper, bytes", &["damper_bytes"]),

@@ -1,6 +1,6 @@
-//! A state was put at rest at any finite displacement, and the step then followed at the maximum rate. After a first
-//! sample of 1 m, a motion of 10 mm met up to 50 kN for half a second; after one of 1e6 m there was never a force
-//! again.
+//! Fixed bug: a state could be put at rest at any finite displacement, from which the step then moved to the next one
+//! at the maximum rate. After a first sample of 1 m, a motion of 10 mm met up to 50 kN for half a second; after a first
+//! sample of 1e6 m, there was never a force again.
 
 use dashpot::damper;
 use dashpot_core::{Damper, Status};
@@ -36,7 +36,7 @@ fn a_displacement_out_of_range_is_held_however_it_comes() {
         .build(1e-3)
         .expect("a preset");
     let mut state = damper.at_rest(0.0);
-    // Passes the end of the range at 0.5 m/s.
+    // The motion passes the end of the range at 0.5 m/s.
     for tick in 1..=400 {
         damper.step(&mut state, 0.5e-3 * tick as f32);
     }
@@ -66,7 +66,7 @@ fn a_jump_too_far_to_catch_up_with_ends_at_rest_there() {
     let after = damper.step(&mut glitch, 0.0202);
     assert!((after - before).abs() < 0.3 * before, "{after} N");
     assert!(!glitch.status().contains(Status::RESTARTED));
-    // The input stays there.
+    // Now the input stays 60 mm away.
     let mut ticks = 0;
     while !state.status().contains(Status::RESTARTED) {
         let last = state.force_n();

@@ -1,4 +1,4 @@
-//! A constant damaged in memory produced a force up to infinity without an error.
+//! Fixed bug: a constant that was damaged in memory produced a force of any size, up to infinity, without an error.
 
 use dashpot::damper;
 use dashpot::memory::bytes;

@@ -1,4 +1,4 @@
-//! Bugs whose tests need the support of another test binary, with the location of each test.
+//! Fixed bugs whose tests need the support code of another test binary, with the location of each test.
 
 use dashpot::document::read;
 

@@ -1,5 +1,5 @@
-//! One flipped bit of a running state's stretch or displacement left NaN or 1e35 m behind, and therefore a permanent
-//! force of -0 or -100 N without a status bit.
+//! Fixed bug: one flipped bit in a running state's stretch or displacement left NaN or 1e35 m there, and the force then
+//! stayed at -0 or -100 N without a status bit.
 
 use dashpot::damper;
 use dashpot::memory::bytes;

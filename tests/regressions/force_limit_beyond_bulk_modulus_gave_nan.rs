@@ -1,5 +1,5 @@
-//! A force limit above bulk modulus times area gave the oil a negative density, and the damper was built with NaN in
-//! its table: it returned 0 N, or jumped to the limit.
+//! Fixed bug: a force limit above bulk modulus times area gave the oil a negative density, and the damper was built
+//! with NaN in its table. It returned 0 N or jumped to the limit.
 
 use dashpot::damper;
 use dashpot::documented_damper::{changed_damper, documented_damper};
@@ -65,7 +65,7 @@ fn up_to_the_bound_forces_are_correct() {
     }
 }
 
-/// With two chambers the piston side, whose force acts on the rod's area, has the higher pressure.
+/// With two chambers, the piston side has the higher pressure; the force acts only on the rod's area there.
 #[test]
 fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
     let mut parameters = with_limit("in-service", &[], 1e6);
@@ -74,7 +74,7 @@ fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
         panic!("a preset with oil");
     };
     hydraulics.two_chamber = Some(TwoChamber::new(-9e4));
-    // With a closed foot valve the whole force acts on the rod's area.
+    // With a closed foot valve, the whole force acts on the rod's area.
     hydraulics.valves.foot_compression.edge_compliance_m_per_pa = Some(0.0);
     let bound = |checked: Result<CheckedParameters, BuildError>| checked.err()?.bound;
     let bounds = [lumped, parameters.check()].map(bound);
@@ -84,8 +84,8 @@ fn two_chambers_are_bounded_by_the_piston_sides_pressure() {
     assert_finite(&parameters.check().expect("at the bound"), 1e-3);
 }
 
-/// Every damper within the documented ranges is refused or has a table of finite numbers; climbing to the largest
-/// coefficients finds no exception.
+/// Every damper within the documented ranges is refused or has a table of finite numbers. A search that climbs towards
+/// the largest coefficients finds no exception.
 #[test]
 fn no_documented_damper_has_non_finite_constants() {
     let mut random = Random(26);
@@ -107,7 +107,8 @@ fn no_documented_damper_has_non_finite_constants() {
     }
 }
 
-/// A relief valve that opens where vapour ceases: rounding alone separates the two corners, which also produced NaN.
+/// A relief valve opens exactly where boiling ends, so that only rounding separates the two corners. This also produced
+/// NaN.
 #[test]
 fn corners_that_coincide_are_one() {
     let mut parameters = damper("in-service", &["two_chamber.vapour_pressure_pa=-16714.7"]);
@@ -146,7 +147,7 @@ fn assert_finite(checked: &CheckedParameters, step_s: f64) -> bool {
     single.is_ok()
 }
 
-/// Revisions are words too, but meaningless as `f32` values.
+/// True if all words are finite, except the revisions, which are meaningless as `f32` values.
 fn is_finite(words: &[f32]) -> bool {
     words
         .iter()
@@ -154,7 +155,7 @@ fn is_finite(words: &[f32]) -> bool {
         .all(|(word, number)| number.is_finite() || (11..13).contains(&word))
 }
 
-/// Largest value of the table (1), the first one to overflow.
+/// Largest value of the table (1), which would overflow first.
 fn largest(checked: &CheckedParameters) -> f64 {
     let damper: Damper<f64> = checked.build(1e-6).expect("just built");
     let words = damper.to_words();

@@ -1,4 +1,4 @@
-//! A frame with COBS codes that point beyond its end was read out of bounds and panicked.
+//! Fixed bug: a frame with COBS codes that point beyond its end was read out of bounds, which panicked.
 
 use dashpot_core::link::{Frame, FrameReader};
 
@@ -16,7 +16,7 @@ fn after_every_short_frame_the_next_is_read() {
             .chain(good.bytes())
             .filter_map(ends)
             .collect();
-        // Zeros are an empty message with its CRC-32.
+        // This frame decodes to zeros: an empty message with its CRC-32.
         let empty = frame == [1; 5];
         assert_eq!(read, [empty, true], "{frame:x?}");
     };

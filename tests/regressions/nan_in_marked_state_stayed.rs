@@ -1,4 +1,5 @@
-//! If a value of a stepped state was damaged to NaN, every later force was NaN, because mark and revision were valid.
+//! Fixed bug: if damage made a value of a stepped state NaN, every later force was NaN, because mark and revision were
+//! still valid.
 
 use dashpot::damper;
 use dashpot::memory::bytes;

@@ -1,4 +1,4 @@
-//! A NaN that damage put into a state persisted, with a sign that differed between processors, so saved states
+//! Fixed bug: a NaN that damage put into a state persisted. Its sign differed between processors, so saved states
 //! differed.
 
 use dashpot::damper;

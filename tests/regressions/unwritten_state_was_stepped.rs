@@ -1,4 +1,4 @@
-//! Uninitialised memory was stepped as if it were a state.
+//! Fixed bug: uninitialised memory was stepped as if it were a state.
 
 use dashpot::damper;
 use dashpot::memory::bytes;

@@ -1,4 +1,5 @@
-//! The drawing of docs/architecture.md matches the manifests and folders; the table names every folder.
+//! Checks that the drawing of docs/architecture.md matches the manifests and folders, and that its table names every
+//! folder.
 //! `DASHPOT_BLESS=1 cargo test -p dashpot --test repository architecture` updates the drawing.
 
 use std::collections::BTreeSet;
@@ -28,7 +29,7 @@ const WITH_FOLDERS: [&str; 12] = [
     "hil-host",
 ];
 
-/// Returns the top folders of a crate's sources.
+/// Returns the top-level folders of a crate's sources.
 fn folders_of(package: &str) -> Vec<String> {
     let sources = in_repository(package).join("src");
     let mut names: Vec<String> = fs::read_dir(sources)
@@ -63,7 +64,7 @@ fn drawing() -> String {
             arrows.insert((node(folder), arrow, node(&folder_of(Some(path)))));
         }
     }
-    // A dashed arrow for tests adds nothing to a solid one.
+    // A dashed arrow for tests is left out if there is a solid one.
     let solid: BTreeSet<_> = arrows
         .iter()
         .filter(|(_, arrow, _)| *arrow == "-->")

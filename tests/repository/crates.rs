@@ -1,4 +1,4 @@
-//! Rules about whole crates: the order in which they may depend on one another, and their sizes.
+//! Rules about whole crates: the order in which they may depend on one another, and their maximum sizes.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use dashpot::document::in_repository;
 use crate::files::{line_count, rust_files};
 use crate::workspaces::{WORKSPACES, folder_of, packages};
 
-/// Every crate by folder, from the bottom up. A crate may use those listed before it. Tests may use any.
+/// Folders of all crates, from the bottom up. A crate may use only those listed before it; tests may use any.
 const ORDER: [&str; 24] = [
     "xtask",
     "core",
@@ -37,13 +37,13 @@ const ORDER: [&str; 24] = [
     "fuzz",
 ];
 
-/// The only crate that knows a command line.
+/// The only crate that may handle a command line.
 const COMMAND: &str = "hil-host";
 
 /// Largest share of one crate in all lines under `src/`.
 const MAX_SHARE: f64 = 0.2;
 
-/// Folders of our packages that a package depends on when it is built.
+/// Folders of our packages on which a package depends when it is built.
 fn own_dependencies(package: &Package) -> impl Iterator<Item = String> {
     let built = package
         .dependencies

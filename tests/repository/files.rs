@@ -1,4 +1,4 @@
-//! Rust files of the repository.
+//! Rules about the Rust files of the repository.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use dashpot::document::in_repository;
 
-/// Columns of a line.
+/// Maximum columns of a line.
 const MAX_COLUMNS: usize = 120;
 
 /// Returns the Rust files of a folder and its subfolders; empty if the folder does not exist.
@@ -28,7 +28,7 @@ pub fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// True for hidden folders and the folders of build output, in which cargo puts a tag.
+/// True for hidden folders and for folders of build output, which cargo marks with a tag file.
 fn is_skipped(path: &Path, name: &str) -> bool {
     name.starts_with('.')
         || path.join("CACHEDIR.TAG").exists()
@@ -45,7 +45,7 @@ pub fn read(file: &Path) -> String {
     fs::read_to_string(file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
 }
 
-/// Numbers of the lines, from 1, that begin inside a string: they are text, which a break would change.
+/// Numbers, from 1, of the lines that begin inside a string: a line break would change their text.
 fn lines_inside_strings(text: &str) -> BTreeSet<usize> {
     let bytes = text.as_bytes();
     let (mut inside, mut line, mut at) = (BTreeSet::new(), 1, 0);
@@ -93,7 +93,7 @@ fn lines_inside_strings(text: &str) -> BTreeSet<usize> {
     inside
 }
 
-/// Bytes before `end`; all when there is none.
+/// Number of bytes before `end`, or of all bytes without it.
 fn length_to(bytes: &[u8], end: &[u8]) -> usize {
     let found = bytes.windows(end.len()).position(|window| window == end);
     found.unwrap_or(bytes.len())
@@ -106,7 +106,7 @@ fn lines_inside_strings_are_found() {
     assert_eq!(lines_inside_strings(text), BTreeSet::from([2, 5]));
 }
 
-/// rustfmt does not break comments and strings.
+/// rustfmt does not break comments and strings, so this test checks them.
 #[test]
 fn no_line_is_too_long() {
     let files = rust_files(&in_repository(""));
@@ -118,7 +118,7 @@ fn no_line_is_too_long() {
     let mut long = Vec::new();
     for file in files {
         let text = read(&file);
-        // A generated file has the lines of its generator.
+        // The lines of a generated file are those that its generator writes.
         if text
             .lines()
             .take(10)

@@ -1,4 +1,4 @@
-//! The seeds in `fuzz/seeds/`. They are valid input, so that fuzzing reaches the code behind the checks.
+//! Checks the seeds in `fuzz/seeds/`. They are valid input, so that fuzzing reaches the code behind the checks.
 //! `DASHPOT_BLESS=1 cargo test -p dashpot --test repository fuzz_seeds` writes them.
 
 use std::collections::BTreeSet;
@@ -58,7 +58,7 @@ fn damper_files_are_the_presets() {
     compare("damper_file", shipped(&PRESETS));
 }
 
-/// The shipped ones have no ride points.
+/// One more seed is needed because the shipped files have no ride points.
 #[test]
 fn vehicle_files_are_the_shipped_ones_and_one_with_a_ride_point() {
     let ride_points = include_str!("vehicle.toml");
@@ -69,7 +69,7 @@ fn vehicle_files_are_the_shipped_ones_and_one_with_a_ride_point() {
     compare("vehicle_file", seeds);
 }
 
-/// The shipped ones have no defects and no German spectrum.
+/// One more seed is needed because the shipped files have no defects and no German spectrum.
 #[test]
 fn track_files_are_the_shipped_ones_and_one_with_all_keys() {
     let every_key = include_str!("track.toml");
@@ -80,7 +80,7 @@ fn track_files_are_the_shipped_ones_and_one_with_all_keys() {
     compare("track_file", seeds);
 }
 
-/// The shipped ones have no faults.
+/// One more seed is needed because the shipped files have no faults.
 #[test]
 fn case_files_are_the_shipped_ones_and_one_with_all_keys() {
     let every_key = include_str!("case.toml");
@@ -91,7 +91,7 @@ fn case_files_are_the_shipped_ones_and_one_with_all_keys() {
     compare("case_file", seeds);
 }
 
-/// The shipped one has not every index.
+/// One more seed is needed because the shipped file does not have every index.
 #[test]
 fn sheet_files_are_the_shipped_one_and_one_with_all_keys() {
     let every_key = include_str!("sheet.toml");
@@ -102,7 +102,7 @@ fn sheet_files_are_the_shipped_one_and_one_with_all_keys() {
     compare("sheet_file", seeds);
 }
 
-/// The shipped ones have neither equal ratios nor a vehicle of their own.
+/// One more seed is needed because the shipped files have neither equal ratios nor a vehicle of their own.
 #[test]
 fn study_files_are_the_shipped_ones_and_one_with_all_keys() {
     let every_key = include_str!("study.toml");
@@ -113,7 +113,7 @@ fn study_files_are_the_shipped_ones_and_one_with_all_keys() {
     compare("study_file", seeds);
 }
 
-/// Rows computed with and without fused multiply-add, and one without an index.
+/// The seeds are rows computed with and without fused multiply-add, and one row without an index.
 #[test]
 fn study_rows_are_of_a_shipped_study() {
     let parameters = StudyParameters::load("hunting").expect("a shipped study");
@@ -160,7 +160,8 @@ fn images_are_of_dampers_in_both_precisions() {
     );
 }
 
-/// Each session has one request for two dampers at rest. Requests about health come after their model is loaded.
+/// Each seed is a session with one request to two dampers at rest. For a request about health, it first loads the
+/// model.
 #[test]
 fn frames_are_of_every_request() {
     let built: Damper<f32> = damper("reduced-vertical", &[])
@@ -190,7 +191,7 @@ fn frames_are_of_every_request() {
         let text = format!("{request:?}");
         let name = text.chars().take_while(char::is_ascii_alphabetic);
         let name: String = name.collect();
-        // Requests earlier in the session.
+        // These requests come first in the session.
         let earlier = match request {
             Request::Hello { .. } => vec![],
             Request::Measure { .. } | Request::Health { .. } | Request::ClearHealth { .. } => {

@@ -1,4 +1,4 @@
-//! Licences of all dependencies allow our own, MIT or Apache-2.0.
+//! Checks that the licences of all dependencies are compatible with our own, MIT or Apache-2.0.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,7 +8,7 @@ use spdx::{Expression, ParseMode};
 
 use crate::workspaces::{WORKSPACES, packages};
 
-/// Licences that require no more than ours: to keep their text.
+/// Licences that require no more than ours does: that their text is kept.
 const ALLOWED: [&str; 7] = [
     "Apache-2.0",
     "BSD-2-Clause",
@@ -29,7 +29,7 @@ const EXCEPTIONS: [(&str, &str, &str); 6] = [
     (
         "cbindgen",
         "MPL-2.0",
-        "generates the C header; part of no product",
+        "generates the C header; not part of any product",
     ),
     (
         "tiny-keccak",
@@ -78,13 +78,13 @@ fn every_package_may_be_used_under_our_licences() {
         }
     }
     let listed = EXCEPTIONS.iter().map(|(package, ..)| package).collect();
-    assert_eq!(excepted, listed, "exceptions that nothing needs");
+    assert_eq!(excepted, listed, "exceptions that are not needed");
 }
 
 /// Third-party code in the repository: folder, package, licence.
 const VENDORED: [(&str, &str, &str); 1] = [("report/src/page/uplot", "uplot", "MIT")];
 
-/// The folder has the licence, and its README names package and licence.
+/// The folder contains the licence, and its README names the package and the licence.
 #[test]
 fn vendored_code_keeps_its_licence() {
     for (folder, package, licence) in VENDORED {

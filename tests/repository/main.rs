@@ -1,4 +1,5 @@
-//! Rules that the repository as a whole keeps: crates, modules, drawing, licences, packages, seeds of the fuzz targets.
+//! Rules for the repository as a whole: crates, modules, the architecture drawing, licences, packages, and seeds of the
+//! fuzz targets.
 
 mod architecture;
 mod crates;

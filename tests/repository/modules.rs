@@ -1,4 +1,5 @@
-//! No circle between modules: of the files and folders in one folder, none leads back to itself by its imports.
+//! Modules must not import one another in a cycle: no file or folder leads back to itself through the imports of the
+//! files and folders beside it.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +15,8 @@ struct Siblings<'a> {
     imports: BTreeMap<(&'a str, &'a str), &'a Import>,
 }
 
-/// Sorts imports by the closest common parent of both modules. An import between a module and one of its own
-/// submodules belongs to no group: a folder's `mod.rs` is part of the folder.
+/// Groups imports by the closest common parent of both modules. An import between a module and one of its own
+/// submodules belongs to no group, because a folder's `mod.rs` is part of the folder.
 fn siblings(imports: &[Import]) -> BTreeMap<&[String], Siblings<'_>> {
     let mut groups: BTreeMap<&[String], Siblings> = BTreeMap::new();
     for import in imports {
@@ -35,7 +36,7 @@ fn siblings(imports: &[Import]) -> BTreeMap<&[String], Siblings<'_>> {
     groups
 }
 
-/// Describes each circle of a crate with an import for each of its arrows.
+/// Describes each import cycle of a crate, with an import for each of its arrows.
 fn described_circles(root: &str, imports: &[Import]) -> Vec<String> {
     let mut found = Vec::new();
     for (parent, group) in siblings(imports) {
@@ -93,7 +94,7 @@ fn there_is_no_circle_between_modules() {
     assert!(count > 1000, "{count} imports: the sources were not read");
     assert!(
         found.is_empty(),
-        "{} circles\n{}",
+        "{} import cycles\n{}",
         found.len(),
         found.join("\n")
     );

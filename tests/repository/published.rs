@@ -1,4 +1,5 @@
-//! Packages that a user may depend on contain all that they need: licences, a README, and the files they include.
+//! Checks that packages on which a user may depend contain all that they need: licences, a README, and the files they
+//! include.
 
 use std::collections::BTreeSet;
 
@@ -38,7 +39,7 @@ fn ci_rehearses_publishing_every_package() {
     assert_eq!(rehearsed, published.collect());
 }
 
-/// A registry requires a description and shows the README.
+/// A registry requires a description and displays the README.
 #[test]
 fn published_packages_say_what_they_are() {
     for (folder, package) in published() {
@@ -80,7 +81,7 @@ fn dependencies_of_published_packages_have_versions() {
     }
 }
 
-/// A package has only the files in its own folder.
+/// A package contains only the files in its own folder.
 #[test]
 fn published_packages_include_no_file_from_outside() {
     let mut outside = Vec::new();
@@ -98,7 +99,7 @@ fn published_packages_include_no_file_from_outside() {
     assert!(outside.is_empty(), "{outside:#?}");
 }
 
-/// Text within `include_str!(..)` and `include_bytes!(..)`: paths from the file that has the macro, or from the
+/// Text within `include_str!(..)` and `include_bytes!(..)`: paths relative to the file that has the macro, or to the
 /// package's folder after `env!("CARGO_MANIFEST_DIR")`.
 fn included(tokens: &[Token]) -> impl Iterator<Item = String> {
     let starts = (0..tokens.len()).filter(|at| {
@@ -120,7 +121,7 @@ fn included(tokens: &[Token]) -> impl Iterator<Item = String> {
                 break;
             }
         }
-        // Nothing above the package's folder is in the package.
+        // The package contains nothing from above its folder.
         text.replace("CARGO_MANIFEST_DIR/../", &"../".repeat(99))
     })
 }

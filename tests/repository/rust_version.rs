@@ -1,4 +1,4 @@
-//! Each manifest states the `rust-version` that CI compiles it with.
+//! Each manifest states the `rust-version` with which CI compiles it.
 
 use xtask::rust_version::{CORE, WORKSPACE};
 

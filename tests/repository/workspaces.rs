@@ -24,7 +24,7 @@ pub static WORKSPACES: LazyLock<Vec<Metadata>> = LazyLock::new(|| {
     metadata.into()
 });
 
-/// Returns our packages by folder. The package at the top, the tests across the crates, is `tests`.
+/// Returns our packages by folder. The package in the top folder, which has the tests across crates, is `tests`.
 pub fn packages() -> BTreeMap<String, &'static Package> {
     let all = WORKSPACES.iter().flat_map(|workspace| &workspace.packages);
     all.filter(|package| package.source.is_none())
@@ -32,7 +32,7 @@ pub fn packages() -> BTreeMap<String, &'static Package> {
         .collect()
 }
 
-/// Returns the packages that a user may depend on, by folder.
+/// Returns the packages on which a user may depend, by folder.
 pub fn published() -> BTreeMap<String, &'static Package> {
     let is_published = |package: &Package| {
         package
@@ -46,7 +46,7 @@ pub fn published() -> BTreeMap<String, &'static Package> {
         .collect()
 }
 
-/// Returns a folder's path within the repository, `tests` for the top.
+/// Returns a folder's path within the repository; the top folder is `tests`.
 pub fn folder_of(path: Option<&Utf8Path>) -> String {
     let path = path.expect("a folder").as_std_path();
     let repository = in_repository("").canonicalize().expect("the repository");

@@ -1,5 +1,5 @@
-//! `cargo xtask search`: searches a number of motions for the worst one for the accuracy promise and writes it as files
-//! that `dashpot verify` reads.
+//! `cargo xtask search`: tries a number of motions, finds the one that comes closest to the accuracy promise or breaks
+//! it, and writes it as files that `dashpot verify` reads.
 
 use std::error::Error;
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! The fixed step compared with the reference solver: dampers, motions and errors.
+//! Compares the fixed step with the reference solver: dampers, motions and errors.
 
 use std::collections::HashMap;
 use std::sync::Mutex;
@@ -45,14 +45,14 @@ pub const STEPS_S: [f64; 2] = [1e-3, 1e-4];
 /// Errors of one damper under one excitation.
 #[derive(Clone, Debug, Default)]
 pub struct Errors {
-    /// NRMSE in `f64` and in `f32`, for each step size of [`STEPS_S`].
+    /// For each step size of [`STEPS_S`], the NRMSE in `f64` and in `f32`.
     pub nrmse: [[f64; 2]; 2],
     /// Largest force of the reference in extension and in compression (N).
     pub largest_force_n: [f64; 2],
 }
 
 impl Errors {
-    /// Returns true if the force reached a corner, to the rounding of the reference.
+    /// Returns true if the force reached a corner, within the rounding of the reference.
     pub fn reached(&self, corner_n: f64) -> bool {
         let largest = self.largest_force_n[usize::from(corner_n < 0.0)];
         largest >= (1.0 - 1e-9) * corner_n.abs()
@@ -92,7 +92,7 @@ pub fn errors(
     (found.map(|forces| nrmse(&forces, &reference)), reference)
 }
 
-/// Errors of every damper under every excitation, by the damper's and the excitation's name.
+/// Errors of every damper under every excitation, keyed by the names of both.
 pub fn measure_all() -> HashMap<(&'static str, &'static str), Errors> {
     let mut cases = Vec::new();
     for (row, preset, overrides) in DAMPERS {

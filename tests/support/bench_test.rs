@@ -23,9 +23,9 @@ pub struct Indices {
     pub max_compression_force_n: f64,
     /// Work over the cycle, the integral of F dx (J).
     pub energy_per_cycle_j: f64,
-    /// Component of the force in phase with the displacement, over the amplitude: K' (N/m).
+    /// Storage stiffness K' (N/m): component of the force in phase with the displacement, over the amplitude.
     pub storage_stiffness_n_per_m: f64,
-    /// Component of the force in phase with the velocity, over the velocity amplitude: C_dyn (N s/m).
+    /// Dynamic damping C_dyn (N s/m): component of the force in phase with the velocity, over the velocity amplitude.
     pub dynamic_damping_n_s_per_m: f64,
     /// Largest velocity of the motion (m/s).
     pub velocity_m_per_s: f64,
@@ -50,7 +50,7 @@ impl Indices {
     }
 }
 
-/// A cycle of the motion by the step in `f64`, after at least four cycles and three seconds.
+/// Indices of a cycle computed by the step in `f64`, after at least four cycles and three seconds.
 ///
 /// The cycle must be a whole number of ticks.
 pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f64) -> Indices {
@@ -90,10 +90,10 @@ pub fn settled_cycle(parameters: &DamperParameters, motion: Harmonic, step_s: f6
     }
 }
 
-/// Settled force at a constant velocity (m/s), by the step in `f64` at 1 kHz.
+/// Settled force at a constant velocity (m/s), computed by the step in `f64` at 1 kHz.
 pub fn settled_force(parameters: &DamperParameters, velocity_m_per_s: f64) -> f64 {
     const STEP_S: f64 = 1e-3;
-    // From one end of the maximum range of displacement to the other, for at most 4 s.
+    // The motion runs from one end of the maximum displacement range to the other, for at most 4 s.
     let mut parameters = parameters.clone();
     parameters.limits.displacement_m = Limits::RANGES.displacement_m.max;
     let start = -0.99 * parameters.limits.displacement_m * velocity_m_per_s.signum();

@@ -1,10 +1,10 @@
-//! Limits of measured figures, with one column for each way to measure them.
+//! Limits for measured figures, with one column for each way to measure them.
 
 use std::fmt::Write;
 
 use crate::document;
 
-/// A limit above the measured figure divided by this fraction fails as too loose.
+/// A limit fails as too loose if the measured figure is below this fraction of it.
 const MIN_USE: f64 = 0.8;
 
 /// Measured figures by name.
@@ -39,7 +39,7 @@ impl Budget {
             assert_eq!(
                 numbers.len(),
                 columns.len(),
-                "{path}: {name}: a limit a column"
+                "{path}: {name}: one limit per column"
             );
             (name, numbers)
         });
@@ -66,11 +66,11 @@ impl Budget {
                     let limit = limits[column];
                     if *value > limit {
                         found.push(format!(
-                            "{column}: {name}: {value} is above the {limit} allowed"
+                            "{column}: {name}: {value} is above the allowed {limit}"
                         ));
                     } else if *value < MIN_USE * limit {
                         found.push(format!(
-                            "{column}: {name}: {value} is far below the {limit} allowed; tighten {path}"
+                            "{column}: {name}: {value} is far below the allowed {limit}; tighten {path}"
                         ));
                     }
                 }
@@ -78,7 +78,7 @@ impl Budget {
         }
         for (row, _) in &self.rows {
             if !figures.iter().any(|(name, _)| name == row) {
-                found.push(format!("{row} in {} is no figure", self.path));
+                found.push(format!("{row} in {} is not a measured figure", self.path));
             }
         }
         found
@@ -140,7 +140,7 @@ mod tests {
         assert_eq!(budget.complaints("m7", &figures(146.0)), [""; 0]);
         let complaint = |step| budget.complaints("m7", &figures(step)).join("\n");
         assert!(
-            complaint(151.0).contains("above the 150"),
+            complaint(151.0).contains("above the allowed 150"),
             "{}",
             complaint(151.0)
         );
@@ -151,7 +151,10 @@ mod tests {
         );
         assert_eq!(budget.complaints("m4", &figures(151.0)), [""; 0]);
         let other = budget.complaints("m7", &[("other".into(), 1.0)]).join("\n");
-        assert!(other.contains("has no row") && other.contains("step in budget.csv is no figure"));
+        assert!(
+            other.contains("has no row")
+                && other.contains("step in budget.csv is not a measured figure")
+        );
     }
 
     #[test]

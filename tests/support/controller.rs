@@ -10,7 +10,7 @@ use xtask::c_library::{self, Platform, install};
 
 use crate::damper;
 
-/// Warnings of the C and C++ compilers, all errors.
+/// Warnings of the C and C++ compilers, all of them errors.
 pub const WARNINGS: [&str; 7] = [
     "-Wall",
     "-Wextra",
@@ -36,7 +36,7 @@ pub fn succeed(command: &mut Command) -> Output {
     output
 }
 
-/// The install tree for a platform, in `folder`, renamed after it was built.
+/// Builds the install tree for a platform in `folder` and renames it, because a tree must work after it is moved.
 pub fn tree_of(platform: &Platform, folder: &Path) -> PathBuf {
     let made = install(platform, folder).unwrap_or_else(|error| panic!("{error}"));
     let moved = folder.join("moved tree");
@@ -44,7 +44,7 @@ pub fn tree_of(platform: &Platform, folder: &Path) -> PathBuf {
     moved
 }
 
-/// Exports the two dampers as C sources with headers in `folder`.
+/// Exports the example's two dampers as C sources with headers to `folder`.
 pub fn export(folder: &Path) -> [PathBuf; 2] {
     ["in-service", "reduced-vertical"].map(|name| {
         let built: Damper<f32> = damper(name, &[]).build(1e-3).expect("a preset");
@@ -64,7 +64,7 @@ pub fn export(folder: &Path) -> [PathBuf; 2] {
     })
 }
 
-/// `compiler` for the example on `platform`, running in `folder`; libraries and output are not named yet.
+/// Returns the command that compiles the example for `platform` in `folder`; the caller adds libraries and output.
 pub fn compile(compiler: &str, platform: &str, folder: &Path) -> Command {
     let examples = c_library::folder().join("examples");
     let mut command = Command::new(compiler);
@@ -91,7 +91,7 @@ pub fn compile_with_archive(
     command
 }
 
-/// Displacement of damper `number` at `tick` (m), like the sensor in controller.c.
+/// Displacement (m) of damper `number` at `tick`, as the sensor in controller.c returns it.
 fn sensor(number: u32, tick: u32) -> f32 {
     let half = 200 + 35 * number;
     let in_arc = tick % half;
@@ -104,8 +104,8 @@ fn sensor(number: u32, tick: u32) -> f32 {
     }
 }
 
-/// Output of the controller according to the core in Rust. Nothing is saved and restored here, because that must not
-/// change the output.
+/// Expected output of the controller, computed by the core in Rust. The C controller also saves and restores states,
+/// which must not change the output, so this run does not.
 pub fn expected() -> String {
     let build = |name| -> Damper<f32> { damper(name, &[]).build(1e-3).expect("a preset") };
     let mut dampers = [build("in-service"), build("reduced-vertical")];

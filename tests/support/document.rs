@@ -1,4 +1,4 @@
-//! Documents and digests that a test generates and compares.
+//! Compares documents and digests with the text that a test generates.
 
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ pub fn read(path: &str) -> String {
     std::fs::read_to_string(in_repository(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-/// Asserts that the file holds `text`, or writes it when blessing.
+/// Asserts that the file contains `text`, or writes it when blessing.
 pub fn compare(path: &str, text: &str) {
     if blessing() {
         std::fs::write(in_repository(path), text).unwrap_or_else(|error| panic!("{path}: {error}"));
@@ -31,7 +31,7 @@ pub fn compare(path: &str, text: &str) {
             .position(|(found, text)| found != text)
             .unwrap_or_else(|| found.lines().count().min(text.lines().count()));
         panic!(
-            "{path}:{}: `{}` should be `{}`; DASHPOT_BLESS=1 rewrites the file, then judge the difference",
+            "{path}:{}: `{}` should be `{}`; rewrite the file with DASHPOT_BLESS=1, then review the difference",
             line + 1,
             found.lines().nth(line).unwrap_or("(end)"),
             text.lines().nth(line).unwrap_or("(end)"),
@@ -53,7 +53,7 @@ pub fn compare_bytes(path: &str, bytes: &[u8]) {
         .position(|(found, byte)| found != byte);
     if let Some(offset) = differ.or_else(|| (found.len() != bytes.len()).then_some(bytes.len())) {
         panic!(
-            "{path}, byte {offset}: not as made by this test; DASHPOT_BLESS=1 rewrites the file"
+            "{path}, byte {offset}: differs from what this test generates; DASHPOT_BLESS=1 rewrites the file"
         );
     }
 }

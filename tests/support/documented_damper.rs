@@ -23,7 +23,7 @@ fn anywhere(random: &mut Random, range: &Range) -> f64 {
     }
 }
 
-/// A damper that `check` accepts, with some values anywhere in their documented ranges and the others as usual.
+/// A damper that `check` accepts, with some values anywhere in their documented ranges and the others at usual values.
 pub fn documented_damper(random: &mut Random) -> CheckedParameters {
     loop {
         let mut parameters = damper(random);
@@ -56,7 +56,7 @@ pub fn changed_damper(base: &DamperParameters, random: &mut Random) -> CheckedPa
     }
 }
 
-/// Gives some valves the discs of a pack instead of a compliance.
+/// Describes some valves by the discs of a shim pack instead of a compliance.
 fn use_shims(parameters: &mut DamperParameters, random: &mut Random) {
     let Element::Physical(hydraulics) = &mut parameters.element else {
         return;
@@ -76,7 +76,7 @@ fn use_shims(parameters: &mut DamperParameters, random: &mut Random) {
     }
 }
 
-/// Adjusts the damper so that all relations between its values hold; `None` if the final check refuses it.
+/// Adjusts the damper so that it satisfies all relations between its values; `None` if the final check refuses it.
 fn related(mut parameters: DamperParameters, random: &mut Random) -> Option<CheckedParameters> {
     if let Element::Physical(hydraulics) = &mut parameters.element {
         let geometry = &mut hydraulics.geometry;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 /// Step (s).
 pub const STEP_S: f64 = 1e-3;
-/// Steps.
+/// Number of steps.
 pub const TICKS: u32 = 4000;
 
 /// A motion: name and displacement (m) at a time (s).

@@ -9,14 +9,14 @@ use dashpot_host_link::{Link, LinkError, Qemu, RetryLimits};
 use xtask::processor::CORTEX_M7;
 use xtask::tools::{ARM_GCC, QEMU, have, have_target};
 
-/// The link under the client never makes it wait.
+/// Retry limits for the client; the link below it never makes it wait.
 pub const RETRY_LIMITS: RetryLimits = RetryLimits {
     timeout: Duration::ZERO,
     tries: 50,
 };
 /// Timeout for a target that will never answer; any answer ends the wait.
 const STUCK: Duration = Duration::from_secs(300);
-/// Limit for a target that counts its own ticks: each tick has time for a hundred answers.
+/// Maximum number of answers for a target that counts its own ticks; each tick has time for a hundred.
 pub const MAX_ANSWERS: u32 = 1_000_000;
 
 /// The folder of the images; `None`, after a message, if they cannot be built.
@@ -34,8 +34,8 @@ pub fn images() -> Option<PathBuf> {
     IMAGES.get_or_init(build).clone()
 }
 
-/// An emulator with one request and one answer at a time, so that a run is the same on fast and slow machines: every
-/// whole frame has one answer, and sending waits for all of them.
+/// An emulator that handles one request and one answer at a time, so that a run is the same on fast and slow machines.
+/// Every complete frame has one answer, and sending waits for all answers.
 pub struct InTurn {
     emulator: Qemu,
     /// True within a frame to the target.
@@ -58,7 +58,7 @@ impl InTurn {
         }
     }
 
-    /// Number of frames that end within `bytes`; two zeros in a row enclose no frame.
+    /// Number of frames that end within `bytes`; there is no frame between two zeros in a row.
     fn frames(&mut self, bytes: &[u8]) -> usize {
         let ends = bytes.iter().filter(|byte| {
             let ends = **byte == 0 && self.partial;

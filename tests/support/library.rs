@@ -10,9 +10,11 @@ use crate::budget::Figures;
 /// Prefix of the health functions.
 const HEALTH: &str = "dashpot_health_";
 
-/// Code and constants (bytes) of the C library, for a target with the core and its interface: the part that a linker
-/// with `--gc-sections` keeps for all functions except those of health, and the part that health adds. Also the number
-/// of symbols that panic, use a heap or compute in double precision.
+/// Code and constants (bytes) of the C library, for a target with the core and its interface.
+///
+/// There are two figures: the part that a linker with `--gc-sections` keeps for all functions except the health
+/// functions, and the part that the health functions add. A third is the number of symbols that panic, use a heap or
+/// compute in double precision.
 pub fn library_figures(library: &Path) -> Figures {
     let bytes = std::fs::read(library).expect("a library");
     let archive = object::read::archive::ArchiveFile::parse(&*bytes).expect("an archive");
@@ -63,7 +65,7 @@ struct Sections {
     defined: HashMap<String, usize>,
 }
 
-/// Target of a reference.
+/// What a reference points to.
 enum Target {
     Section(usize),
     /// A symbol of another member, or outside the library.

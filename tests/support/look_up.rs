@@ -1,11 +1,12 @@
-//! The floor: a force-velocity table evaluated at the difference of two displacements, without dynamics.
+//! The lower bound of the cost in the benches: a force-velocity table evaluated at the difference of two displacements,
+//! without dynamics.
 
 use dashpot_reference::damper::Reference;
 
 /// Force at equally spaced velocities.
 pub struct LookUp {
     forces_n: Vec<f32>,
-    /// Intervals per displacement of a step (1/m).
+    /// Table intervals per metre of displacement in a step (1/m).
     scale: f32,
     last: f32,
 }
@@ -13,7 +14,7 @@ pub struct LookUp {
 impl LookUp {
     const HALF: usize = 256;
 
-    /// The static curve of `reference` up to `velocity_m_per_s` either way, for a step (s).
+    /// Tabulates the static curve of `reference` up to `velocity_m_per_s` in both directions, for a step (s).
     pub fn new(reference: &Reference, velocity_m_per_s: f64, step_s: f64) -> Self {
         let forces_n = (0..=2 * Self::HALF)
             .map(|index| {

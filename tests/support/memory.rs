@@ -1,4 +1,4 @@
-//! Dampers and states as bytes, for damaging them.
+//! Access to dampers and states as bytes, for tests that damage them.
 
 use dashpot_core::{Damper, DamperState};
 
@@ -11,6 +11,6 @@ impl PlainData for DamperState<f64> {}
 
 /// The bytes of a value.
 pub fn bytes<T: PlainData>(value: &mut T) -> &mut [u8] {
-    // SAFETY: plain data, as long as the value.
+    // SAFETY: plain data; the slice is as long as the value.
     unsafe { std::slice::from_raw_parts_mut(std::ptr::from_mut(value).cast(), size_of::<T>()) }
 }

@@ -1,8 +1,8 @@
-//! The yardstick: a plain two-stage implicit step of the paper's damper, solved by Newton.
+//! The yardstick of the benches: a plain two-stage implicit step of the paper's damper, solved by Newton's method.
 //!
 //! Alexander's SDIRK2 on `dx_r/dt = v_h(F)` with a linear spring; each stage finds `s = sqrt P` from
 //! above in a fixed number of iterations of `s^2 A/K + gamma h v_h(s) = |x - x_r|`, where
-//! `v_h(s) = (b s + c s^3)/A`. No clearance, no in-service term, no table.
+//! `v_h(s) = (b s + c s^3)/A`. It has no clearance, no in-service terms and no table.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -10,7 +10,7 @@ use dashpot_core::parameters::{DamperParameters, Element, Hydraulics, Valve};
 
 const ITERATIONS: usize = 6;
 
-/// One side's constants.
+/// Constants of one side.
 #[derive(Clone, Copy)]
 struct Side {
     /// Piston area A (m^2).

@@ -1,8 +1,8 @@
-//! A request of every kind.
+//! One request of every kind.
 
 use dashpot_core::link::{LossOfLink, PROTOCOL, Parameter, Reals, Request};
 
-/// Every request, in order of its number, to damper 0; hello is the first.
+/// Every request to damper 0, in the order of request numbers; hello is the first.
 pub fn every_request<'a>(
     image: &'a [u8],
     model: &'a [u8],

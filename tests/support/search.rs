@@ -15,7 +15,7 @@ use crate::documented_damper::{changed_damper, documented_damper};
 use crate::random_damper::Random;
 use crate::searched_motion::SearchedMotion;
 
-/// Number of start motions for one damper, and of changes to each.
+/// Number of start motions for one damper, and number of changes to each.
 const STARTS: usize = 4;
 const CHANGES: usize = 12;
 /// Number of changed dampers derived from one.
@@ -48,14 +48,14 @@ pub struct Case {
     pub scalar: &'static str,
     /// The promised quantity.
     pub promise: Promise,
-    /// The measured value, in newtons or 1.
+    /// The measured value, a force (N) or an NRMSE (1).
     pub found: f64,
-    /// The promised value, in newtons or 1.
+    /// The promised value, a force (N) or an NRMSE (1).
     pub promised: f64,
 }
 
 impl Case {
-    /// Measured over promised value: above 1 the promise is broken.
+    /// Measured over promised value; above 1, the promise is broken.
     pub fn ratio(&self) -> f64 {
         self.found / self.promised
     }
@@ -128,7 +128,7 @@ const JUDGED: [(&str, Promise); 4] = [
     ("f32", Promise::Nrmse),
 ];
 
-/// The worst motion of one damper at one step size for each promise, by climbing from random motions.
+/// The worst motion of one damper at one step size for each promise, found by hill climbing from random motions.
 fn climb(
     damper: &CheckedParameters,
     step_s: f64,
@@ -181,8 +181,9 @@ fn climb(
     Ok(worst.into_iter().flatten().collect())
 }
 
-/// Searches with this number of motions in total. Each damper is followed by changed versions of the worst one found so
-/// far in its line. The same seed and number always produce the same search, for any number of threads.
+/// Searches with this number of motions in total. The search has several independent lines of dampers: each starts with
+/// a random damper, and the next dampers of the line are changed versions of the worst one so far. The same seed and
+/// number always produce the same search, for any number of threads.
 pub fn search(evaluations: usize, seed: u64, mut on_worse: impl FnMut(&Case) + Send) -> Found {
     // Lines of dampers share the evaluations evenly, so that each line is independent of the others.
     let per_damper = STARTS * (CHANGES + 1);
@@ -226,7 +227,7 @@ pub fn search(evaluations: usize, seed: u64, mut on_worse: impl FnMut(&Case) + S
     found
 }
 
-/// One line of dampers at one step size.
+/// Searches one line of dampers at one step size.
 fn follow(random: &mut Random, evaluations: usize, step_s: f64) -> Found {
     let mut found = Found::default();
     let mut budget = evaluations;

@@ -7,7 +7,7 @@ use dashpot_reference::probing::{Kind, Motion};
 
 use crate::random_damper::Random;
 
-/// Maximum distance of a motion from zero (m), as in the class.
+/// Maximum distance of a motion from zero (m), as in the definition of the class.
 const FARTHEST_M: f64 = 0.25;
 /// Maximum ticks of a motion.
 const MAX_TICKS: usize = 1200;
@@ -23,7 +23,7 @@ pub enum Form {
     MoveAndStop,
     /// Segments of random speed and length.
     Pieces,
-    /// Random up to 20 Hz.
+    /// Random motion up to 20 Hz.
     Ride,
     /// A sine.
     Harmonic,
@@ -119,7 +119,7 @@ impl SearchedMotion {
     fn saw(&self, x: &mut Vec<f64>, step_s: f64, rests: bool) {
         let [out, back] = self.speeds_m_per_s.map(|speed| speed * step_s);
         let [piece, rest] = self.ticks;
-        // The way back has the same length, in proportionally more ticks if it is slower.
+        // The way back has the same length; it takes proportionally more ticks if it is slower.
         let ratio = (out / back).clamp(0.02, 50.0);
         Self::go(x, out, self.shift);
         for number in 0..8 {
@@ -171,7 +171,7 @@ impl SearchedMotion {
             })
             .collect();
         let sum: f64 = lines.iter().map(|[share, ..]| share).sum();
-        // No sum of the lines is faster.
+        // With this scale, no sum of the harmonics is faster.
         let scale = self.speeds_m_per_s[0] / sum;
         x.extend((1..MAX_TICKS).map(|tick| {
             let t = tick as f64 * step_s;
@@ -183,7 +183,7 @@ impl SearchedMotion {
     }
 
     fn harmonic(&self, x: &mut Vec<f64>, step_s: f64) {
-        // At most 20 Hz.
+        // The frequency is at most 20 Hz.
         let ticks = (4.0 * self.ticks[0]).max(0.05 / step_s);
         let amplitude = (self.speeds_m_per_s[0] * ticks * step_s / TAU).min(FARTHEST_M);
         x.extend((1..MAX_TICKS).map(|tick| amplitude * (TAU * tick as f64 / ticks).sin()));

@@ -1,12 +1,12 @@
-//! Checksums of a damper's image, computed from the documented format without the code under test: a changed image with
-//! these checksums is accepted as a damper.
+//! Computes the checksums of a damper's image from the documented format, without the code under test. A changed image
+//! with these checksums is accepted as a damper.
 
 use dashpot_core::Damper;
 
 /// Bytes before the words.
 const HEADER: usize = 16;
-/// Indices of scalars, in words. The stretch up to which nothing flows is half the clearance plus the held stretch; the
-/// bound of the stretch follows from it, the first knot and the bound of moves.
+/// Indices of scalars, in words. The stretch up to which nothing flows is half the clearance plus the held stretch; it
+/// determines the bound of the stretch, together with the first knot and the bound of moves.
 const MOVE_BOUND: usize = 0;
 const OFFSET: usize = 4;
 const FIRST_KNOT: usize = 5;
@@ -39,14 +39,14 @@ fn fnv_1a(hash: u32, words: impl IntoIterator<Item = u64>) -> u32 {
 pub trait Word: Copy {
     /// Bytes of a word.
     const BYTES: usize;
-    /// An image with words of zero: header and length are right.
+    /// An image with valid header and length whose words are all zero.
     fn empty() -> Vec<u8>;
     /// The bits of a word's bytes.
     fn bits(bytes: &[u8]) -> u64;
     /// The bytes of the sum of two numbers.
     fn sum(left: &[u8], right: &[u8]) -> Vec<u8>;
-    /// The bytes of the bound of the stretch: 0.7 of the rest of the table without 1.12 moves, plus the offset; 0 to
-    /// 1.45 m. Bounds are stored with the bits of their values doubled.
+    /// The bytes of the bound of the stretch: the offset plus 0.7 times the length of the table less 1.12 moves,
+    /// limited to 0 to 1.45 m. A bound is stored as the bits of its value, shifted left by one.
     fn stretch_bound(offset: &[u8], first_knot: &[u8], move_bound: &[u8]) -> Vec<u8>;
 }
 
@@ -116,8 +116,8 @@ pub fn revise_and_sign<T: Word>(image: &mut [u8]) {
     sign(image);
 }
 
-/// Uses arbitrary bytes as the words of an image with valid checksums and sums, which can only be refused for a value
-/// out of range.
+/// Uses arbitrary bytes as the words of an image with valid checksums and sums. Such an image can be refused only for a
+/// value out of range.
 pub fn of_any_bytes<T: Word>(bytes: &[u8]) -> Vec<u8> {
     let mut image = T::empty();
     let end = image.len() - 4;

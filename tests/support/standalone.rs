@@ -1,4 +1,4 @@
-//! Dampers in C without a library: exported, compiled, and run in parallel with the core.
+//! Exports dampers as C without a library, compiles them, and runs them in parallel with the core.
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -11,32 +11,32 @@ use dashpot_files::Scalar;
 use crate::controller::succeed;
 use crate::memory::{self, PlainData};
 
-/// Reads requests, see [`Request`].
+/// Program that reads requests ([`Request`]) and answers them.
 const DRIVER: &str = include_str!("standalone/driver.c");
 
-/// A request to damper and state.
+/// A request to a damper and its state.
 #[derive(Clone, Debug)]
 pub enum Request<T> {
-    /// State at rest at a displacement (m).
+    /// Put the state at rest at a displacement (m).
     AtRest(T),
-    /// A step to a displacement (m).
+    /// Step to a displacement (m).
     Step(T),
-    /// Another clearance (m).
+    /// Set another clearance (m).
     SetClearance(T),
     /// Carry the state over to the damper.
     Adopt,
     /// Restore the saved state.
     Restore(Vec<u8>),
-    /// Damaged memory: replace the state's bytes by these.
+    /// Damage memory: replace the state's bytes with these.
     Overwrite(Vec<u8>),
     /// Clear the status.
     ClearStatus,
 }
 
-/// Result of a request: code, returned value, the state in memory and saved.
+/// Result of a request: the code, the returned value, and the state, both in memory and saved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// `prefix_result` of C.
+    /// Value of the C enum `prefix_result`.
     pub code: u8,
     /// Bits of the returned value and of the four values of the state, in memory and saved; all NaNs are equal.
     pub numbers: [u64; 9],
@@ -44,7 +44,7 @@ pub struct Answer {
     pub rest: [[u8; 8]; 2],
 }
 
-/// A scalar whose dampers are exported and stepped.
+/// A scalar type whose dampers are exported and stepped.
 pub trait Exported: Word {
     /// Result of [`Damper::state_from_bytes`] for this scalar, as a C code.
     fn restore(damper: &Damper<Self>, bytes: &[u8]) -> Result<DamperState<Self>, u8>;

@@ -1,4 +1,5 @@
-//! Instructions of a step in C without a library on emulated processors, with its forces compared with the core's.
+//! Counts the instructions of a step in C without a library on emulated processors, and compares its forces with the
+//! core's.
 
 use std::fmt::Write;
 use std::process::Command;
@@ -14,7 +15,7 @@ use crate::controller::{WARNINGS, succeed};
 use crate::damper;
 use crate::standalone::export;
 
-/// Counts instructions, and prints a name and a hexadecimal number per line.
+/// Program that counts instructions and prints a name and a hexadecimal number per line.
 const COUNT: &str = include_str!("standalone/count.c");
 
 /// Step (s).
@@ -29,7 +30,7 @@ const INSTRUCTION_S: f64 = 1024e-9;
 /// Instructions of a step of the in-service damper, by situation.
 ///
 /// # Panics
-/// The image does not compile or run; a force is not the core's.
+/// The image does not compile or run, or a force differs from the core's.
 pub fn standalone_figures(processor: &Processor) -> Figures {
     let built: Damper<f32> = damper("in-service", &[]).build(STEP_S).expect("a preset");
     let motions = Excitation::ALL.map(|excitation| -> Vec<f32> {
@@ -56,7 +57,7 @@ pub fn standalone_figures(processor: &Processor) -> Figures {
     );
     let ticks_per_instruction = INSTRUCTION_S * f64::from(number("clock_hz"));
     let instructions = |name: &str| {
-        // The subtracted call is that of a function of one instruction.
+        // The subtracted `call` is the time of calling a function of one instruction.
         let ticks = f64::from(number(name)) - f64::from(number("call"));
         (ticks / ticks_per_instruction).round() + 1.0
     };
@@ -99,7 +100,7 @@ fn run(processor: &Processor, built: &Damper<f32>, motions: &[Vec<f32>]) -> Vec<
     std::fs::write(folder.join("count.c"), COUNT).expect("a writable folder");
     let image = folder.join("count.elf");
     let mut compiler = Command::new(ARM_GCC.program);
-    // GNU C fuses products unless the source forbids it.
+    // GNU C uses fused multiply-add unless the source forbids it.
     compiler.args(["-std=gnu11", "-O2", "-ffreestanding", "-nostdlib"]);
     compiler
         .args(processor.gcc)
@@ -137,7 +138,7 @@ fn run(processor: &Processor, built: &Damper<f32>, motions: &[Vec<f32>]) -> Vec<
     lines.collect()
 }
 
-/// Hash of the core's forces over the actions of the image.
+/// Hash of the core's forces over the same steps as in the image.
 fn digest(built: &Damper<f32>, motions: &[Vec<f32>]) -> u32 {
     let mut damper = *built;
     let mut forces = Vec::new();

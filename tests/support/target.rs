@@ -1,5 +1,5 @@
-//! Experiments on emulated processors: the measurements of `firmware/src/bin/step_cost.rs`, and the same motion on this
-//! machine.
+//! Experiments on emulated processors: runs the measurements of `firmware/src/bin/step_cost.rs`, and the same motion on
+//! this machine.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -18,12 +18,12 @@ use crate::damper;
 /// Step of every experiment (s).
 const STEP_S: f64 = 1e-3;
 
-/// Steps of one damper for a digest.
+/// Number of steps of one damper for a digest.
 pub const STEPS: u32 = 1_000_000;
-/// Steps of a bank for a digest.
+/// Number of steps of a bank for a digest.
 pub const BANK_STEPS: u32 = 100_000;
 
-/// Name of an element in tables, preset, and true for a bank of it.
+/// Elements: name in tables, preset, and `true` for a bank of it.
 pub const ELEMENTS: [(&str, &str, bool); 3] = [
     ("physical", "in-service", false),
     ("reduced", "reduced-vertical", false),
@@ -35,7 +35,7 @@ const INSTRUCTION_S: f64 = 1024e-9;
 
 type Image = [u8; Damper::<f32>::IMAGE_BYTES];
 
-/// A damper driven over an excitation, back and forth until the steps are done.
+/// A damper driven by an excitation, which runs back and forth until the steps are done.
 pub struct Experiment {
     /// Name of the element.
     pub element: &'static str,
@@ -76,7 +76,7 @@ struct Printed {
     c_check_slice: f64,
 }
 
-/// Results of an experiment on the target: instructions of a call, bytes.
+/// Results of an experiment on the target, in instructions per call if not stated otherwise.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// Mean over all steps.
@@ -179,7 +179,7 @@ impl Experiment {
         }
     }
 
-    /// A file of the experiment in the format that processors read.
+    /// Writes the experiment to a file in the format that processors read.
     fn file(&self) -> NamedTempFile {
         let images = [&self.damper, &self.other].map(Damper::<f32>::to_image);
         let bytes: Vec<u8> = self.bytes(&images).to_bytes().collect();
@@ -201,7 +201,7 @@ impl Experiment {
         printed.found(self.steps)
     }
 
-    /// Digest by the program `dashpot-experiment`, called with the file.
+    /// Digest that the program `dashpot-experiment` prints for the experiment's file.
     pub fn digest_by(&self, program: &mut Command) -> String {
         let file = self.file();
         let output = program.arg(file.path()).output().expect("it starts");
@@ -235,11 +235,11 @@ pub fn symbol_address(image: &Path, name: &str) -> u64 {
 impl Printed {
     fn found(self, steps: u32) -> Found {
         let ticks_per_instruction = INSTRUCTION_S * self.clock_hz;
-        // The subtracted call is that of a function of one instruction.
+        // The subtracted `call` is the time of calling a function of one instruction.
         let exact = |ticks: f64| (ticks - self.call) / ticks_per_instruction + 1.0;
         let whole = |ticks: f64| exact(ticks).round();
         Found {
-            // Two readings of the clock leave a few hundredths of an instruction.
+            // The two readings of the clock leave an error of a few hundredths of an instruction.
             mean: (10.0 * exact(self.sum / f64::from(steps))).round() / 10.0,
             least: whole(self.least),
             most: whole(self.most),

@@ -1,4 +1,4 @@
-//! The table of tolerances: NRMSE of the fixed step against the reference solver.
+//! The table of tolerances: allowed NRMSE of the fixed step, compared with the reference solver.
 //!
 //! Its rows are in `tolerance.csv`. `DASHPOT_BLESS=1` rewrites them at [`SLACK`] times the measured error; no row,
 //! blessed or not, may exceed [`required`].
@@ -8,7 +8,7 @@ use dashpot_testbench::accuracy_limits::ACCURACY_LIMITS;
 
 use crate::accuracy::{DAMPERS, STEPS_S};
 
-/// A row above the measured error divided by this fraction fails as too loose.
+/// A row fails as too loose if the measured error is below this fraction of it.
 pub const MIN_USE: f64 = 0.5;
 
 /// Ratio of a blessed row to the measured error.
@@ -24,7 +24,7 @@ pub struct Tolerance {
     pub damper: String,
     /// Name of the excitation.
     pub excitation: String,
-    /// NRMSE allowed in `f64` and in `f32`, for each step size of [`STEPS_S`].
+    /// For each step size of [`STEPS_S`], the allowed NRMSE in `f64` and in `f32`.
     pub nrmse: [[f64; 2]; 2],
 }
 

@@ -1,4 +1,4 @@
-//! Curving against force balances and an independent quasi-static computation of the same locomotive.
+//! Compares curving with force balances and an independent quasi-static computation of the same locomotive.
 
 use dashpot_rail::vehicle::Vehicle;
 
@@ -12,8 +12,8 @@ fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
     );
 }
 
-/// R 300 m, 70 km/h, cant 0.12 m, friction 0.3. The expected values come from an independent nonlinear quasi-static
-/// computation with contact compliance fitted to the load and spin from the exact theory.
+/// The curve has R 300 m, 70 km/h, cant 0.12 m and friction 0.3. The expected values come from an independent nonlinear
+/// quasi-static computation, with a contact compliance fitted to the load and spin from the exact theory.
 #[test]
 fn steady_curving_agrees_with_an_independent_computation() {
     let vehicle = Vehicle::new(&locomotive(), contact(5.0), 1e-3).unwrap();
@@ -50,7 +50,7 @@ fn the_rails_balance_weight_and_centrifugal_force() {
         let centripetal = speed * speed / radius;
         let outward = 9.81 * sine - centripetal * cosine;
         let down = 9.81 * cosine + centripetal * sine;
-        // Mass, height, and lateral offset of the track from its tangent at the middle of the vehicle.
+        // Mass, height, and lateral offset of the track from its tangent at the vehicle's middle.
         let aside = |x_m: f64| 0.5 * x_m * x_m / radius;
         let bodies: Vec<[f64; 3]> = parameters
             .bodies
@@ -84,8 +84,8 @@ fn the_rails_balance_weight_and_centrifugal_force() {
         }
         assert_near(sums[0], -mass * outward, 1e-3, "lateral");
         assert_near(-sums[1], mass * down, 1e-4, "vertical");
-        // Moment about the middle of the track: that of the rails balances those of lateral force, of laterally
-        // displaced weight, and the gyroscopic moment of the wheels.
+        // Moments about the middle of the track: the moment of the rails balances those of the lateral force, the
+        // laterally displaced weight and the gyroscopic effect of the wheels.
         let spin = wheelset.inertia_kg_m2[1] * speed / wheelset.radius_m;
         let gyroscopic = parameters.wheelsets.len() as f64 * spin * speed / radius;
         assert_near(

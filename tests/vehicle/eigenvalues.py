@@ -1,8 +1,9 @@
-"""Eigenvalues by LAPACK, through numpy, and how far each moves with an error in the matrix.
+"""Computes eigenvalues with LAPACK, through numpy, and how far each moves with an error in the matrix.
 
-Reads matrices from the file argv[1]: for each its size as a 64-bit integer, then its rows as 64-bit floats. Writes to the file argv[2]
-for each, as 64-bit floats: real parts, imaginary parts and sensitivities of its eigenvalues. The sensitivity is the condition number of
-the eigenvalue times the norm of the matrix, both of the balanced matrix: the eigenvalue moves by it, times the relative error.
+Reads matrices from the file argv[1]: for each matrix, its size as a 64-bit integer, then its rows as 64-bit floats.
+Writes to the file argv[2], for each matrix, the real parts, imaginary parts and sensitivities of its eigenvalues as
+64-bit floats. The sensitivity is the condition number of the eigenvalue times the norm of the matrix, both of the
+balanced matrix. A relative error in the matrix moves the eigenvalue by the sensitivity times that error.
 """
 
 import sys
@@ -11,7 +12,7 @@ import numpy
 
 
 def balanced(matrix):
-    """The matrix in other units of its states, by powers of two, so that rows and columns have similar norms."""
+    """Returns the matrix with its states scaled by powers of two, so that rows and columns have similar norms."""
     exponent = numpy.zeros(len(matrix))
     for _ in range(30):
         scale = 2.0 ** numpy.round(exponent)

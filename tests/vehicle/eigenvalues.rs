@@ -1,4 +1,4 @@
-//! Eigenvalues of ten thousand random vehicles against LAPACK.
+//! Compares the eigenvalues of ten thousand random vehicles with LAPACK's.
 
 use std::process::Command;
 
@@ -15,12 +15,12 @@ use crate::yaw_dampers_had_no_modes as yaw;
 /// State matrix and eigenvalues of a vehicle.
 type Solved = (Vec<Vec<f64>>, Vec<[f64; 2]>);
 
-/// Numbers of standing vehicles with two bodies, running wagons, and locomotives with yaw dampers.
+/// How many vehicles of each kind: standing with two bodies, running wagons, and locomotives with yaw dampers.
 const STANDING: usize = 6_000;
 const WAGONS: usize = 3_800;
 const LOCOMOTIVES: usize = 200;
 
-/// A random number from `min` over `decades` powers of ten, evenly distributed in the logarithm.
+/// A random number from `min` to `min` times 10 to the power of `decades`, with an evenly distributed logarithm.
 fn decades(rng: &mut Rng, min: f64, decades: f64) -> f64 {
     min * 10_f64.powf(decades * rng.f64())
 }
@@ -151,7 +151,7 @@ fn repeat(count: usize, rng: &mut Rng, make: fn(&mut Rng) -> Option<Solved>) -> 
         .collect()
 }
 
-/// Eigenvalues by LAPACK with their sensitivities, as defined in `eigenvalues.py`.
+/// LAPACK's eigenvalues with their sensitivities, as defined in `eigenvalues.py`.
 type Found = Vec<([f64; 2], f64)>;
 
 fn by_lapack(python: &std::path::Path, solved: &[Solved]) -> Vec<Found> {
@@ -192,7 +192,7 @@ fn magnitude([re, im]: [f64; 2]) -> f64 {
     re.hypot(im)
 }
 
-/// Number of rounding errors in the matrix by which two correct solutions may differ.
+/// Two correct solutions may differ by the effect of this number of rounding errors in the matrix.
 const ROUNDINGS: f64 = 5.0;
 
 /// Distance between the eigenvalues of a vehicle and LAPACK's.

@@ -7,7 +7,7 @@ use crate::support::{contact, locomotive};
 
 const STEP_S: f64 = 0.25e-3;
 
-/// Power dissipated by creep, and driving power that keeps the speed constant, W.
+/// Power dissipated by creep, and driving power that keeps the speed constant (W).
 fn powers(state: &VehicleState) -> [f64; 2] {
     let contacts = state.contacts();
     let wheels = contacts.iter().flat_map(|contact| &contact.wheels);
@@ -33,7 +33,7 @@ fn lost_energy_equals_dissipated_energy() {
         .unwrap();
     let start = vehicle.energy(&state).unwrap();
     let (mut dissipated, mut driven, mut into_dampers) = (0.0, 0.0, 0.0);
-    // Powers are integrated by the trapezoidal rule.
+    // The trapezoidal rule integrates the powers.
     let mut before = (powers(&state), start.dissipation_w, state.clone());
     for _ in 0..12_000 {
         vehicle.step(&mut state, &track);

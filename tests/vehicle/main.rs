@@ -1,4 +1,4 @@
-//! Real-time steps of the locomotive against closed forms, balances and an independent solution.
+//! Compares real-time steps of the locomotive with closed forms, balances and an independent solution.
 
 mod curving;
 mod eigenvalues;

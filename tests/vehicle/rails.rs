@@ -1,4 +1,4 @@
-//! Elastically supported rails.
+//! Tests of elastically supported rails.
 
 use dashpot_rail::contact::Status;
 use dashpot_rail::track::Track;
@@ -10,7 +10,7 @@ const SUPPORT: RailSupport = RailSupport::new(60.0)
     .with_lateral(40e6, 60e3)
     .with_vertical(80e6, 60e3);
 
-/// In a curve the displacement of each rail is the change of its force over its stiffness.
+/// In a curve, the displacement of each rail is the change of its force divided by its stiffness.
 #[test]
 fn rails_move_by_force_over_stiffness() {
     let parameters = locomotive();
@@ -73,7 +73,7 @@ fn very_stiff_rails_behave_as_rigid_rails() {
     assert!((soft.0 - rigid.0).abs() > 0.3e-3, "{soft:?} {rigid:?}");
 }
 
-/// Bounce of a wheelset on its rails. The primary springs and the body above have little effect.
+/// A wheelset bounces on its rails; the primary springs and the body above have little effect.
 #[test]
 fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
     let mut parameters = locomotive();
@@ -100,15 +100,15 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
             state.coordinates()[3][1]
         })
         .collect();
-    // Crossings of the mean, half a period apart.
+    // The crossings of the mean are half a period apart.
     let mean = bounce.iter().sum::<f64>() / bounce.len() as f64;
     let crossings: Vec<usize> = (1..bounce.len())
         .filter(|i| (bounce[i - 1] < mean) != (bounce[*i] < mean))
         .collect();
     let periods = (crossings.len() - 1) as f64 / 2.0;
     let found = periods / (step_s * (crossings.last().unwrap() - crossings[0]) as f64);
-    // The wheelset stands on the contacts (3/2 N/penetration each), these on the masses of the rails, these on their
-    // springs. The primary springs above have 2.15 MN/m on each side.
+    // The wheelset stands on the contacts, each with a stiffness of 3/2 of its load over its penetration. The contacts
+    // stand on the masses of the rails, and these on their springs. The primary springs above have 2.15 MN/m per side.
     let patches = || {
         state.contacts()[3]
             .wheels

@@ -1,4 +1,4 @@
-//! The step against the reference solution for random vehicles, tracks and speeds.
+//! Compares the step with the reference solution for random vehicles, tracks and speeds.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
@@ -124,8 +124,8 @@ fn random_vehicles_run_as_in_the_reference() {
     }
 }
 
-/// On ideal straight track only the spin changes: it starts with free rolling of the most loaded patches and settles
-/// where the moment is zero.
+/// On ideal straight track, only the spin of the wheelsets changes: it starts with free rolling of the most loaded
+/// patches and settles where the moment is zero.
 #[test]
 fn the_reference_keeps_its_equilibrium() {
     let parameters = locomotive();

@@ -14,7 +14,7 @@ fn the_locomotive_rests_for_a_minute() {
     let weight = 9.81 * mass_kg(&parameters);
     run(&vehicle, &mut state, &track, 60.0);
     assert!((state.distance_m() - 3000.0).abs() < 1e-6);
-    // Bodies move only by the rounding of the contact tables, and the rails carry the weight.
+    // Only the rounding of the contact tables moves the bodies, and the rails carry the weight.
     for coordinates in state.coordinates() {
         for coordinate in coordinates {
             assert!(coordinate.abs() < 1e-8, "{coordinates:?}");

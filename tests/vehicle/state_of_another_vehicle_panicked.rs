@@ -1,5 +1,5 @@
-//! `Vehicle::step` "cannot fail", but it panicked on a state of a vehicle with fewer bodies, and silently stepped a
-//! state of a vehicle with other masses.
+//! Fixed bug: `Vehicle::step` must not fail, but it panicked on a state of a vehicle with fewer bodies, and silently
+//! stepped a state of a vehicle with other masses.
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
@@ -50,7 +50,7 @@ fn a_state_of_another_vehicle_is_unchanged_and_reports_it() {
         other.step(&mut state, &track);
         assert_eq!(state.stop(), Some(Stop::OtherVehicle));
         assert!(state.is_diverged());
-        // Its own vehicle does not step it any more either.
+        // Its own vehicle does not step it any more, either.
         own.step(&mut state, &track);
         assert_eq!(state.ticks(), before.ticks());
         assert_eq!(state.coordinates(), before.coordinates());

@@ -11,7 +11,7 @@ use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
 
 pub type Contact = Arc<WheelsetContact<KalkerBook>>;
 
-/// S1002 on UIC 60 under the locomotive's wheel load, with friction 0.3 and a normal damping.
+/// S1002 on UIC 60 under the locomotive's wheel load, with friction 0.3 and this normal damping.
 pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
     let tables = TABLES.get_or_init(|| Arc::new(Tables::new(geometry(), Grid::default()).unwrap()));

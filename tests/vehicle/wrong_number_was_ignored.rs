@@ -1,5 +1,6 @@
-//! Displacing a body and setting the external force of a damper silently ignored an index out of range, and a force of
-//! NaN returned to the damper's own model. Only replacing a damper reported a wrong index.
+//! Fixed bug: the functions that displace a body and set the external force of a damper silently ignored an index out
+//! of range, and a force of NaN switched back to the damper's own model. Only replacing a damper reported a wrong
+//! index.
 
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleError};
@@ -32,7 +33,7 @@ fn wrong_indices_and_forces_are_errors_and_change_nothing() {
     let error = state.set_outside_force_n(42, Some(1e3)).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "damper 42: the vehicle has 12, counted from 0"
+        "damper 42: the vehicle has 12 dampers, counted from 0"
     );
     assert!(state.set_outside_force_n(42, None).is_err());
     for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

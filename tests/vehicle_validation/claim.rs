@@ -1,4 +1,4 @@
-//! Claims of the paper about an index, and their verdicts from our rows.
+//! Claims of the paper about an index, and verdicts on them from our rows.
 
 use dashpot_study::sweep::Estimate;
 
@@ -13,11 +13,11 @@ pub enum Claim {
     RisesSlightly,
     /// It falls by any amount.
     FallsSlightly,
-    /// It changes by this amount, %.
+    /// It changes by this amount (%).
     By(f64),
     /// It does not change.
     Keeps,
-    /// It is flat above a value: there, the magnitude of its slope is less than a quarter of that below.
+    /// It is flat above a value: the magnitude of its slope there is less than a quarter of the slope below.
     Flat,
     /// It changes in either direction.
     Changes,
@@ -49,9 +49,9 @@ pub fn flat(before: f64, after: f64, half: f64) -> Verdict {
     }
 }
 
-/// Maximum change that counts as none, %.
+/// Maximum change that counts as no change (%).
 pub const NONE_PERCENT: f64 = 1.0;
-/// Maximum range of a limited fluctuation relative to the mean, %.
+/// Maximum range of a limited fluctuation, relative to the mean (%).
 pub const LIMITED_PERCENT: f64 = 5.0;
 
 impl Claim {

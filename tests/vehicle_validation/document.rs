@@ -32,8 +32,8 @@ absolute values.
   height of the body's centre of gravity (in the middle and over both bogies).
 - RMS_Dc, RMS_Wn and RMS_Fy belong to the leading wheelset: the larger Y/Q of its wheels, its wear number and its lateral force.
   RMS_Ay is the lateral acceleration of the body. All are root mean squares of the whole run, with a contact damping of 5 s/m.
-- A change is the difference between both ends of a range on the same irregularity: the mean over the seeds with its 95 %
-  confidence interval (Student).
+- A change is the difference between the two ends of a range on the same irregularity: the mean over the seeds with its
+  95 % confidence interval (Student).
 - A rise or fall holds if the interval lies on that side of zero. **Rises** and **is influenced** do not hold if the change is
   within {NONE_PERCENT} %, unless the paper calls it slight. **Hardly changes** holds within {NONE_PERCENT} %. **Flat above** holds if the slope above,
   including its interval, is less than a quarter of the slope below. **Limited fluctuation** holds if the range of the means is
@@ -59,7 +59,7 @@ lateral dampers have little effect in a curve.
     )
 }
 
-/// Our change of a published row.
+/// Our change for a published row.
 fn of_row(compared: &[Compared], figure: &str, observed: &str) -> String {
     let found = compared
         .iter()
@@ -68,7 +68,7 @@ fn of_row(compared: &[Compared], figure: &str, observed: &str) -> String {
     percent(&row.change)
 }
 
-/// Table of values at the nominal parameters and of the ranges of the paper's axes.
+/// Table of our values at the nominal parameters and of the ranges on the paper's axes.
 fn levels(paper: &Kept) -> String {
     let mut text = String::from(
         "## Values at the nominal parameters
@@ -148,7 +148,7 @@ fn why(compared: &[Compared], paper: &Kept, stand_ins: &Kept) -> String {
     let mut text = String::from(
         "## Sensitivity of the rows
 
-Each row again between both ends of its range, with one stand-in value changed, in percent.
+Change of each row between the two ends of its range, in percent, with one stand-in value changed at a time.
 
 | Fig., index | as above | 3 to 30 m | German low | friction 0.3 | 1 m to the side | to the side, 3 to 30 m |
 |---|---|---|---|---|---|---|
@@ -249,7 +249,7 @@ further out {} %; in curves of 300 m and 600 m at 70 km/h {} and {} %. The two l
 and, 1 m ahead of and behind its middle, 12.6 kN m (C Vr is 6.3 kN), with a mean of zero. The curve requires about 100 kN, so
 steering determines Y/Q. A play of 1.5 mm changes the fluctuation of Y/Q, not its root mean square; flutter of the flange at 60 to
 120 Hz decides the sign of such a small change. The maxima change in the published direction: the maximum over all wheels of Y/Q
-averaged over 2 m changes by {} % at 2 mm and {} % at 3 mm. Fig. 18a shows the same, larger coefficients more often.
+averaged over 2 m changes by {} % at 2 mm and {} % at 3 mm. Fig. 18a shows the same: larger coefficients occur more often.
 ",
         of_row(compared, "17d", "RMS_Dc"),
         of_17d("17d friction", Some("0.2")),
@@ -265,7 +265,7 @@ averaged over 2 m changes by {} % at 2 mm and {} % at 3 mm. Fig. 18a shows the s
     text
 }
 
-/// Comparison of the published curve with a curve of 600 m.
+/// Comparison of the published curve with a curve of 600 m radius.
 fn curve(paper: &Kept, wide: &Kept) -> String {
     let mut text = String::from(
         "## In a curve of 600 m
@@ -295,7 +295,7 @@ Range of the means of each sweep relative to their mean, in percent, at 100 km/h
     text
 }
 
-/// Correlation of the ride indices over the bogies and in the middle.
+/// Correlation of the ride indices above the bogies and in the middle.
 fn coupling(paper: &Kept) -> String {
     let [over, middle] = ["sperling_vertical", "sperling_vertical_first"]
         .map(|index| paper.mean(paper.sweep("straight"), 0, index).mean);

@@ -1,5 +1,6 @@
-//! Comparison of the paper's vehicle studies with ours, and limits at which a damper should be taken out of service:
-//! documents against kept rows, and kept rows against new runs.
+//! Comparison of the paper's vehicle studies with ours, and limits at which a damper should be taken out of service.
+//!
+//! The tests compare the documents with the kept rows, and the kept rows with new runs.
 
 mod claim;
 mod document;
@@ -43,7 +44,7 @@ fn rows_agree_with_new_runs() {
             continue;
         }
         run_some(&kept, |row, old| {
-            // The last digits differ then, and the differences grow at flange impacts.
+            // With other arithmetic the last digits differ, and flange impacts make the differences grow.
             assert_eq!(row.ending, old.ending, "{name}, case {}", row.case);
             for (new, old) in row.observed.iter().zip(&old.observed) {
                 let (Some(new), Some(old)) = (new, old) else {
@@ -57,7 +58,7 @@ fn rows_agree_with_new_runs() {
     }
 }
 
-/// First kept row, out of every 397th, whose bits differ from those of a new run on the same kind of processor.
+/// Runs every 397th case again on the same kind of processor; describes the first kept row whose bits differ.
 fn first_difference(kept: &Kept) -> Option<String> {
     let mut difference = None;
     run_some(kept, |row, old| {

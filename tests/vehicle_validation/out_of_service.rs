@@ -6,7 +6,7 @@ use xtask::vehicle_validation::SEEDS;
 
 use crate::rows::{Kept, percent};
 
-/// Maximum degradation of the ride index from new, %.
+/// Maximum degradation of the ride index, relative to a new damper (%).
 const WORSE_PERCENT: f64 = 5.0;
 
 /// Values of the first axis.
@@ -18,7 +18,7 @@ fn abscissas(sweep: &Sweep) -> Vec<f64> {
     sweep.axes[0].values.iter().map(number).collect()
 }
 
-/// Abscissa at which a piecewise linear curve first reaches a level on the way from `start`; `None` if it does not.
+/// Abscissa at which a piecewise linear curve, followed from `start`, first reaches a level; `None` if it does not.
 fn crossing(x: &[f64], y: &[f64], start: usize, level: f64) -> Option<f64> {
     let upwards = (start..x.len()).collect::<Vec<_>>();
     let downwards = (0..=start).rev().collect::<Vec<_>>();
@@ -35,7 +35,7 @@ fn crossing(x: &[f64], y: &[f64], start: usize, level: f64) -> Option<f64> {
 struct Wear<'a> {
     kept: &'a Kept,
     sweep: &'a Sweep,
-    /// Index of the point that is as new.
+    /// Index of the point of a new damper.
     new: usize,
 }
 
@@ -123,7 +123,7 @@ pub fn text(kept: &Kept) -> String {
     let square = |value: &f64| (value - mean).powi(2);
     let variance = new_values.iter().map(square).sum::<f64>() / (new_values.len() - 1) as f64;
     let scatter = 100.0 * variance.sqrt() / mean;
-    // The means of two sets of n windows differ by up to 1.96 sd sqrt(2/n) by chance.
+    // The means of two sets of n windows differ by chance by up to 1.96 sd sqrt(2/n), with 95 % probability.
     let windows = 2.0 * (1.96 * scatter / WORSE_PERCENT).powi(2);
     let tables: String = [
         ("vertical clearance", 0.5e-3, 1e3, "2a, mm"),
@@ -150,9 +150,9 @@ have other limits, so run the study with yours (`vehicle = \"...\"`).
 
 As new: clearance 2a of 0.5 mm, effective stiffness Ke of 8 MN/m (lateral dampers 7 MN/m), oil at 20 °C. Our criterion is a **ride**
 {WORSE_PERCENT} % worse than new (Sperling's index, maximum of three points; {WORSE_PERCENT} % correspond to 18 % more acceleration). Brackets contain
-the limits for both ends of its confidence interval. Each limit is for a single fault.
+the limits for the two ends of the index's confidence interval. Each limit is for a single fault.
 
-| dampers | by | ride {WORSE_PERCENT} % worse |
+| dampers | fault | ride {WORSE_PERCENT} % worse |
 |---|---|---|
 | all vertical | clearance above | {} |
 | all vertical | effective stiffness below | {} |
@@ -166,8 +166,8 @@ the limits for both ends of its confidence interval. Each limit is for a single 
 - **Wear of vertical dampers affects the ride.** A soft damper (air in the oil, perished rubber) matters as much as a loose mount,
   and the effects add up: 3 MN/m alone {} %, 2 mm alone {} %, together {} %. If both faults are present, the limits above
   are too wide.
-- **A single worn vertical damper is not felt:** {} % at 12 mm, {} % at 0.25 MN/m. Inspection or its own force reveals it.
-- **A bogie with all vertical dampers loose** changes the maximum of the points by {} % (rear, 12 mm) or {} % (front), and the
+- **A single worn vertical damper is not felt:** {} % at 12 mm, {} % at 0.25 MN/m. Only an inspection or its own force reveals it.
+- **A bogie with all vertical dampers loose** changes the maximum over the points by {} % (rear, 12 mm) or {} % (front), and the
   middle by {} and {} %. The rougher rear masks a worn front bogie in the maximum, so compare the point above each bogie.
 - **The index scatters from track to track:** by {scatter:.1} % between windows of 5 s (standard deviation over the seeds). Detecting {WORSE_PERCENT} %
   takes about {windows:.0} windows before and the same number after; a single record of 5 s is not sufficient. The intervals here are

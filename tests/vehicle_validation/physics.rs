@@ -1,9 +1,9 @@
 //! The digest of physics in every row of a study: the SHA-256 of the forces of all presets and of the indices of a few
-//! runs. These cover every element of a vehicle, elastically supported rails, a damper that changes during the run,
+//! runs. The runs cover every element of a vehicle, elastically supported rails, a damper that changes during the run,
 //! both laws of a damper and every index.
 //!
-//! Both digests, with and without fused multiply-add, are those of an x86-64 processor that has it. Other processors
-//! may round the sines and exponentials of the system library differently.
+//! Both digests, with and without fused multiply-add, are those of an x86-64 processor that supports it. On other
+//! processors, the system library may round sines and exponentials differently.
 //!
 //! `DASHPOT_BLESS=1` writes both digests into `study/src/sweep/physics.rs`, and into the kept rows that new
 //! runs reproduce bit by bit.
@@ -124,7 +124,7 @@ fn bless_kept_rows(computed: &[(Arithmetic, String)]) {
         };
         if let Some(difference) = difference {
             eprintln!(
-                "{path} is left as it is: {difference}; `cargo xtask vehicle-validation` runs all rows again"
+                "{path} stays unchanged: {difference}; `cargo xtask vehicle-validation` computes all rows again"
             );
             continue;
         }
@@ -164,7 +164,7 @@ fn the_runs_have_every_element_and_every_index() {
     assert_eq!(observed, OBSERVED.iter().map(|index| index.name).collect());
     let parameters = study.case(0).expect("a case");
     let case = study.build(&parameters).expect("a case");
-    // A new law needs an element in the vehicle of the study.
+    // If you add a law, add an element with it to the vehicle of the study.
     let elements = case.vehicle.elements.iter();
     let laws: BTreeSet<&str> = elements.map(|element| element.law.name()).collect();
     assert_eq!(laws, Law::NAMES.iter().copied().collect());

@@ -70,8 +70,8 @@ impl Kept {
         Estimate::of(&self.values(sweep, point, index)).expect("seeds")
     }
 
-    /// Relative change of an index between two points in percent: the mean over the seeds, with the same irregularities
-    /// at both.
+    /// Relative change of an index between two points in percent: the mean over the seeds. Both points have the same
+    /// irregularities.
     pub fn change(&self, sweep: &Sweep, points: [u64; 2], index: &str) -> Estimate {
         let of_seeds = |point| -> Vec<Option<f64>> {
             let values = self.values(sweep, point, index);
@@ -81,7 +81,7 @@ impl Kept {
         Estimate::of_change(&from, &to).expect("seeds")
     }
 
-    /// Range of the means of an index along a sweep relative to their mean, in percent.
+    /// Range of the means of an index along a sweep, relative to their mean, in percent.
     pub fn range(&self, sweep: &Sweep, index: &str) -> f64 {
         let means: Vec<f64> = (0..sweep.points())
             .map(|point| self.mean(sweep, point, index).mean)

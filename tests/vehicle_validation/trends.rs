@@ -20,7 +20,7 @@ pub struct Trend {
     pub published_change: String,
 }
 
-/// A claim of a trend, compared with ours.
+/// A claim about a trend, compared with our result.
 pub struct Compared {
     pub trend: Trend,
     /// Published name of the index.
@@ -95,7 +95,7 @@ fn of_claim(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compar
     };
     let index = index(observed);
     let sweep = paper.sweep(&trend.figure);
-    // `... above X` splits the range at X.
+    // A claim with `... above X` splits the range at X.
     let above = trend.published_change.split(" above ").nth(1).map(|rest| {
         let number = rest
             .split(' ')
@@ -145,7 +145,7 @@ fn of_claim(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compar
     }
 }
 
-/// Compares a claim about all parameters of a figure by the largest range.
+/// Compares a claim about all parameters of a figure with the largest range among them.
 fn of_all(paper: &Kept, trend: &Trend, observed: &str, claim: Claim) -> Compared {
     let index = index(observed);
     let sweeps = ["a", "b", "c", "d"].map(|part| format!("{}{part}", trend.figure));

@@ -1,8 +1,8 @@
-//! Vehicle with externally computed dampers, as the model behind `model.h` (`export/src/fmu/sources`).
+//! Implements the interface `model.h` (`export/src/fmu/sources`) for a vehicle with externally computed dampers.
 //!
-//! The C code of an FMU guarantees the following for every function. A pointer to a model comes from `model_new` and is
-//! not freed. Other pointers are valid for one value of their type, or for the number of bytes given. No two threads
-//! use a model at the same time. In return, no panic leaves a function.
+//! The C code of an FMU guarantees the following for every function. A pointer to a model comes from `model_new` and
+//! has not been freed. Other pointers are valid for one value of their type, or for the number of bytes given. No two
+//! threads use a model at the same time. In return, no function lets a panic unwind into the C code.
 
 mod model;
 mod result;
@@ -15,7 +15,7 @@ use model::Model;
 use result::ModelResult;
 
 unsafe extern "C" {
-    /// Digest of the case with which the FMU was exported, ends in a zero.
+    /// Null-terminated digest of the case with which the FMU was exported.
     static model_case_digest: c_char;
 }
 
@@ -29,10 +29,10 @@ fn guarded<T>(this: &mut Model, fallback: T, action: impl FnOnce(&mut Model) -> 
 
 const PANIC: &str = "internal error of the model";
 
-/// Creates a model from the files in the folder `resources`; on failure returns null and writes the reason.
+/// Creates a model from the files in the folder `resources`; on failure, writes the reason and returns null.
 ///
 /// # Safety
-/// See the module; `resources` ends in a zero.
+/// See the module documentation; `resources` is null-terminated or null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_new(
     resources: *const c_char,
@@ -43,12 +43,12 @@ pub unsafe extern "C" fn model_new(
         if resources.is_null() {
             return Err("no resources folder".into());
         }
-        // SAFETY: not null and ends in a zero.
+        // SAFETY: `resources` is not null, and it is null-terminated.
         let folder = unsafe { CStr::from_ptr(resources) };
         let folder = folder
             .to_str()
             .map_err(|error| format!("resources folder: {error}"))?;
-        // SAFETY: a constant of the FMU that ends in a zero.
+        // SAFETY: the digest is a null-terminated constant of the FMU.
         let digest = unsafe { CStr::from_ptr(&raw const model_case_digest) };
         Model::new(Path::new(folder), &digest.to_string_lossy())
     });
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn model_new(
 /// Frees a model; ignores a null pointer.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_free(this: *mut Model) {
     if !this.is_null() {
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn model_free(this: *mut Model) {
 /// Resets the model to its start values.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_reset(this: &mut Model) {
     guarded(this, (), Model::reset);
@@ -86,7 +86,7 @@ pub unsafe extern "C" fn model_reset(this: &mut Model) {
 /// Reads a real variable.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_get_real(
     this: &mut Model,
@@ -95,7 +95,7 @@ pub unsafe extern "C" fn model_get_real(
 ) -> ModelResult {
     match guarded(this, None, |this| this.number(variable)) {
         Some(number) => {
-            // SAFETY: valid for one value.
+            // SAFETY: `value` points to room for one number.
             unsafe { value.write(number) };
             ModelResult::Done
         }
@@ -106,16 +106,16 @@ pub unsafe extern "C" fn model_get_real(
 /// Checks whether a real variable may be set to a value.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_check_real(this: &Model, variable: u32, value: f64) -> ModelResult {
     this.check(variable, value)
 }
 
-/// Sets a real variable that may be set.
+/// Sets a real variable to a value that [`model_check_real`] accepts.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_set_real(this: &mut Model, variable: u32, value: f64) {
     guarded(this, (), |this| this.set(variable, value));
@@ -124,16 +124,16 @@ pub unsafe extern "C" fn model_set_real(this: &mut Model, variable: u32, value: 
 /// Refuses derivatives: inputs are not interpolated.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_set_derivative(_: &mut Model, _: u32, _: f64) -> ModelResult {
     ModelResult::NoVariable
 }
 
-/// Reads an integer variable, which says how the run ended.
+/// Reads an integer variable; the only one states how the run ended.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_get_integer(
     this: &Model,
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn model_get_integer(
 ) -> ModelResult {
     match this.integer(variable) {
         Some(integer) => {
-            // SAFETY: valid for one value.
+            // SAFETY: `value` points to room for one number.
             unsafe { value.write(integer) };
             ModelResult::Done
         }
@@ -159,14 +159,14 @@ pub extern "C" fn model_allowed(_: u32) -> *const c_char {
 /// Ends the initialization; the vehicle is already in the initial state of the case.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_start(_: &mut Model) {}
 
 /// Runs steps and returns their number, which is smaller if the run ends.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_step(this: &mut Model, steps: u64) -> u64 {
     guarded(this, 0, |this| this.step(steps))
@@ -175,7 +175,7 @@ pub unsafe extern "C" fn model_step(this: &mut Model, steps: u64) -> u64 {
 /// True if the run has ended.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_has_ended(this: &Model) -> bool {
     this.has_ended()
@@ -184,7 +184,7 @@ pub unsafe extern "C" fn model_has_ended(this: &Model) -> bool {
 /// True if the model has failed.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_has_failed(this: &Model) -> bool {
     this.has_failed()
@@ -193,7 +193,7 @@ pub unsafe extern "C" fn model_has_failed(this: &Model) -> bool {
 /// Returns the message about the last event since the previous call; null if there was none.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_notice(this: &mut Model) -> *const c_char {
     this.notice().map_or(std::ptr::null(), CStr::as_ptr)
@@ -202,7 +202,7 @@ pub unsafe extern "C" fn model_notice(this: &mut Model) -> *const c_char {
 /// Size of a saved state in bytes.
 ///
 /// # Safety
-/// See the module.
+/// See the module documentation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_saved_bytes(this: &Model) -> usize {
     this.saved_bytes()
@@ -211,7 +211,7 @@ pub unsafe extern "C" fn model_saved_bytes(this: &Model) -> usize {
 /// Saves the state.
 ///
 /// # Safety
-/// See the module; `bytes` has the length [`model_saved_bytes`].
+/// See the module documentation; `bytes` has the length [`model_saved_bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_save(this: &mut Model, bytes: *mut u8) {
     let count = this.saved_bytes();
@@ -226,7 +226,7 @@ pub unsafe extern "C" fn model_save(this: &mut Model, bytes: *mut u8) {
 /// Restores a saved state; on failure the model is unchanged.
 ///
 /// # Safety
-/// See the module; `bytes` has the length [`model_saved_bytes`].
+/// See the module documentation; `bytes` has the length [`model_saved_bytes`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn model_restore(this: &mut Model, bytes: *const u8) -> ModelResult {
     // SAFETY: the caller provides this number of bytes.
@@ -234,7 +234,7 @@ pub unsafe extern "C" fn model_restore(this: &mut Model, bytes: *const u8) -> Mo
     guarded(this, ModelResult::Other, |this| this.restore(bytes))
 }
 
-/// Writes a text, truncated to the room available, and a zero.
+/// Writes a text, truncated to `bytes` bytes including the terminating null byte.
 ///
 /// # Safety
 /// `to` has room for `bytes`.

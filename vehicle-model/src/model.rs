@@ -7,7 +7,7 @@ use dashpot_vehicle_run::{Coupled, CoupledCase, Ending};
 
 use crate::result::ModelResult;
 
-/// Model behind `model.h`.
+/// The type `model` of `model.h`.
 pub struct Model {
     vehicle: Coupled,
     /// Fixed size of a saved state: twice the initial size, so that every counter has room to grow.
@@ -21,10 +21,10 @@ pub struct Model {
 }
 
 impl Model {
-    /// Reads the case, which must have this digest, and the contact tables from a folder.
+    /// Reads the case and the contact tables from a folder. The case must have the digest `digest`.
     ///
     /// # Errors
-    /// Returns a description of the problem if a file is missing or of another version.
+    /// Returns a description of the problem if a file is missing, invalid or from another version.
     pub fn new(resources: &Path, digest: &str) -> Result<Self, String> {
         let path = resources.join(CoupledCase::FILE);
         let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
@@ -62,7 +62,7 @@ impl Model {
         self.vehicle.value(Self::index(variable)?)
     }
 
-    /// Reads an integer variable: the one after the last real variable says how the run ended.
+    /// Reads an integer variable. The only one follows the last real variable and states how the run ended.
     pub fn integer(&self, variable: u32) -> Option<i32> {
         let is_ending = Self::index(variable)? == self.vehicle.variables().len();
         is_ending.then(|| self.vehicle.ending_code())
@@ -111,8 +111,8 @@ impl Model {
         self.saved_bytes
     }
 
-    /// Writes the length and the bytes of the state into `to`, which contains zeros. Without enough room `to` stays
-    /// zero, which is not a valid state.
+    /// Writes the length and the bytes of the state into `to`, which contains zeros. If `to` is too short, it is not
+    /// changed; zeros are not a valid state.
     pub fn save(&self, to: &mut [u8]) {
         let saved = self.vehicle.save().unwrap_or_default();
         if let Some((count, content)) = to.split_first_chunk_mut()
@@ -138,7 +138,7 @@ impl Model {
         }
     }
 
-    /// Stops the model with a message; returns the number of ticks run, 0.
+    /// Stops the model with a message. Returns 0, the number of ticks run.
     pub fn fail(&mut self, reason: &str) -> u64 {
         self.has_failed = true;
         self.notice = CString::new(reason).ok();

@@ -1,4 +1,4 @@
-//! Vehicle as part of another simulation: forces of the dampers outside are inputs, signals are outputs.
+//! Vehicle as part of another simulation: forces of the external dampers are inputs, signals are outputs.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -17,16 +17,16 @@ use dashpot_files::case::Case;
 /// Everything that defines a coupled vehicle except its contact tables; can be serialized completely.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CoupledCase {
-    /// Version of Dashpot that wrote it; only this version can read it.
+    /// Version of Dashpot that wrote the case; only this version can read it.
     pub version: String,
     /// Case whose track refers to no other file.
     pub case: Case,
-    /// Names of the dampers outside.
+    /// Names of the external dampers.
     pub outside: Vec<String>,
 }
 
 impl CoupledCase {
-    /// Name of the file that contains it in the resources of an FMU.
+    /// Name of the file that contains the coupled case in the resources of an FMU.
     pub const FILE: &str = "case.json";
 
     /// SHA-256 of the content of [`Self::FILE`], in hexadecimal. The library of an FMU rejects any other case.
@@ -34,10 +34,10 @@ impl CoupledCase {
         dashpot_files::hexadecimal(&Sha256::digest(content))
     }
 
-    /// Selects the dampers outside of a case by name.
+    /// Selects the external dampers of a case by name.
     ///
     /// # Errors
-    /// A damper that cannot be outside, or an invalid track.
+    /// A damper that cannot be external, or an invalid track.
     pub fn new(case: &Case, outside: &[String]) -> Result<Self, VehicleRunError> {
         outside_indices(case, outside)?;
         Ok(Self {
@@ -83,27 +83,27 @@ fn outside_indices(case: &Case, names: &[String]) -> Result<Vec<usize>, VehicleR
 pub struct CoupledVariable {
     /// Name of the signal, which ends in the unit.
     pub name: String,
-    /// Source or destination of its value.
+    /// Source or destination of the value.
     role: Role,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum Role {
-    /// Force of a damper outside, by its index among them.
+    /// Force of an external damper, by its index in `Coupled::outside`.
     Force(usize),
-    /// Mean rate of displacement of a damper outside over the last tick, by its index among them.
+    /// Mean rate of displacement of an external damper over the last tick, by its index in `Coupled::outside`.
     Velocity(usize),
     Output(Signal),
 }
 
 impl CoupledVariable {
-    /// True if this is the force of a damper outside, which is an input.
+    /// True if this is the force of an external damper, which is an input.
     pub fn is_force(&self) -> bool {
         matches!(self.role, Role::Force(_))
     }
 }
 
-/// Damper outside.
+/// A damper whose force comes from another simulation.
 #[derive(Debug, Clone)]
 struct Outside {
     /// Index of the damper in the vehicle.
@@ -111,7 +111,7 @@ struct Outside {
     signals: OutsideSignals,
 }
 
-/// Changing values of a damper outside.
+/// Values of an external damper that change during the run.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct OutsideSignals {
     force_n: f64,
@@ -119,7 +119,7 @@ struct OutsideSignals {
     last_m: f64,
 }
 
-/// Vehicle whose dampers outside are computed by another simulation.
+/// Vehicle whose external dampers are computed by another simulation.
 ///
 /// Displacements are available at the end of a tick. A force that is then set acts at the end of the next tick, so it
 /// lags the displacement from which it was computed by one tick.
@@ -205,7 +205,7 @@ impl Coupled {
         })
     }
 
-    /// Variables: force and velocity of each damper outside, then all signals of the vehicle except the time.
+    /// Variables: force and velocity of each external damper, then all signals of the vehicle except the time.
     pub fn variables(&self) -> &[CoupledVariable] {
         &self.variables
     }
@@ -220,7 +220,7 @@ impl Coupled {
         self.run.ticks() as f64 * self.step_s()
     }
 
-    /// Returns to the start of the case, with all forces of the dampers outside zero.
+    /// Returns to the start of the case and sets the forces of all external dampers to zero.
     pub fn reset(&mut self) {
         self.run.clone_from(&self.start);
         self.ending = None;
@@ -246,10 +246,10 @@ impl Coupled {
         })
     }
 
-    /// Sets the force of a damper outside, N, for all following ticks; `index` is that of the variable.
+    /// Sets the force of an external damper, N, for all following ticks; `index` is that of the variable.
     ///
     /// # Errors
-    /// The variable is not the force of a damper outside, or the force is not finite. Nothing changes then.
+    /// The variable is not the force of an external damper, or the force is not finite. On an error, nothing changes.
     pub fn set_force_n(&mut self, index: usize, force_n: f64) -> Result<(), VehicleRunError> {
         let role = self.variables.get(index).map(|variable| &variable.role);
         let Some(Role::Force(slot)) = role else {
@@ -263,7 +263,7 @@ impl Coupled {
     }
 
     /// Simulates up to `ticks` ticks, fewer if the run ends, and returns their number. If the run diverges, the state
-    /// is that before the call.
+    /// before the call is restored.
     ///
     /// # Errors
     /// See [`Run::step`].
@@ -312,7 +312,7 @@ impl Coupled {
     /// Resumes from bytes saved by a vehicle of the same case.
     ///
     /// # Errors
-    /// The bytes are not a state of this vehicle. Nothing changes then.
+    /// The bytes are not a state of this vehicle. On an error, nothing changes.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), postcard::Error> {
         let (state, outside, ending): (VehicleState, Vec<OutsideSignals>, i32) =
             postcard::from_bytes(bytes)?;

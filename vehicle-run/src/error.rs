@@ -28,8 +28,8 @@ pub enum VehicleRunError {
     /// The contact tables cannot be computed or cached.
     #[error("contact tables: {0}")]
     Tables(#[from] CacheError),
-    /// A damper's force cannot come from outside.
-    #[error("damper `{name}` outside: {source}")]
+    /// A damper cannot be external.
+    #[error("external damper `{name}`: {source}")]
     Outside {
         /// Name of the damper.
         name: String,
@@ -48,11 +48,11 @@ pub enum VehicleRunError {
     /// The case was written by another version.
     #[error("the case was written by Dashpot {version}; allowed: {}", env!("CARGO_PKG_VERSION"))]
     Version {
-        /// Version that wrote it.
+        /// Version of Dashpot that wrote the case.
         version: String,
     },
-    /// A variable that cannot be set, because it is not the force of a damper outside.
-    #[error("variable {variable} cannot be set; allowed: the force of a damper outside")]
+    /// A variable cannot be set, because it is not the force of an external damper.
+    #[error("variable {variable} cannot be set; allowed: the force of an external damper")]
     NotAForce {
         /// Index of the variable.
         variable: usize,

@@ -23,7 +23,7 @@ const WINDOW_S: f64 = 3.0;
 
 /// Minimum amplitude of a limit cycle, m.
 const MIN_AMPLITUDE_M: f64 = 0.5e-3;
-/// Minimum ratio of the amplitude to that in the window before; a motion that decays faster dies out.
+/// Minimum ratio of the amplitude in a window to that in the window before; a motion that decays faster dies out.
 const MIN_AMPLITUDE_RATIO: f64 = 0.99;
 
 /// Response to the initial displacement at one speed.

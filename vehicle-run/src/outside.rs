@@ -28,7 +28,8 @@ pub enum OutsideError {
     },
 }
 
-/// Returns the index of the damper `name` in the vehicle; `selected` lists the indices that are already outside.
+/// Returns the index of the damper `name` in the vehicle; `selected` lists the indices of the dampers that are already
+/// selected.
 ///
 /// # Errors
 /// Unknown damper, damper in `selected`, or damper with a fault in the case.

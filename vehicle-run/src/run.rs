@@ -98,9 +98,9 @@ pub enum Ending {
         /// Position of the vehicle's middle along the track, m.
         distance_m: f64,
     },
-    /// A damper outside stopped delivering forces.
+    /// An external damper stopped delivering forces.
     OutsideLost {
-        /// Link to the damper, and the reason.
+        /// The link to the damper, and why it was lost.
         message: String,
         /// Time, s.
         time_s: f64,
@@ -158,7 +158,7 @@ impl fmt::Display for Ending {
             } => write!(
                 f,
                 "overturned to the {side} at {time_s:.3} s, {distance_m:.1} m along the track: {unloaded_wheels} \
-                 of {wheels} wheels of the other side carry no load, {wheelset} is tilted by {:.0} mrad",
+                 of {wheels} wheels on the other side carry no load, {wheelset} is tilted by {:.0} mrad",
                 1e3 * roll_rad.abs()
             ),
             Self::BeyondModel {
@@ -171,7 +171,7 @@ impl fmt::Display for Ending {
             } => write!(
                 f,
                 "beyond the model at {time_s:.3} s, {distance_m:.1} m along the track: {wheelset}, {side} wheel: \
-                 load {:.0} kN, {:.0} times that at standstill; allowed: {END_LOAD_RATIO:.0} times",
+                 load {:.0} kN, {:.0} times the static load; allowed: {END_LOAD_RATIO:.0} times",
                 1e-3 * load_n,
                 load_n / load_static_n
             ),
@@ -185,7 +185,7 @@ impl fmt::Display for Ending {
                 distance_m,
             } => write!(
                 f,
-                "a damper outside was lost at {time_s:.3} s, {distance_m:.1} m along the track: {message}"
+                "an external damper was lost at {time_s:.3} s, {distance_m:.1} m along the track: {message}"
             ),
             Self::Interrupted { time_s, distance_m } => write!(
                 f,
@@ -264,7 +264,7 @@ impl Run {
         &self.state
     }
 
-    /// Current state of the vehicle, for setting the force of a damper outside.
+    /// Current state of the vehicle, for setting the force of an external damper.
     pub fn state_mut(&mut self) -> &mut VehicleState {
         &mut self.state
     }
@@ -272,7 +272,7 @@ impl Run {
     /// Resumes from an earlier state of this run; `start` is the run before its first tick.
     ///
     /// # Errors
-    /// State of another vehicle. The run is then unchanged.
+    /// State of another vehicle. On this error, the run is unchanged.
     pub fn restore(&mut self, start: &Self, state: VehicleState) -> Result<(), VehicleRunError> {
         if !start.vehicle.can_step(&state) {
             return Err(VehicleError::OtherVehicle.into());
@@ -289,7 +289,7 @@ impl Run {
     }
 
     /// Simulates one tick, after applying the faults that are due. Returns the ending if the run ended. Allocates only
-    /// then.
+    /// if it ended.
     ///
     /// # Errors
     /// None are known: [`Self::new`] builds the dampers of faults.
@@ -316,7 +316,7 @@ impl Run {
         }
     }
 
-    /// Ending of a run whose damper outside has stopped delivering forces.
+    /// Ending of a run whose external damper has stopped delivering forces.
     pub fn outside_lost(&self, message: String) -> Ending {
         Ending::OutsideLost {
             message,
@@ -368,7 +368,7 @@ impl Run {
                 distance_m,
             });
         }
-        // A far too high load presses the wheel deeper into the rail than the tables cover.
+        // An excessive load presses the wheel deeper into the rail than the tables cover.
         self.beyond_model().or(Some(Ending::OutsideTables {
             wheelset,
             time_s,

@@ -66,7 +66,7 @@ pub struct TickRecord {
 }
 
 impl TickRecord {
-    /// Copies `state`, which belongs to `time_s` after the start of the run.
+    /// Copies `state`, the state of the vehicle `time_s` after the start of the run.
     pub fn new(time_s: f64, state: &VehicleState) -> Self {
         let bodies = state.coordinates().len();
         Self {

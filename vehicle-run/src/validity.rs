@@ -72,9 +72,9 @@ impl fmt::Display for Warning {
                 ticks,
             } => write!(
                 f,
-                "{wheelset}, {side} wheel: load up to {:.0} kN, {:.1} times that at standstill, at {time_s:.3} s, \
-                 {distance_m:.1} m along the track, and over {WARN_LOAD_RATIO:.0} times in {}: outside the validity \
-                 of the contact model",
+                "{wheelset}, {side} wheel: the load reached {:.0} kN, {:.1} times the static load, at {time_s:.3} s, \
+                 {distance_m:.1} m along the track; it exceeded {WARN_LOAD_RATIO:.0} times the static load in {}, \
+                 which is outside the validity of the contact model",
                 1e-3 * load_n,
                 load_n / load_static_n,
                 counted(*ticks, "tick")
@@ -88,9 +88,9 @@ impl fmt::Display for Warning {
                 times,
             } => write!(
                 f,
-                "{wheelset}, {side} wheel: without load for {duration_s:.3} s from {time_s:.3} s on, \
-                 {distance_m:.1} m along the track, and for more than {WARN_LIFT_S} s {}: a vehicle near derailment",
-                counted(*times, "time")
+                "{wheelset}, {side} wheel: no load for {duration_s:.3} s from {time_s:.3} s on, {distance_m:.1} m \
+                 along the track; {} of more than {WARN_LIFT_S} s: the vehicle was near derailment",
+                counted(*times, "lift")
             ),
         }
     }
@@ -134,7 +134,7 @@ struct Lift {
     start: Moment,
 }
 
-/// Load of a wheel within a tick, counted from 1, and its position at the end of the tick.
+/// Load of a wheel within a tick, the tick's number (from 1), and the wheel's position at the end of the tick.
 #[derive(Debug, Clone, Copy, Default)]
 struct Moment {
     load_n: f64,

@@ -11,11 +11,11 @@ pub fn threads() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Runs `work` on the items with a pool of threads, starting in order, and passes each result with its item's index to
-/// `on_result` on the calling thread when it completes.
+/// Runs `work` on the items with a pool of threads and passes each result to `on_result` as soon as it is complete.
+/// Items are started in order. The calling thread calls `on_result`, with the index of the item and its result.
 ///
-/// After `on_result` returns an error, no further item is started, and the closure that `work` receives,
-/// `is_cancelled`, returns true.
+/// After `on_result` returns an error, no further item is started, and `is_cancelled`, the closure that `work`
+/// receives, returns true.
 ///
 /// # Errors
 /// Returns the first error of `on_result`.
@@ -43,7 +43,8 @@ pub fn in_parallel<T: Sync, R: Send, E>(
                     }
                 }
             };
-            // If the system refuses more threads, the running ones do the work; if there are none, this thread does.
+            // If the system refuses more threads, the running ones do the work; if none is running, this thread does
+            // it.
             if thread::Builder::new().spawn_scoped(scope, run).is_err() {
                 if started == 0 {
                     let mut items = items.iter().enumerate();
@@ -56,7 +57,7 @@ pub fn in_parallel<T: Sync, R: Send, E>(
         drop(send);
         let mut outcome = Ok(());
         for (index, result) in results {
-            // Items that were already running when the error occurred are ignored.
+            // The results of items that were already running when the error occurred are ignored.
             if outcome.is_ok() {
                 outcome = on_result(index, result);
                 cancelled.store(outcome.is_err(), Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! Builds for the 64-bit Arm processor and runs there through QEMU's user emulation.
+//! Builds programs for the 64-bit Arm processor and runs them in QEMU's user emulation.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -7,12 +7,11 @@ use crate::processor::AARCH64;
 use crate::run::repository;
 use crate::tools::{AARCH64_GCC, QEMU_AARCH64};
 
-/// Folder of the C library in Debian's packages.
+/// Folder in which Debian's packages install the C library.
 const LIBRARIES: &str = "/usr/aarch64-linux-gnu";
 
 /// Returns `cargo <command> --target aarch64-unknown-linux-gnu`, to which the caller adds arguments. Cargo runs
-/// programs
-/// in the emulator.
+/// programs in the emulator.
 pub fn cargo(command: &str) -> Command {
     let mut cargo = Command::new("cargo");
     cargo
@@ -39,7 +38,7 @@ pub fn program(path: &std::path::Path) -> Command {
     command
 }
 
-/// Returns the path of a program of that name from a release build.
+/// Returns the path of the program with this name in the release build.
 pub fn release(name: &str) -> PathBuf {
     folder().join(AARCH64).join("release").join(name)
 }

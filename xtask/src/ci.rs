@@ -1,4 +1,4 @@
-//! Every check there is, those that fail soonest first.
+//! Runs all checks; those that fail soonest come first.
 
 use crate::firmware;
 use crate::packages::rehearse_publishing;
@@ -17,7 +17,8 @@ const C_LIBRARY: &str = "capi/Cargo.toml";
 const FIRMWARE: &str = "firmware/Cargo.toml";
 const FUZZ: &str = "fuzz/Cargo.toml";
 
-/// Runs every check that a stable compiler can do. Miri and fuzzing need a nightly one and are commands of their own.
+/// Runs every check that a stable compiler supports. Miri and fuzzing need a nightly compiler and have their own
+/// commands.
 ///
 /// # Errors
 /// The first check that failed.
@@ -41,7 +42,7 @@ pub fn ci() -> Outcome {
     rust_version::check()?;
     each_feature()?;
     firmware::build_default()?;
-    // The only optimised build of the command here, so it costs nothing to measure it.
+    // No other check builds the command with optimisation, so measuring this build costs no extra time.
     timings::build_and_demonstrate()?;
     test()
 }
@@ -50,14 +51,15 @@ fn lint(packages: &[&str]) -> Outcome {
     cargo(&[&["clippy"], packages, &["--", "-D", "warnings"]].concat())
 }
 
-/// Checks each package without features, with each feature alone, and with all.
+/// Checks each package without features, with each feature alone, and with all features.
 fn each_feature() -> Outcome {
     CARGO_HACK.install()?;
     cargo(&[
         "hack",
         "clippy",
         "--workspace",
-        // For the package in the top folder, cargo would check the default members. Its only feature is for a bench.
+        // For the package in the top folder, cargo would check the default members instead. Its only feature is for a
+        // bench.
         "--exclude",
         "dashpot",
         "--each-feature",

@@ -16,7 +16,7 @@ pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<Path
     let mut command = toolchain.cargo("build", &firmware.join("Cargo.toml"), processor);
     command.arg("--locked").arg("--target-dir").arg(&target);
     if matches!(toolchain, TargetToolchain::FromSource { .. }) {
-        // A distribution's compiler has no linker for the target.
+        // A distribution's compiler does not come with a linker for the target.
         let variable = processor.target.to_uppercase().replace(['-', '.'], "_");
         command.env(
             format!("CARGO_TARGET_{variable}_LINKER"),

@@ -1,4 +1,4 @@
-//! Developer commands, and what tests of other packages share with them.
+//! Developer commands, and code that they share with the tests of other packages.
 
 pub mod aarch64;
 pub mod c_library;

@@ -40,8 +40,8 @@ Commands:
                          change the code that must not break and list the changes that no test notices (hours; installs
                          cargo-mutants). Names: step, health, engine, track, indices, recordings; all by default.
                          Options are those of cargo-mutants, such as --jobs 2, or --shard 0/8 for an eighth.
-  kalker-book            compute the tables of the recommended creep law from exact theory (some fifteen minutes)
-  vehicle-validation     run the studies of docs/vehicle-validation.md and write it (some six minutes)
+  kalker-book            compute the tables of the recommended creep law from exact theory (about fifteen minutes)
+  vehicle-validation     run the studies of docs/vehicle-validation.md and write it (about six minutes)
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
   python                 install the Python packages that tests need in target/python, and maturin in target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
@@ -52,9 +52,9 @@ Commands:
   help                   print this text
 
 Example: cargo xtask test
-Exit code: 0 done, 1 a check failed, 2 wrong use.";
+Exit code: 0 done, 1 a check failed, 2 usage error.";
 
-/// Version of `gungraun` in Cargo.toml; its runner must have the same.
+/// Version of `gungraun` in Cargo.toml; its runner must have the same version.
 const GUNGRAUN: &str = "0.20";
 
 fn main() -> ExitCode {
@@ -86,14 +86,14 @@ fn main() -> ExitCode {
         ["c-library", ref options @ ..] => match Options::parse(options) {
             Ok(options) => c_library(&options),
             Err(message) => {
-                eprintln!("wrong use: {message}");
+                eprintln!("usage error: {message}");
                 return ExitCode::from(2);
             }
         },
         ["search", ref options @ ..] => match search::Options::parse(options) {
             Ok(options) => search::search(options),
             Err(message) => {
-                eprintln!("wrong use: {message}");
+                eprintln!("usage error: {message}");
                 return ExitCode::from(2);
             }
         },
@@ -113,7 +113,7 @@ fn main() -> ExitCode {
         ["fuzz", "--seconds", text] => match text.parse() {
             Ok(seconds @ 1..=86_400) => nightly::fuzz(seconds),
             _ => {
-                eprintln!("wrong use: --seconds {text}: must be a whole number of 1 to 86400");
+                eprintln!("usage error: --seconds {text}: must be a whole number of 1 to 86400");
                 return ExitCode::from(2);
             }
         },
@@ -127,13 +127,13 @@ fn main() -> ExitCode {
             match mutants::select(names) {
                 Ok(_) => mutants::mutants(names, options),
                 Err(message) => {
-                    eprintln!("wrong use: {message}");
+                    eprintln!("usage error: {message}");
                     return ExitCode::from(2);
                 }
             }
         }
         _ => {
-            eprintln!("wrong use: `{}`\n\n{HELP}", words.join(" "));
+            eprintln!("usage error: `{}`\n\n{HELP}", words.join(" "));
             return ExitCode::from(2);
         }
     };
@@ -157,8 +157,8 @@ fn build_wheel() -> Outcome {
     Ok(())
 }
 
-/// Installs the library for the named platforms. Without names, installs it for all whose tools are there and prints
-/// what the others lack.
+/// Installs the library for the named platforms. Without names, installs it for all platforms whose tools are present
+/// and prints what the others lack.
 fn c_library(options: &Options) -> Outcome {
     let is_named = !options.platforms.is_empty();
     let all = &Platform::ALL[..];
@@ -201,7 +201,7 @@ fn measure_target(json: bool) -> Outcome {
     if json {
         print!("{report}");
     } else {
-        // Lines with a value, without JSON's punctuation.
+        // Prints the lines with a value, without JSON's punctuation.
         for line in report.lines().filter(|line| line.contains("\": ")) {
             println!("{}", line.replace(['"', '{', ','], "").trim_end());
         }

@@ -1,6 +1,7 @@
-//! `cargo xtask mutants`: changes the code that must not break, bit by bit, and lists the changes that no test notices.
+//! `cargo xtask mutants`: makes small changes to the code that must not break, one at a time, and lists the changes
+//! that no test notices.
 //!
-//! Survivors that were judged harmless are listed in `.cargo/mutants.toml`, each with its reason.
+//! `.cargo/mutants.toml` lists the surviving changes that were judged harmless, each with its reason.
 
 use std::fs;
 use std::path::PathBuf;
@@ -8,16 +9,16 @@ use std::path::PathBuf;
 use crate::run::{Outcome, cargo, repository};
 use crate::tools::CARGO_MUTANTS;
 
-/// Code that is changed, and the tests that must notice.
+/// Code that is changed, and the tests that must notice the changes.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Area {
     /// Name on the command line.
     pub name: &'static str,
     /// Package of the code.
     pub package: &'static str,
-    /// Paths from the repository's folder; `*` matches a name and `**` any folders.
+    /// Paths relative to the repository's folder; `*` matches a name and `**` any folders.
     pub files: &'static [&'static str],
-    /// Tests in the order in which they are run, fast ones first: each round tries what the rounds before did not notice.
+    /// Tests in the order in which they run, fast ones first. A later round tries only what no earlier one noticed.
     pub rounds: &'static [Round],
 }
 
@@ -161,11 +162,13 @@ pub const AREAS: [Area; 6] = [
     },
 ];
 
-/// Runs the areas of these names, or all if there are none. Takes hours; results are in `target/mutants/NAME`. Options
-/// are those of cargo-mutants, such as `--jobs 2` or `--shard 0/8`.
+/// Runs the areas with these names, or all areas without names.
+///
+/// This takes hours. The results are in `target/mutants/NAME`. Options are those of cargo-mutants, such as `--jobs 2` or
+/// `--shard 0/8`.
 ///
 /// # Errors
-/// An area is unknown, cargo-mutants does not install or run, or a change survived all rounds.
+/// An area is unknown, cargo-mutants cannot be installed or run, or a change survived all rounds.
 pub fn mutants(names: &[&str], options: &[&str]) -> Outcome {
     let areas = select(names)?;
     CARGO_MUTANTS.install()?;
@@ -180,28 +183,50 @@ pub fn mutants(names: &[&str], options: &[&str]) -> Outcome {
     }
 }
 
-/// Runs the rounds of an area until nothing is left.
+/// Runs the rounds of an area until no change survives.
 fn run(area: &Area, options: &[&str]) -> Outcome {
     let folder = output(area);
-    let missed = folder.join("mutants.out/missed.txt");
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    for round in 0..area.rounds.len() {
-        let arguments = arguments(area, round, options);
+    let mut changes = Changes::All(options);
+    for round in area.rounds {
+        let arguments = arguments(area, round, &changes);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        let outcome = cargo(&arguments);
-        if outcome.is_ok() {
+        let Err(error) = cargo(&arguments) else {
             return Ok(());
+        };
+        let read = |name| {
+            fs::read_to_string(folder.join("mutants.out").join(name))
+                .map_err(|_| format!("{}: {error}", area.name))
+        };
+        let survivors: Vec<String> = [read("missed.txt")?, read("timeout.txt")?]
+            .iter()
+            .flat_map(|text| text.lines().map(str::to_owned))
+            .collect();
+        // A failure without survivors is one of cargo-mutants, such as tests that fail without any change.
+        if survivors.is_empty() {
+            return Err(format!("{}: {error}", area.name));
         }
-        // A failure without survivors is one of cargo-mutants, such as tests that fail before any change.
-        let survivors = fs::read_to_string(&missed).unwrap_or_default();
-        if survivors.is_empty() || round + 1 == area.rounds.len() {
-            return outcome.map_err(|error| format!("{}: {error}\n{survivors}", area.name));
-        }
+        changes = Changes::Survivors(survivors);
     }
-    Ok(())
+    match changes {
+        Changes::All(_) => Ok(()),
+        Changes::Survivors(lines) => Err(format!(
+            "{}: no test noticed\n{}",
+            area.name,
+            lines.join("\n")
+        )),
+    }
 }
 
-/// Returns the areas of these names, or all if there are none.
+/// Changes that a round tries.
+enum Changes<'a> {
+    /// All that the options of cargo-mutants select.
+    All(&'a [&'a str]),
+    /// Those that the last round did not notice, as cargo-mutants prints them.
+    Survivors(Vec<String>),
+}
+
+/// Returns the areas with these names, or all areas without names.
 ///
 /// # Errors
 /// A name is unknown.
@@ -223,37 +248,53 @@ fn output(area: &Area) -> PathBuf {
     repository().join("target/mutants").join(area.name)
 }
 
-/// Returns the arguments of cargo for a round, counted from 0.
-fn arguments(area: &Area, round: usize, options: &[&str]) -> Vec<String> {
+/// Returns the arguments of cargo for a round.
+fn arguments(area: &Area, round: &Round, changes: &Changes<'_>) -> Vec<String> {
     let output = output(area);
-    let output = output.to_string_lossy();
-    let mut arguments = vec![
+    let fixed = [
         "mutants",
         "--no-shuffle",
         "--package",
         area.package,
         "--output",
-        &*output,
     ];
-    if round > 0 {
-        arguments.push("--iterate");
+    let mut arguments: Vec<String> = fixed.map(str::to_owned).into();
+    arguments.push(output.to_string_lossy().into_owned());
+    let mut add =
+        |option: &str, value: &str| arguments.extend([option.to_owned(), value.to_owned()]);
+    for file in area.files {
+        add("--file", file);
     }
-    arguments.extend(options);
-    let Round { packages, tests } = &area.rounds[round];
-    arguments.extend(area.files.iter().flat_map(|file| ["--file", file]));
-    arguments.extend(
-        packages
-            .iter()
-            .flat_map(|package| ["--test-package", package]),
-    );
-    arguments.push("--");
-    arguments.extend(*tests);
-    arguments.into_iter().map(str::to_owned).collect()
+    for package in round.packages {
+        add("--test-package", package);
+    }
+    match changes {
+        Changes::All(options) => arguments.extend(options.iter().map(|&option| option.to_owned())),
+        Changes::Survivors(lines) => {
+            for line in lines {
+                add("--re", &format!("^{}$", escaped(line)));
+            }
+        }
+    }
+    arguments.push("--".to_owned());
+    arguments.extend(round.tests.iter().map(|&argument| argument.to_owned()));
+    arguments
+}
+
+/// Returns a regular expression that matches this text only.
+fn escaped(text: &str) -> String {
+    let escape = |c: char| match c {
+        '.' | '*' | '+' | '?' | '(' | ')' | '[' | ']' | '{' | '}' | '|' | '^' | '$' | '\\' => {
+            vec!['\\', c]
+        }
+        _ => vec![c],
+    };
+    text.chars().flat_map(escape).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{AREAS, arguments, select};
+    use super::{AREAS, Changes, arguments, select};
     use crate::run::repository;
 
     #[test]
@@ -272,13 +313,23 @@ mod tests {
 
     #[test]
     fn tests_come_after_the_files_and_packages() {
-        let line = arguments(&AREAS[2], 0, &["--jobs", "2"]).join(" ");
-        let expected = "--jobs 2 --file rail/src/vehicle/engine/**/*.rs --test-package dashpot-rail \
+        let area = &AREAS[2];
+        let all = Changes::All(&["--jobs", "2"]);
+        let line = arguments(area, &area.rounds[0], &all).join(" ");
+        let expected = "--file rail/src/vehicle/engine/**/*.rs --test-package dashpot-rail --jobs 2 \
                         -- --lib --test vehicle";
         assert!(line.ends_with(expected), "{line}");
-        assert!(!line.contains("--iterate"), "{line}");
-        let line = arguments(&AREAS[2], 1, &[]).join(" ");
-        assert!(line.contains("--iterate"), "{line}");
+    }
+
+    #[test]
+    fn later_rounds_try_the_survivors() {
+        let area = &AREAS[2];
+        let survivors = Changes::Survivors(vec!["a.rs:1:2: replace * with + in f".to_owned()]);
+        let line = arguments(area, &area.rounds[1], &survivors).join(" ");
+        assert!(
+            line.contains(r"--re ^a\.rs:1:2: replace \* with \+ in f$ --"),
+            "{line}"
+        );
     }
 
     #[test]

@@ -7,7 +7,8 @@ use crate::tools::CARGO_FUZZ;
 
 const NIGHTLY: &str = "nightly";
 
-/// Has four-byte pointers like the firmware's processors. Miri cannot run x86-64, for which `libm` has assembly.
+/// Target with four-byte pointers, like the firmware's processors. Miri cannot run the assembly that `libm` has for
+/// x86-64.
 const MIRI_TARGET: &str = "armv7-unknown-linux-gnueabihf";
 
 /// Tests that cross the C interface, except the test of its header. The core, which they call, has no unsafe code.
@@ -31,7 +32,7 @@ const MIRI_ARGUMENTS: [&str; 14] = [
 /// Checks that there is a nightly toolchain with Miri.
 ///
 /// # Errors
-/// There is none. The message has the command that installs it.
+/// There is no such toolchain. The message contains the command that installs it.
 fn find_miri() -> Outcome {
     let mut miri = cargo_of_toolchain(NIGHTLY);
     miri.args(["miri", "--version"]);
@@ -43,7 +44,7 @@ fn find_miri() -> Outcome {
 /// Runs the tests of the C interface under Miri.
 ///
 /// # Errors
-/// There is no nightly toolchain, a test fails, or its behaviour is undefined.
+/// There is no nightly toolchain, a test fails, or a test has undefined behaviour.
 pub fn miri() -> Outcome {
     find_miri()?;
     // Miri finds more in unoptimised code.
@@ -51,7 +52,8 @@ pub fn miri() -> Outcome {
     cargo_of(NIGHTLY, &MIRI_ARGUMENTS, &variables)
 }
 
-/// Runs each fuzz target for some seconds, from the kept seeds and the inputs that earlier runs found.
+/// Runs each fuzz target for this number of seconds, starting from the kept seeds and the inputs that earlier runs
+/// found.
 ///
 /// # Errors
 /// There is no nightly toolchain, or a target fails. The output names the input on which it fails.

@@ -1,4 +1,4 @@
-//! Rehearses publishing: the packages that a user may depend on, in the order of their dependencies.
+//! Rehearses publishing the packages that a user may depend on, in the order of their dependencies.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,8 +8,8 @@ use crate::run::{Outcome, cargo, cargo_output, repository};
 /// Files that each package must contain in addition to its sources.
 const REQUIRED: [&str; 4] = ["Cargo.toml", "LICENSE-MIT", "LICENSE-APACHE", "README.md"];
 
-/// The package that is also compiled from its packed files. To compile all would take as long as the workspace itself;
-/// `tests/repository/published.rs` checks that no package includes a file from outside its folder.
+/// The only package that is also compiled from its packed files, because compiling all would take as long as the
+/// workspace itself. `tests/repository/published.rs` checks that no package includes a file from outside its folder.
 const COMPILED: &str = "dashpot-core";
 
 /// A package of the workspace.
@@ -21,10 +21,10 @@ pub struct Package {
     pub folder: String,
 }
 
-/// Packs every published package and checks what is in it.
+/// Packs every published package and checks its contents.
 ///
 /// # Errors
-/// A package cannot be packed, lacks a required file, or the one that is compiled does not compile.
+/// A package cannot be packed or lacks a required file, or the package that is compiled does not compile.
 pub fn rehearse_publishing() -> Outcome {
     let packages = published()?;
     for package in &packages {
@@ -66,7 +66,7 @@ pub fn rehearse_publishing() -> Outcome {
     cargo(&compile)
 }
 
-/// Returns the required files that a package's list of files lacks.
+/// Returns the required files that are missing from a package's list of files.
 fn missing(list: &str) -> Vec<&'static str> {
     let files: BTreeSet<&str> = list.lines().map(str::trim).collect();
     REQUIRED

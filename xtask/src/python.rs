@@ -19,7 +19,8 @@ const TEST_PACKAGES: [&str; 6] = [
 /// Packages that build wheels.
 const WHEEL_PACKAGES: [&str; 1] = ["maturin==1.16.0"];
 
-/// The only dependency of the package `dashpot`. We keep the wheel, so that a test can install both without a network.
+/// The only dependency of the package `dashpot`. Its wheel is kept, so that a test can install both packages without a
+/// network.
 const DEPENDENCY: &str = "numpy==2.4.6";
 
 /// Debian package that lets Python create environments.
@@ -98,7 +99,7 @@ pub fn pip(interpreter: &Path, command: &str, arguments: &[&str]) -> Outcome {
     run(pip, &format!("pip {command} {}", arguments.join(" ")))
 }
 
-/// Returns the folder with the wheel of the dependency of the package `dashpot`.
+/// Returns the folder with the wheel of `DEPENDENCY`, on which the package `dashpot` depends.
 pub fn needed() -> PathBuf {
     TESTS.folder().join("needed")
 }
@@ -107,11 +108,11 @@ fn has_needed() -> bool {
     std::fs::read_dir(needed()).is_ok_and(|mut files| files.next().is_some())
 }
 
-/// Returns the Python with the packages that tests need; `None` if they are missing, as [`have`](crate::tools::have)
-/// returns `false`.
+/// Returns the Python interpreter with the packages that tests need. It is `None` if they are missing; then the test is
+/// skipped, as with [`have`](crate::tools::have).
 ///
 /// # Panics
-/// As [`have`](crate::tools::have).
+/// The test is skipped and the variable `CI` is set.
 pub fn have_packages(skipped: &str) -> Option<PathBuf> {
     if !(TESTS.is_installed() && WHEELS.is_installed() && has_needed()) {
         skip(skipped, "cargo xtask python");
@@ -127,7 +128,7 @@ pub fn lacks_environments() -> bool {
     !output.is_ok_and(|output| output.status.success())
 }
 
-/// Creates the environments if they are missing or have other packages.
+/// Creates the environments if they are missing or contain other packages.
 ///
 /// # Errors
 /// There is no Python, it lacks the module `venv`, or a package cannot be installed.
@@ -147,7 +148,7 @@ pub fn install() -> Outcome {
     )
 }
 
-/// Returns the Python that builds wheels, and installs it if it is missing.
+/// Returns the Python interpreter that builds wheels; installs its environment if that is missing.
 ///
 /// # Errors
 /// There is no Python with the module `venv`, or maturin cannot be installed.

@@ -16,8 +16,8 @@ pub fn cargo_with(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     show(arguments, variables, Stdio::inherit())
 }
 
-/// Runs cargo with environment variables and all of its output on standard error, which keeps standard output free for
-/// a result.
+/// Runs cargo with environment variables and sends all of its output to standard error, which keeps standard output
+/// free for a result.
 pub fn cargo_output_to_stderr(arguments: &[&str], variables: &[(&str, &str)]) -> Outcome {
     show(arguments, variables, std::io::stderr().into())
 }
@@ -55,7 +55,7 @@ pub fn cargo_of_toolchain(toolchain: &str) -> Command {
     command
         .arg(format!("+{toolchain}"))
         .current_dir(repository());
-    // rustup sets these for the programs it starts, such as this one.
+    // rustup sets these variables for the programs it starts, such as this one.
     for variable in ["CARGO", "RUSTC", "RUSTDOC", "RUSTUP_TOOLCHAIN"] {
         command.env_remove(variable);
     }
@@ -82,7 +82,7 @@ pub fn version_of(program: &str, arguments: &[&str]) -> Outcome<String> {
         .map(|word| word.strip_prefix("valgrind-").unwrap_or(word))
         .find(|word| word.starts_with(|first: char| first.is_ascii_digit()))
         .map(str::to_owned)
-        .ok_or_else(|| format!("`{line}` names no version: `{}`", text.trim()))
+        .ok_or_else(|| format!("`{line}` printed no version: `{}`", text.trim()))
 }
 
 /// Runs a program and returns its standard output.
@@ -102,7 +102,7 @@ pub fn output_of(mut command: Command, line: &str) -> Outcome<String> {
 }
 
 fn cargo_command(arguments: &[&str]) -> Command {
-    // The cargo that runs this program; `cargo` if it was started by hand.
+    // Use the cargo that runs this program, or `cargo` if the program was started by hand.
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(repository());
     command

@@ -1,4 +1,4 @@
-//! The lowest compiler that each package's `rust-version` promises compiles it.
+//! Checks that the lowest compiler that each package's `rust-version` promises compiles it.
 
 use std::process::Command;
 
@@ -15,8 +15,8 @@ pub struct Promise {
     pub target: Option<&'static str>,
 }
 
-/// `rust-version` of the core, for firmware that links the step and the link alone. The feature `builder`, and a
-/// desktop's SIMD, need nalgebra and `wide`, whose own `rust-version` is that of the workspace.
+/// `rust-version` of the core, for firmware that contains only the step and the host link. The feature `builder` and
+/// SIMD on a desktop need nalgebra and `wide`, whose `rust-version` is that of the workspace.
 pub const CORE: &str = "1.88";
 
 /// `rust-version` of the workspace: the highest among its dependencies.
@@ -42,27 +42,27 @@ const PROMISES: [Promise; 2] = [
     },
 ];
 
-/// Action for a promised version.
+/// What to do about a promised version.
 #[derive(Debug, PartialEq, Eq)]
 enum Check {
-    /// Nothing: it is the version that runs all other checks.
+    /// Nothing, because all other checks already run with this version.
     Same,
     /// Compile with this toolchain.
     CompileWith(String),
-    /// Fail: it is above the compiler that runs the checks.
+    /// Fail, because the version is above that of the compiler that runs the checks.
     Above,
 }
 
-/// Compiles the core and the workspace with the lowest versions that they promise.
+/// Compiles the core and the workspace, each with the lowest compiler version that it promises.
 ///
 /// # Errors
-/// Code does not compile, rustup cannot install a version, or the running compiler is older.
+/// Code does not compile, rustup cannot install a version, or the running compiler is older than a promised version.
 pub fn check() -> Outcome {
     let compiler = version_of("rustc", &["--version"])?;
     for promise in PROMISES {
         match needed(promise.version, &compiler) {
             Check::Same => println!(
-                "rust-version {} is checked by all else: rustc {compiler}",
+                "rust-version {} is checked by all other commands, which use rustc {compiler}",
                 promise.version
             ),
             Check::CompileWith(toolchain) => compile(&toolchain, promise)?,
@@ -97,7 +97,7 @@ fn compile(toolchain: &str, promise: Promise) -> Outcome {
         install.args(["--target", target]);
     }
     run(install, &format!("rustup toolchain install {toolchain}"))?;
-    // Compilers that share a folder compile everything again in turns.
+    // Each compiler has its own folder; if they shared one, each would compile everything again.
     let folder = format!("target/rust_version/{toolchain}");
     let mut arguments = vec!["check", "--locked", "--target-dir", &folder];
     arguments.extend(promise.code);

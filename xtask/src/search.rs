@@ -2,7 +2,7 @@
 
 use crate::run::{Outcome, cargo, repository};
 
-/// Defaults: some minutes on two cores.
+/// Default number of motions; the search takes some minutes on two cores.
 const EVALUATIONS: usize = 4_000;
 const SEED: u64 = 1;
 
@@ -47,10 +47,10 @@ impl Options {
     }
 }
 
-/// Searches, prints each case that is worse than all before it, and writes the worst case to target/search.
+/// Runs the search, prints each case that is worse than all before it, and writes the worst case to target/search.
 ///
 /// # Errors
-/// A case breaks the promise. It is written too.
+/// A case breaks the promise. It is written to the folder too.
 pub fn search(options: Options) -> Outcome {
     let folder = repository().join("target/search");
     cargo(&[

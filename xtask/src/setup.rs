@@ -8,10 +8,10 @@ use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
 use crate::tools::{ARM_GCC, ARM_LIBC, QEMU, TEST_TOOLS, Tool, install, missing};
 
-/// Packages of a compiler for the Cortex-M processors on a machine without rustup.
+/// Debian packages with a compiler for the Cortex-M processors, for a machine without rustup.
 const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 
-/// Tools of the tests that measure the core on emulated processors.
+/// Tools for the tests that measure the core on emulated processors.
 const TARGET_TOOLS: [Tool; 3] = [ARM_GCC, ARM_LIBC, QEMU];
 
 /// Installs what all tests need. If that fails, prints the command to run by hand; the tests that need it are skipped.
@@ -25,7 +25,7 @@ pub fn install_for_tests() {
     report(python::install());
 }
 
-/// Installs what the tests on emulated Cortex-M processors need, as [`install_for_tests`].
+/// Installs what the tests on emulated Cortex-M processors need, in the same way as [`install_for_tests`].
 pub fn install_for_target() {
     install_targets(&[CORTEX_M7.target, CORTEX_M33.target]);
     report(install_tools(&TARGET_TOOLS, &[]));
@@ -37,7 +37,7 @@ fn report(outcome: Outcome) {
     }
 }
 
-/// Installs the missing tools and other packages, and a compiler for the firmware's processor if there is none.
+/// Installs the missing tools, the other packages, and a compiler for the firmware's processor if there is none.
 fn install_tools(tools: &[Tool], others: &[&'static str]) -> Outcome {
     let mut packages = missing(tools);
     packages.extend(others);
@@ -50,7 +50,7 @@ fn install_tools(tools: &[Tool], others: &[&'static str]) -> Outcome {
     }
 }
 
-/// Installs the libraries of targets if there is a rustup.
+/// Installs the libraries of targets if rustup is present.
 fn install_targets(targets: &[&str]) {
     let lacks = |target: &&str| TargetToolchain::installed(target).is_none();
     let missing: Vec<&str> = targets.iter().copied().filter(lacks).collect();

@@ -1,4 +1,4 @@
-//! Public interfaces change only as the version number says, compared with the last tag.
+//! Checks that public interfaces have changed since the last tag only as the version number allows.
 
 use std::process::Command;
 
@@ -6,13 +6,13 @@ use crate::packages::published;
 use crate::run::{Outcome, cargo, output_of, repository};
 use crate::tools::CARGO_SEMVER_CHECKS;
 
-/// Start of the tags of versions, such as `v0.1.0`.
+/// Prefix of the tags of versions, such as `v0.1.0`.
 const PREFIX: &str = "v";
 
 /// Compares the interface of each published package with that of the last tagged version.
 ///
 /// # Errors
-/// An interface changed more than the version number says, or git or cargo-semver-checks does not run.
+/// An interface changed more than the version number allows, or git or cargo-semver-checks does not run.
 pub fn check_interfaces() -> Outcome {
     let Some(tag) = last_tag(&git(&[
         "tag",
@@ -53,7 +53,7 @@ fn git(arguments: &[&str]) -> Outcome<String> {
     output_of(git, &format!("git {}", arguments.join(" ")))
 }
 
-/// Returns the newest version's tag from a list in descending order; `None` if no tag is of a version.
+/// Returns the newest version's tag from a list in descending order; `None` if no tag names a version.
 fn last_tag(tags: &str) -> Option<String> {
     let is_version = |tag: &&str| {
         let version = tag.strip_prefix(PREFIX);
@@ -65,7 +65,7 @@ fn last_tag(tags: &str) -> Option<String> {
         .map(str::to_owned)
 }
 
-/// True if the files of a tag include the package in this folder.
+/// True if a tag's list of files includes the package in this folder.
 fn is_tagged(folder: &str, files: &str) -> bool {
     let manifest = format!("{folder}/Cargo.toml");
     files.lines().any(|file| file == manifest)

@@ -28,11 +28,11 @@ pub enum TargetToolchain {
 }
 
 impl TargetToolchain {
-    /// Returns this machine's first choice for a target. A distribution's compiler serves only targets without an
-    /// operating system, because it compiles only `core`.
+    /// Returns the compiler that this machine uses for a target: the first choice that it has. A distribution's
+    /// compiler serves only targets without an operating system, because it compiles only `core`.
     ///
     /// # Errors
-    /// There is none. The message has the command that installs one.
+    /// There is no such compiler. The message contains the command that installs one.
     pub fn find(target: &str) -> Outcome<Self> {
         Self::installed(target)
             .or_else(|| Self::distribution().filter(|_| target.contains("-none-")))
@@ -78,8 +78,8 @@ impl TargetToolchain {
         Ok(words.join(" "))
     }
 
-    /// Returns the folder for builds of the package in the folder `package`: one for each compiler and processor, and
-    /// cargo's usual one for the first choice of compiler and a Cortex-M7.
+    /// Returns the folder for builds of the package in the folder `package`. Each compiler and processor has its own
+    /// folder; the first choice of compiler with a Cortex-M7 has cargo's usual one.
     pub fn output_folder(&self, package: &Path, processor: &Processor) -> PathBuf {
         let folder = package.join("target");
         let first = Self::find(processor.target).is_ok_and(|first| first == *self);
@@ -94,12 +94,12 @@ impl TargetToolchain {
     /// path). The caller adds arguments.
     pub fn cargo(&self, command: &str, manifest: &Path, processor: &Processor) -> Command {
         let mut cargo = match self {
-            // The default cargo, because another toolchain's may have started this program.
+            // Use the default cargo, because another toolchain's cargo may have started this program.
             Self::Installed => Command::new("cargo"),
             Self::FromSource { cargo, rustc } => {
                 let mut command = Command::new(cargo);
                 command.env("RUSTC_BOOTSTRAP", "1").env("RUSTC", rustc);
-                // rustup sets these for the programs it starts, such as this one.
+                // rustup sets these variables for the programs it starts, such as this one.
                 command.env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO");
                 command
             }

@@ -27,7 +27,7 @@ const RUNS: [&[&str]; 3] = [
 /// Installs the tools that tests need, runs every test, and lists those that were skipped and why.
 ///
 /// # Errors
-/// Tests failed; all others ran.
+/// Tests failed. All tests were run nevertheless.
 pub fn test() -> Outcome {
     install_for_tests();
     let path = repository().join("target/skipped_tests.txt");
@@ -48,7 +48,7 @@ pub fn test() -> Outcome {
     }
 }
 
-/// Returns the text printed at the end, from the lines that skipped tests wrote.
+/// Returns the summary printed at the end, from the lines that skipped tests wrote.
 fn summary(skipped: &str) -> String {
     let mut lines: Vec<&str> = skipped.lines().collect();
     lines.sort_unstable();

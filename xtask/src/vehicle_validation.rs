@@ -1,4 +1,4 @@
-//! Updates the documents of the vehicle's validation and the rows behind them.
+//! Updates the documents about the vehicle's validation and the rows on which they are based.
 
 use std::fs;
 
@@ -7,13 +7,13 @@ use crate::run::{Outcome, cargo, cargo_with, repository};
 /// Studies whose rows are kept in `data/studies/rows/`.
 const STUDIES: [&str; 4] = ["paper", "curve-r600", "stand-ins", "out-of-service"];
 
-/// Number of seeds of the irregularity: five times those of the studies, so that chance decides less.
+/// Number of seeds of the track irregularity: five times as many as in the studies, to reduce the effect of chance.
 pub const SEEDS: u64 = 40;
 
-/// Runs the studies (some six minutes on two cores), keeps their rows, and writes the documents.
+/// Runs the studies (about six minutes on two cores), keeps their rows, and writes the documents.
 ///
 /// # Errors
-/// A study fails, a file cannot be written, or rows do not repeat.
+/// A study fails, a file cannot be written, or rows are not reproducible.
 pub fn vehicle_validation() -> Outcome {
     let bless = |filter: &[&str]| {
         let test = [
@@ -25,7 +25,7 @@ pub fn vehicle_validation() -> Outcome {
         ];
         cargo_with(&[&test[..], filter].concat(), &[("DASHPOT_BLESS", "1")])
     };
-    // Each row has the digest of physics, so that must be up to date first.
+    // Each row contains the digest of physics, so the digest must be up to date first.
     bless(&["physics"])?;
     let seeds = SEEDS.to_string();
     for study in STUDIES {

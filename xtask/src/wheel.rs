@@ -35,7 +35,7 @@ pub fn wheel(profile: &str, output: &Path) -> Outcome<PathBuf> {
     let mut built = wheels(output).map_err(failed)?;
     built
         .pop()
-        .ok_or_else(|| format!("{}: maturin left no wheel", output.display()))
+        .ok_or_else(|| format!("{}: maturin built no wheel", output.display()))
 }
 
 fn wheels(folder: &Path) -> std::io::Result<Vec<PathBuf>> {

@@ -1,5 +1,5 @@
 //! Calibration against synthetic tests with known parameters. The reference solver generates them; it shares no law
-//! with the fitted model. Both signals have noise, and the force is recorded late.
+//! with the fitted model. Both signals have noise, and the recorded force has a delay.
 
 use std::f64::consts::TAU;
 
@@ -29,7 +29,8 @@ const MOTIONS: [(f64, f64); 5] = [
     (2e-3, 4.0),
 ];
 
-/// Returns a synthetic bench recording of `damper`; `noise` is the standard deviation over the rms of each signal.
+/// Returns a synthetic bench recording of `damper`; `noise` is the standard deviation divided by the rms of each
+/// signal.
 pub(crate) fn recorded(
     damper: &CheckedParameters,
     (amplitude_m, frequency_hz): (f64, f64),
@@ -60,7 +61,7 @@ pub(crate) fn recorded(
     }
 }
 
-/// Returns a calibration that starts from `start`, with synthetic tests of `truth`.
+/// Returns a calibration that starts from `start`, with synthetic tests of the damper `truth`.
 fn calibration(
     truth: &CheckedParameters,
     start: &CheckedParameters,
@@ -196,7 +197,9 @@ fn confounded_parameters_are_rejected_with_the_reason() {
     assert!(matches!(error, CalibrationError::Undetermined { .. }));
     let text = error.to_string();
     assert!(
-        text.contains("orifice.diameter_m: only together with `orifice.discharge_coefficient`"),
+        text.contains(
+            "orifice.diameter_m: only in combination with `orifice.discharge_coefficient`"
+        ),
         "{text}"
     );
     // The prior of the coefficient separates them.
@@ -359,6 +362,7 @@ fn intervals_of_95_percent_contain_the_truth() {
         }
     }
     println!("of {seeds}: {within:?}");
-    // For 95 % intervals, fewer than 10 of 12 occur by chance once in 50 times, fewer than 42 of 48 almost never.
+    // By chance, fewer than 10 of 12 such intervals contain the truth once in 50 times, and fewer than 42 of 48 almost
+    // never.
     assert!(within.iter().sum::<usize>() >= 42, "{within:?}");
 }

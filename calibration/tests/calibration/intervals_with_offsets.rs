@@ -1,5 +1,5 @@
-//! Regression test: with a force offset in the recordings the parameters had no intervals at all. With offsets of both
-//! sensors, 95 % intervals must contain the truth as often as without.
+//! Regression test: with a force offset in the recordings, the parameters had no intervals at all. With offsets of both
+//! sensors, 95 % intervals must contain the truth as often as without offsets.
 
 use dashpot_calibration::{
     Assumed, Calibration, FORCE_OFFSET, HeldRig, LoopTest, Recorded, SKEW, Varied,
@@ -68,7 +68,8 @@ fn intervals_of_95_percent_contain_the_truth_with_offsets() {
         }
     }
     println!("of {seeds}: {within:?}");
-    // By chance, fewer than 53 of 60 intervals contain the truth once in 100 times, fewer than 9 of 12 once in 450.
+    // By chance, fewer than 53 of 60 intervals contain the truth once in 100 times, and fewer than 9 of 12 once in 450
+    // times.
     assert!(within.iter().sum::<usize>() >= 53, "{within:?}");
     assert!(within.iter().all(|within| *within >= 9), "{within:?}");
 }

@@ -1,4 +1,4 @@
-//! Damper of the tests.
+//! Damper for the tests.
 
 use std::sync::{Mutex, PoisonError};
 

@@ -39,7 +39,7 @@ impl Branch<'_> {
         }
     }
 
-    /// Deflection `delta(F)` (m) of the mount and, under the gauge pressure of the oil, of the oil column.
+    /// Deflection `delta(F)` (m) of the mount plus that of the oil column under its gauge pressure.
     pub(crate) fn deflection(&self, force: f64) -> f64 {
         let oil = match (&self.column, &self.law) {
             (Some((column, volume)), Law::Physical(side)) => {
@@ -67,7 +67,7 @@ impl Branch<'_> {
         self.friction() * self.mount_compliance
     }
 
-    /// Force over deflection (N/m); at zero deflection its limit.
+    /// Ratio of force to deflection (N/m); at zero deflection, the limit of this ratio.
     pub(crate) fn secant_stiffness(&self, force: f64, deflection: f64) -> f64 {
         if deflection > 0.0 {
             force / deflection

@@ -166,7 +166,8 @@ impl Valve {
         if self.edge_compliance_m_per_pa.is_some() {
             return Ok(());
         }
-        // Without an edge compliance the pack is computed, which needs shims and a clamp radius within these bounds.
+        // If no edge compliance is given, it is computed from the shims. This needs at least one shim and a clamp
+        // radius within these bounds.
         let invalid = |field, value, allowed| Err(BuildError::new(table, field, value, allowed));
         if !(1e-3 * free..0.999 * free).contains(&clamp) {
             let key = Self::RANGES.clamp_radius_m.key;

@@ -12,14 +12,16 @@ use crate::table::{KNOTS_PER_BIN, PIECES, Piece};
 /// A span is not divided if the relative error of its cubics is at most this (1).
 const TOLERANCE: f64 = 1e-9;
 
-/// Relative excess of the table's force over the limit at the yield point (1), larger than rounding in `f32`.
+/// Relative amount by which the table's force at the yield point exceeds the force limit (1). It is larger than the
+/// rounding error of `f32`.
 const YIELD_MARGIN: f64 = 1e-5;
 
-/// Smallest distance of two knots relative to their reach (1). Double precision cannot resolve a cubic over a much
-/// shorter span. Two corners can be closer, for example if the relief valve opens as the vapour disappears.
+/// Smallest distance between two knots, relative to the reach at the knots (1). Double precision cannot resolve a cubic
+/// over a much shorter span. Two corners can be closer than this, for example if the relief valve opens just as the
+/// vapour disappears.
 const MIN_SEPARATION: f64 = 1e-9;
 
-/// One span for each piece except the last, which is beyond the limit.
+/// One span for each piece except the last piece, which is beyond the force limit.
 type Spans = Vec<Span, { PIECES - 1 }>;
 
 /// Writes the pieces of a branch. The flow has the sign of `direction`.
@@ -44,13 +46,13 @@ pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Pi
     let mut knot = T::from_f64(end.reach);
     let flow = end.flow + (knot.to_f64() - end.reach) / GAMMA;
     for piece in knot_of {
-        // As the element yields, every further reach is flow. This is exact for any reach.
+        // Once the element yields, more reach means only more flow, so this piece is exact for any reach.
         let linear = [direction * flow, direction / GAMMA, 0.0, 0.0];
         piece.knot = knot;
         piece.flow = linear.map(T::from_f64);
         piece.stiffness = constant((1.0 + YIELD_MARGIN) * end.stiffness);
         piece.potential = constant(potential);
-        // The remaining pieces are never reached.
+        // The step never reaches the remaining pieces.
         knot = T::MAX;
     }
 }
@@ -76,7 +78,7 @@ fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
         if fits::<T>(knots, spans[worst].middle().reach) {
             let [before, after] = spans[worst].halves(stage);
             spans[worst] = before;
-            // There is room: the loop ends when the vector is full.
+            // There is room, because the loop ends when the vector is full.
             let _ = spans.insert(worst + 1, after);
         } else {
             spans[worst].misfit = 0.0;
@@ -87,7 +89,8 @@ fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
 
 /// Returns the forces (N) that need a knot, in ascending order: start, corners and end of the branch.
 ///
-/// A corner is left out if its bin is already full of corners. The law is then smoothed over less than a bin.
+/// A corner gets no knot if its bin is already full or another knot is too close. The table then smooths the corner
+/// over less than one bin.
 fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
     let (start, end) = (stage.branch.friction(), end(stage));
     let mut forces = Vec::from_array([start, end]);
@@ -102,7 +105,7 @@ fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
     forces
 }
 
-/// Returns the force at the end of the table (N): the limit or, if the bins end before it, the force at their end.
+/// Returns the force at the end of the table (N): the force limit or, if the bins end at a smaller force, that force.
 fn end(stage: &Stage<'_>) -> f64 {
     let limit = stage.branch.force_limit;
     let max_reach = stage.first_knot * f64::from(1_u32 << DOUBLINGS);
@@ -114,7 +117,7 @@ fn end(stage: &Stage<'_>) -> f64 {
     })
 }
 
-/// True if a knot at `reach` (m) has room in its bin and is not too close to another knot.
+/// True if the bin of `reach` (m) has room for a knot there and no other knot is too close.
 fn fits<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
     let knot = T::from_f64(reach);
     let mut within = 0;

@@ -47,7 +47,8 @@ impl CheckedParameters {
         let damper: Damper<T> = self.assemble(&branches, step_s);
         if !damper.is_finite() {
             let key = Mount::RANGES.stiffness_n_per_m.key;
-            let allowed = "low enough for a table of finite numbers; a larger limits.force_n or f64 helps too";
+            let allowed =
+                "low enough that the table is finite; a larger limits.force_n or f64 also helps";
             return Err(BuildError::new(
                 "mount",
                 key,
@@ -56,7 +57,10 @@ impl CheckedParameters {
             ));
         }
         #[cfg(feature = "log")]
-        log::debug!("built damper {:08x} for {step_s} s", damper.revision());
+        log::debug!(
+            "built damper {:08x} for a step of {step_s} s",
+            damper.revision()
+        );
         Ok(damper)
     }
 
@@ -100,8 +104,8 @@ impl CheckedParameters {
     /// Samples both branches into a table.
     fn assemble<T: Real>(&self, branches: &[Branch<'_>; 2], step_s: f64) -> Damper<T> {
         let max_move = self.limits.rate_m_per_s * step_s;
-        // The last stage reaches at most sqrt(2) times the largest stretch plus a move; a step ends at most an eighth
-        // of its travel beyond the yield point.
+        // The last stage reaches at most `sqrt(2) * (largest stretch) + max_move`. A step ends at most an eighth of its
+        // travel beyond the yield point.
         let yields = branches.map(|branch| branch.deflection(branch.force_limit));
         let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * max_move) + max_move;
         let first_knot = first_knot(reach);
@@ -129,7 +133,7 @@ impl CheckedParameters {
             ),
             move_bound: T::from_f64(max_move.min(MAX_BOUND_M)).doubled_bits(),
             position_rounder: T::from_f64(1.5 * span),
-            // Rounds to twice the grid of positions.
+            // Twice the grid of positions, so that a stretch far below the grid is rounded to zero.
             rest_rounder: T::from_f64(2.0 * span * T::EPSILON),
             displacement_bound: T::from_f64(self.limits.displacement_m).doubled_bits(),
             stretch_bound: T::ZERO,
@@ -139,7 +143,7 @@ impl CheckedParameters {
     }
 }
 
-/// Returns the power of two (m) at which a table must start to cover `reach` (m) with its doublings.
+/// Returns the power of two (m) at which a table must start, so that its doublings cover `reach` (m).
 fn first_knot(reach: f64) -> f64 {
     let mut end = 1.0;
     while end < reach {
@@ -153,7 +157,7 @@ fn first_knot(reach: f64) -> f64 {
 
 /// Returns the span (m) whose unit in the last place is the grid of positions.
 ///
-/// Moves are at most half of the span. It is at least 2^-7 m, which gives a grid of 2^-30 m in `f32`.
+/// Moves are at most half of the span. The span is at least 2^-7 m, which gives a grid of 2^-30 m in `f32`.
 fn position_span(max_move: f64) -> f64 {
     let mut span = 1.0 / 128.0;
     while span < 2.0 * max_move {

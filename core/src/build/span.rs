@@ -13,11 +13,11 @@ const LOW_FLOW: f64 = 1e-4;
 /// Reach, flow and stiffness of an implicit stage at one force.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Sample {
-    /// Reach beyond the held stretch, counted from the first knot (m).
+    /// Reach beyond the held stretch, plus the first knot (m).
     pub(super) reach: f64,
-    /// Flow times the step (m).
+    /// Flow `v_h` times the step (m).
     pub(super) flow: f64,
-    /// Force over stretch (N/m).
+    /// Ratio of force to stretch (N/m).
     pub(super) stiffness: f64,
 }
 
@@ -26,8 +26,8 @@ pub(super) struct Stage<'a> {
     pub(super) branch: &'a Branch<'a>,
     pub(super) step_s: f64,
     pub(super) first_knot: f64,
-    /// Smallest flow times the step (m) to which errors are related: at higher forces, errors below the flow at low
-    /// force hardly matter.
+    /// Flow at low force times the step (m). It is added to the scale of relative errors, because smaller errors hardly
+    /// matter at higher forces.
     floor: f64,
 }
 
@@ -56,15 +56,16 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// Samples of a span: the nodes of its cubics, with a check between each two nodes.
+/// Number of samples of a span: four nodes of its cubics, and one check point between neighbouring nodes.
 const SAMPLES: usize = 7;
 const NODES: [usize; 4] = [0, 2, 4, 6];
 const CHECKS: [usize; 3] = [1, 3, 5];
 
 /// The part of a branch between two knots.
 ///
-/// Its forces are `F = corner + (width t)^2`, where `corner` is the force of the preceding corner. Some paths open with
-/// the root of the force, as the orifice does at zero; all quantities are smooth in t even there.
+/// Its forces are `F = corner + (width t)^2`, where `corner` is the force of the preceding corner. The flow of some
+/// paths starts as a square root of the force, for example that of the orifice at zero force. As functions of t, all
+/// quantities are smooth even there.
 #[derive(Clone, Copy)]
 pub(super) struct Span {
     corner: f64,
@@ -94,7 +95,7 @@ impl Span {
         span
     }
 
-    /// Splits the span in the middle of t.
+    /// Splits the span in the middle of its range of t.
     pub(super) fn halves(&self, stage: &Stage<'_>) -> [Self; 2] {
         let middle = 0.5 * (self.t[0] + self.t[1]);
         let half = |t: [f64; 2], from: usize| {
@@ -123,13 +124,13 @@ impl Span {
         &self.samples[SAMPLES - 1]
     }
 
-    /// Returns the cubic of a quantity in the reach beyond `knot` (m).
+    /// Returns a quantity as a cubic in the reach beyond `knot` (m).
     pub(super) fn cubic(&self, knot: f64, quantity: impl Fn(&Sample) -> f64) -> [f64; 4] {
         self.cubic_of(knot, NODES.map(|node| quantity(&self.samples[node])))
     }
 
-    /// Returns the cubic of the flow potential times the step (m^2) and its value at the end; `start` is its value at
-    /// the start.
+    /// Returns the flow potential times the step (m^2) as a cubic, and its value at the end of the span; `start` is its
+    /// value at the start.
     pub(super) fn potential(&self, stage: &Stage<'_>, knot: f64, start: f64) -> ([f64; 4], f64) {
         let mut values = [start; NODES.len()];
         for third in 1..values.len() {
@@ -175,7 +176,8 @@ impl Span {
         self.misfit = 0.0;
         for sample in CHECKS.map(|check| self.samples[check]) {
             let error = |cubic, value: f64| (fit::value(cubic, sample.reach - knot) - value).abs();
-            // A closed branch holds its stretch for seconds, so 1e-5 of the stretch counts as flow.
+            // The scale includes 1e-5 of the reach for closed branches, which have almost no flow and hold their
+            // stretch for seconds.
             let scale = sample.flow + stage.floor + 1e-5 * sample.reach;
             let misfit = (error(flow, sample.flow) / scale)
                 .max(error(stiffness, sample.stiffness) / sample.stiffness);

@@ -28,7 +28,7 @@ const CHECK_BYTES: usize = 4;
 #[non_exhaustive]
 pub enum SavedStateError {
     /// The bytes are truncated or too long.
-    #[error("{found} bytes where a saved state has {expected}")]
+    #[error("{found} bytes, but a saved state has {expected}")]
     Length {
         /// Number of bytes of a saved state.
         expected: usize,
@@ -38,17 +38,17 @@ pub enum SavedStateError {
     /// The first four bytes are not `DAST`.
     #[error("not a saved state: must start with DAST")]
     Magic,
-    /// The bytes have this other version of the format.
+    /// The bytes have a different format version, given here.
     #[error("format version {0}, must be {VERSION}")]
     Version(u16),
-    /// The bytes are for another scalar, of this many bytes.
-    #[error("scalar of {0} bytes is not this damper's")]
+    /// The bytes are for a scalar of another size, which has this many bytes.
+    #[error("wrong precision: each number has {0} bytes")]
     Scalar(u16),
     /// The CRC-32 does not match: the bytes are damaged.
     #[error("CRC-32 does not match: the bytes are damaged")]
     Checksum,
     /// Another damper stepped the state last.
-    #[error("state of damper {found:#010x}, this is {expected:#010x}")]
+    #[error("the state belongs to damper {found:#010x}, but this is damper {expected:#010x}")]
     Revision {
         /// Revision of this damper.
         expected: u32,
@@ -56,11 +56,11 @@ pub enum SavedStateError {
         found: u32,
     },
     /// A number cannot result from a step of this damper.
-    #[error("state with values that no step leaves behind")]
+    #[error("the state has values that no step produces")]
     Values,
 }
 
-/// Layout of a saved state around the `BYTES` of the state.
+/// Layout of a saved state. The state itself takes `BYTES` bytes.
 #[derive(FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]
 #[repr(C)]
 struct Saved<const BYTES: usize> {
@@ -77,7 +77,8 @@ macro_rules! saved_state {
             /// Number of bytes of a saved state.
             pub const SAVED_BYTES: usize = size_of::<Saved<{ Self::BYTES }>>();
 
-            /// Returns this state as checked bytes for [`Damper::restore`], the same in Rust and in C.
+            /// Returns this state as bytes with a checksum, for [`Damper::restore`]. The bytes are the same in Rust and
+            /// in C.
             pub fn save(&self) -> [u8; Self::SAVED_BYTES] {
                 let mut saved = Saved {
                     magic: MAGIC,
@@ -92,7 +93,7 @@ macro_rules! saved_state {
         }
 
         impl Damper<$float> {
-            /// Restores the state of [`DamperState::save`], identical in every bit.
+            /// Restores the state of [`DamperState::save`] bit for bit.
             ///
             /// # Errors
             /// The bytes are damaged or not a saved state, the state belongs to another damper, or a number cannot

@@ -29,7 +29,7 @@ macro_rules! state_bytes {
         }
 
         impl Damper<$float> {
-            /// Restores the state of [`DamperState::to_bytes`], identical in every bit.
+            /// Restores the state of [`DamperState::to_bytes`] bit for bit.
             ///
             /// # Errors
             /// The state belongs to another damper, or a number cannot result from a step of this damper.

@@ -13,17 +13,17 @@ pub(crate) const PIECE: usize = 13;
 
 macro_rules! words {
     ($float:ident, $word:ident) => {
-        #[doc = concat!("Words are the bits of each `", stringify!($float), "` as `", stringify!($word), "`, \
-         revisions zero-extended.")]
+        #[doc = concat!("Each word contains the bits of an `", stringify!($float), "` as `", stringify!($word), "`; \
+         the revisions are zero-extended.")]
         impl Damper<$float> {
             /// Number of words of a damper.
             pub const WORDS: usize = WORDS;
 
-            /// Returns the damper of these words, also at compile time. Does not need the `builder` feature.
+            /// Returns the damper of these words. Also works at compile time and without the `builder` feature.
             ///
-            /// Order: scalars, revision, revision of the table, pieces. Each piece has four coefficients each of flow,
-            /// potential and stiffness, then its knot. Words that are not from [`Self::to_words`] of this version are
-            /// safe, but give meaningless forces.
+            /// Order: scalars, revision, revision of the table, pieces. Each piece has four coefficients of the flow,
+            /// four of the potential and four of the stiffness, then its knot. Words that are not from
+            /// [`Self::to_words`] of this version are safe, but give meaningless forces.
             ///
             /// ```
             /// use dashpot_core::Damper;
@@ -92,7 +92,7 @@ words!(f64, u64);
 
 #[cfg(feature = "link")]
 impl Damper<f32> {
-    /// A damper before it is loaded: all bits are zero, so a static takes no flash.
+    /// Placeholder until a damper is loaded: all bits are zero, so a static variable takes no flash.
     pub(crate) const EMPTY: Self = Self {
         scalars: Scalars::from_array([0.0; SCALARS]),
         revision: 0,

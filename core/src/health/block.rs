@@ -1,4 +1,4 @@
-//! Blocks of samples: the sums of a tick, and a block as one measurement.
+//! Blocks of samples: sums that each tick updates, and a block as one measurement.
 
 use super::model::HealthModel;
 
@@ -15,17 +15,17 @@ pub(crate) struct Gathered {
     travels: f32,
     positions: f32,
     forces: f32,
-    /// Sum of force times ticks from the centre (N).
+    /// Sum of force times ticks from the centre of the block (N).
     moment: f32,
     slopes: f32,
     lowest: f32,
     highest: f32,
-    /// Ticks of the next sample from the centre.
+    /// Ticks from the centre of the block to the next sample.
     offset: f32,
     pub(crate) ticks_left: u32,
-    /// Force zero by which the forces of this block are corrected (N).
+    /// Force offset, subtracted from the forces of this block (N).
     zero: f32,
-    /// Added friction by which the laws of this block are corrected (N).
+    /// Added friction, subtracted from each force magnitude before the laws are evaluated in this block (N).
     friction: f32,
 }
 
@@ -49,9 +49,9 @@ pub(crate) struct Block {
     pub(crate) slope: f32,
     pub(crate) lowest: f32,
     pub(crate) highest: f32,
-    /// Force zero by which the forces are corrected (N).
+    /// Force offset, subtracted from the forces (N).
     pub(crate) zero: f32,
-    /// Added friction by which the laws are corrected (N).
+    /// Added friction, subtracted from each force magnitude before the laws are evaluated (N).
     pub(crate) friction: f32,
 }
 
@@ -79,7 +79,7 @@ impl Block {
 }
 
 impl Gathered {
-    /// Sums with zero bits.
+    /// Placeholder: all bits are zero.
     pub(crate) const EMPTY: Self = Self {
         displacement: 0.0,
         velocity: 0.0,
@@ -112,7 +112,7 @@ impl Gathered {
         self.ticks_left = model.block_ticks;
     }
 
-    /// Sets the corrections of the next block: force zero (N) and added friction (N).
+    /// Sets the corrections of the next block: force offset (N) and added friction (N).
     #[inline(always)]
     pub(crate) fn correct(&mut self, zero: f32, friction: f32) {
         self.zero = zero;
@@ -149,8 +149,8 @@ impl Gathered {
         self.offset += 1.0;
     }
 
-    /// Leaves out a sample, so that its block gives no measurement. True if the block has no sample at all: then the
-    /// travel of the piston is unknown.
+    /// Leaves out a sample, so that its block gives no measurement. Returns true if the block has no sample at all: the
+    /// travel of the piston is then unknown.
     pub(crate) fn leave_out(&mut self, model: &HealthModel, displacement: f32) -> bool {
         let is_blind = self.ticks_left == 1 && self.offset <= -model.block_centre;
         if is_blind {

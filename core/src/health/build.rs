@@ -7,21 +7,21 @@ use crate::build::CheckedParameters;
 use crate::error::BuildError;
 use crate::parameters::Element;
 
-/// Duration of a block, whose samples form one measurement (s): short compared with the motion of a vehicle, and eight
-/// ticks at 1 kHz, one for each part of the filter's work.
+/// Duration of a block, whose samples form one measurement (s). It is short compared with the motion of a vehicle. At
+/// 1 kHz a block has eight ticks, one for each part of the filter's work.
 const BLOCK_S: f64 = 8e-3;
-/// Longest time without contact after which a crossing of the clearance is still useful (s).
+/// Longest time without contact after which the estimate still uses a crossing of the clearance (s).
 const MAX_CROSSING_S: f64 = 0.5;
-/// Threshold of a force in contact, in standard deviations of the force noise (1).
+/// Force above which the ends are in contact, in standard deviations of the force noise (1).
 const CONTACT_DEVIATIONS: f64 = 4.0;
 /// Fraction of the yield force below which the element certainly does not yield (1).
 const UNYIELDING: f64 = 0.98;
-/// Memory of the lag over that of the other parameters (1). The lag hardly changes with age.
+/// Ratio of the memory of the lag to that of the other parameters (1). The lag hardly changes with age.
 const LAG_MEMORY: f64 = 20.0;
 
-/// Prior standard deviation of the zero of the force sensor (N).
+/// Prior standard deviation of the force offset (N).
 const ZERO_SD_N: f64 = 500.0;
-/// Smallest alarm limit of the force zero (N).
+/// Smallest alarm limit of the force offset (N).
 const MIN_ZERO_LIMIT_N: f64 = 100.0;
 /// Prior standard deviation of the seal friction as a fraction of the yield force (1).
 const FRICTION_PART: f64 = 0.01;
@@ -29,7 +29,8 @@ const FRICTION_PART: f64 = 0.01;
 const MAX_FRICTION_SD_N: f64 = 200.0;
 /// Smallest move that is not noise, in standard deviations of a block's position (1).
 const STILL_DEVIATIONS: f64 = 8.0;
-/// Move beyond the clearance at which the force counts as missing (m). A clearance cannot grow by so much at once.
+/// The force counts as missing if the ends move beyond the clearance by more than this (m). A clearance cannot grow by
+/// so much at once.
 const MISSING_M: f64 = 2e-3;
 
 /// Properties of the sensors and settings of the estimator.
@@ -58,7 +59,8 @@ pub struct HealthSettings {
 }
 
 impl HealthSettings {
-    /// Settings for this noise of the sensors (m, N): memory 1 s, error of the law 5 %, lag 0 with a deviation of 1 ms.
+    /// Settings for sensors with this noise (m, N): memory 1 s, law deviation 5 %, lag 0 with a standard deviation of 1
+    /// ms.
     pub const fn new(displacement_noise_m: f64, force_noise_n: f64) -> Self {
         Self {
             displacement_noise_m,
@@ -127,7 +129,7 @@ impl CheckedParameters {
     /// step (s).
     ///
     /// # Errors
-    /// A setting out of its range, or a step outside 1e-5 to 2e-3 s.
+    /// A setting is out of range, or the step is outside 1e-5 to 2e-3 s.
     pub fn health_model(
         &self,
         settings: &HealthSettings,
@@ -167,7 +169,8 @@ impl CheckedParameters {
 
         let ticks = libm::round(BLOCK_S / step_s).max(f64::from(MIN_TICKS));
         let block_s = ticks * step_s;
-        // The reduced law has no friction. A linear law with friction is nearly another linear law.
+        // The reduced law has no friction, so none is estimated. The estimator could hardly distinguish a linear law
+        // with friction from another linear law.
         let friction_sd = match self.element {
             Element::Physical(_) => (FRICTION_PART * yields).min(MAX_FRICTION_SD_N),
             Element::Reduced(_) => 0.0,
@@ -237,8 +240,8 @@ impl CheckedParameters {
 
 /// Fits a line to a law over a piece and returns its value at zero force and its slope.
 ///
-/// The slope is that between both ends. The mean over the piece equals that of the law (Simpson's rule), so errors of
-/// the summed travel cancel.
+/// The slope is that of the chord between the two ends of the piece. The mean of the line over the piece equals the
+/// mean of the law (Simpson's rule), so errors cancel in the summed travel.
 fn line(law: &dyn Fn(f64) -> f64, from: f64, to: f64) -> (f32, f32) {
     let (first, last) = (law(from), law(to));
     let middle = law(0.5 * (from + to));

@@ -12,18 +12,20 @@ use super::watch::Watch;
 
 /// Variance of an unknown position (m^2).
 const UNKNOWN: f32 = 1.0;
-/// Squared innovation over its variance above which a measurement is an outlier (1).
+/// Ratio of the squared innovation to its variance, above which a measurement is an outlier (1).
 const OUTLIER: f32 = 900.0;
-/// Forgetting after an outlier, in usual blocks (1), so that the estimate soon follows a change.
+/// Forgetting after an outlier, as a multiple of the forgetting after a usual block (1). It lets the estimate follow a
+/// change quickly.
 const OUTLIER_SURPRISE: f32 = 25.0;
 /// Largest number of consecutive outliers. One more restarts the estimate.
 const MAX_OUTLIERS: u16 = 12;
-/// Smallest information of a block, relative to its forgetting, at which anything is forgotten (1).
+/// The filter forgets only after a block whose information exceeds this multiple of the usual forgetting (1).
 const MIN_INFORMATION_SHARE: f32 = 0.25;
-/// Squared excess of a force in contact over the threshold, relative to the variance of the force zero (1).
+/// Contact is certain if the squared excess of the force over the contact threshold is at least this multiple of the
+/// variance of the force offset (1).
 const SURE_CONTACT: f32 = 9.0;
 
-/// Health estimate of one damper: plain data that changes at each tick, saved and restored by copying.
+/// Health estimate of one damper, which changes at each tick. It is plain data: copy it to save or restore it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Health {
@@ -37,7 +39,7 @@ pub struct Health {
     watch: Watch,
     /// Number of blocks since the last measurement.
     unmeasured: u32,
-    /// Next forgetting relative to the usual one (1); 0 if the last block contained no information.
+    /// Next forgetting as a multiple of the usual forgetting (1); 0 if the last block contained no information.
     forgetting: f32,
     outliers: u16,
     status: HealthStatus,
@@ -45,7 +47,8 @@ pub struct Health {
     rejected: u32,
 }
 
-/// Next stage of the work on the last block. A number, so that any bits are valid.
+/// Next stage of the work on the last block. It is a plain number instead of an enum, so that every bit pattern is
+/// valid.
 mod stage {
     pub(super) const DONE: u32 = 0;
     pub(super) const PREDICT: u32 = 1;
@@ -60,7 +63,7 @@ mod stage {
 }
 
 impl Health {
-    /// Not an estimate yet: all bits are zero.
+    /// Placeholder before an estimate starts: all bits are zero.
     pub(crate) const EMPTY: Self = Self {
         gathered: Gathered::EMPTY,
         mark: 0,
@@ -87,7 +90,8 @@ impl Health {
         };
         health.watch.begin();
         health.follow.begin();
-        // The first sample is never credible, but is not counted as rejected.
+        // NaN marks that there is no sample yet: the first sample is then never credible, but is not counted as
+        // rejected.
         health.gathered.displacement = f32::NAN;
         health.gathered.begin(model);
         health
@@ -179,7 +183,7 @@ impl Health {
         self.gathered.begin(model);
     }
 
-    /// Moves the position over the block. Computes the measurement if both ends were in contact.
+    /// Advances the position by the travel of the block. Computes the measurement if both ends were in contact.
     #[inline(always)]
     fn predict(&mut self, model: &HealthModel) {
         let block = &self.block;
@@ -246,8 +250,9 @@ impl Health {
         self.forgetting = if is_informative { surprise } else { 0.0 };
     }
 
-    /// Increases the variances of the parameters up to their initial values, more after an unexpected block. Also does
-    /// so after a long motion without contact, because the estimates become outdated.
+    /// Increases the variances of the parameters, at most to their initial values. They increase more after an
+    /// unexpected block. They also increase during a long motion without contact, because the estimates become
+    /// outdated.
     #[inline(always)]
     fn forget(&mut self, model: &HealthModel) {
         self.stage = stage::DONE;
@@ -285,16 +290,16 @@ impl Health {
         }
     }
 
-    /// Returns the present reading. It needs square roots and divisions, so do not call it in every tick.
+    /// Returns the present reading. This takes square roots and divisions, so do not call it in every tick.
     pub fn reading(&self, model: &HealthModel) -> HealthReading {
         let [_, flow, compliance, half, lag, zero, friction] = self.filter.state;
         let scale = self.watch.scale();
         let sd = |row| libm::sqrtf(self.filter.variance(row) * scale);
-        // A compliance near zero would be an unbounded stiffness.
+        // A compliance near zero would give an unbounded stiffness.
         let min = 1e-3 * model.start[1];
         let bounded = if compliance > min { compliance } else { min };
         let stiffness = 1.0 / bounded;
-        // A negative flow factor means a reversed sign of a sensor: no damper drives its piston.
+        // A damper never drives its piston, so a negative flow factor means that the sign of a sensor is reversed.
         let mut status = self.status;
         if flow <= 0.0 {
             status |= HealthStatus::MISFIT;

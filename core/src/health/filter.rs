@@ -1,11 +1,11 @@
 //! Kalman filter of seven states. The covariance is stored as `U D U'`, where U has a unit diagonal.
 //!
 //! The update is Bierman's: it multiplies the diagonal by factors between 0 and 1, so the diagonal never becomes
-//! negative in any precision. The position is the first state, so the travel of the piston changes only its row of U,
-//! with a few sums, and noise changes only D. An update is done in two parts, one in each of two ticks.
+//! negative in any precision. The position is the first state, so the travel of the piston changes only the first row
+//! of U, which takes a few sums. Noise changes only D. An update has two parts, which run in two ticks.
 
 /// Number of states: position of the piston (m), flow factor (1), compliance (m/N), half clearance (m), lag (s), force
-/// zero (N), added friction (N).
+/// offset (N), added friction (N). The force offset is the zero offset of the force sensor.
 pub(crate) const STATES: usize = 7;
 /// Number of entries of U above its diagonal.
 const UPPER: usize = STATES * (STATES - 1) / 2;
@@ -21,7 +21,7 @@ pub(crate) const COMPLIANCE: usize = 2;
 pub(crate) const CLEARANCE: usize = 3;
 /// Index of the lag.
 pub(crate) const LAG: usize = 4;
-/// Index of the force zero.
+/// Index of the force offset.
 pub(crate) const ZERO: usize = 5;
 /// Index of the added friction.
 pub(crate) const FRICTION: usize = 6;
@@ -41,7 +41,7 @@ pub(crate) struct Filter {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Prepared {
-    /// `z`, already corrected for force zero and friction.
+    /// `z`, already corrected for force offset and friction.
     pub(crate) measured: f32,
     /// `h` of all states except the position, whose entry is 1.
     pub(crate) parts: [f32; STATES - 1],
@@ -49,7 +49,7 @@ pub(crate) struct Prepared {
     projected: [f32; STATES],
     /// Gains of the processed columns, not yet divided by the variance.
     gain: [f32; STATES],
-    /// Variance of the noise and the processed columns.
+    /// Variance of the noise plus that of the processed columns.
     alpha: f32,
     /// Inverse of `alpha`.
     inverse: f32,
@@ -59,7 +59,7 @@ pub(crate) struct Prepared {
     noise: f32,
     /// Expected variance of the innovation.
     pub(crate) variance: f32,
-    /// Part of the expected variance due to the parameters, without position and noise.
+    /// Part of the expected variance that is due to the parameters, not to position or noise.
     pub(crate) information: f32,
 }
 
@@ -88,8 +88,8 @@ impl Filter {
         }
     }
 
-    /// Moves the position by the flow factor times a nominal travel (m) with an additional variance (m^2). `slips` is
-    /// the loss of travel for each newton of force zero and of added friction (m/N).
+    /// Moves the position by the flow factor times a nominal travel (m) with an additional variance (m^2). `slips` are
+    /// the losses of travel per newton of force offset and per newton of added friction (m/N).
     #[inline(always)]
     pub(crate) fn travel(&mut self, travel: f32, slips: [f32; 2], variance: f32) {
         self.state[0] += travel * self.state[1];
@@ -103,16 +103,17 @@ impl Filter {
         self.diagonal[0] += variance;
     }
 
-    /// Forgets the position: only a variance (m^2) remains.
+    /// Forgets the position and sets its variance (m^2).
     #[inline(always)]
     pub(crate) fn forget_position(&mut self, variance: f32) {
         self.diagonal[0] = variance;
         self.upper[..STATES - 1].fill(0.0);
     }
 
-    /// Prepares a measurement with a variance of its noise.
+    /// Prepares a measurement whose noise has the variance `noise`.
     ///
-    /// The measurement is already corrected for force zero and friction, so both are missing from the innovation.
+    /// The measurement is already corrected for force offset and friction, so the innovation does not subtract them
+    /// again.
     #[inline(always)]
     pub(crate) fn prepare(&self, prepared: &mut Prepared, noise: f32) {
         let h = prepared.parts;

@@ -1,39 +1,40 @@
 //! Checks that the force follows the displacement.
 //!
-//! While the force is constant within its noise, it determines the travel of the piston, and the ends can move further
-//! only by the clearance. If they move more than that, the force is missing: the force channel is dead or stuck, the
-//! oil is gone, or the clearance is much larger than estimated.
+//! While the force is constant within its noise, it determines the travel of the piston. In addition to this travel,
+//! the ends can move only by the clearance. If they move more than that, the force is missing: the force channel is
+//! dead or stuck, the oil is gone, or the clearance is much larger than estimated.
 
 use super::block::Block;
 use super::model::HealthModel;
 
-/// Move beyond the clearance at which the force is missing after half a second without contact (m).
+/// After half a second without contact, the force counts as missing if the ends move beyond the clearance by more than
+/// this (m).
 const WITHOUT_CONTACT_M: f32 = 0.5e-3;
-/// Possible error of the law as a fraction of the piston's path (1).
+/// Possible error of the piston's travel due to errors of the law, as a fraction of its path (1).
 const LAW_PART: f32 = 0.5;
-/// Number of consecutive blocks beyond the limit that make a missing force certain.
+/// Number of consecutive blocks beyond the limit after which the force is certainly missing.
 const CERTAIN: u32 = 3;
 
-/// Consecutive blocks in which the force is constant within its noise.
+/// A run of consecutive blocks in which the force is constant within its noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Follow {
-    /// Force at the start (N).
+    /// Force at the start of the run (N).
     force: f32,
-    /// Travel of the piston since the start (m).
+    /// Travel of the piston since the start of the run (m).
     travel: f32,
-    /// Sum of the magnitudes of the travel (m).
+    /// Sum of the magnitudes of the travel in each block (m).
     path: f32,
-    /// Smallest and largest displacement minus oil column and travel (m).
+    /// Smallest and largest displacement, after subtraction of the oil column's deflection and the travel (m).
     lowest: f32,
     highest: f32,
     blocks: u32,
-    /// Number of consecutive blocks with too large a move.
+    /// Number of consecutive blocks in which the move was too large.
     beyond: u32,
 }
 
 impl Follow {
-    /// All bits zero.
+    /// Placeholder: all bits are zero.
     pub(crate) const EMPTY: Self = Self {
         force: 0.0,
         travel: 0.0,
@@ -44,7 +45,7 @@ impl Follow {
         beyond: 0,
     };
 
-    /// Starts before the first block. No force is near this one.
+    /// Resets to the state before the first block. No force is near this value, so the first block starts a run.
     pub(crate) fn begin(&mut self) {
         self.force = f32::MAX;
     }
@@ -65,7 +66,7 @@ impl Follow {
             && block.lowest >= -model.yield_force_n
             && block.highest <= model.yield_force_n;
         if !stays {
-            // An incomplete block has no mean force, so the next block starts.
+            // An incomplete block has no mean force, so the next block starts a run.
             self.force = if block.is_incomplete() {
                 f32::MAX
             } else {

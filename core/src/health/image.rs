@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | 0 | 4 | `DAHM` |
 //! | 4 | 4 | version of this format |
-//! | 8 | 4 a word | the constants, floats as their bits |
+//! | 8 | 4 per word | the constants, floats as their bits |
 //! | end - 4 | 4 | CRC-32 (ISO-HDLC) of all bytes before |
 //!
 //! All numbers are little-endian.
@@ -21,11 +21,11 @@ const HEADER_BYTES: usize = 8;
 const CHECK_BYTES: usize = 4;
 /// Number of words of a model.
 const WORDS: usize = size_of::<HealthModel>() / 4;
-/// Number of bytes checked and words written in a slice.
+/// Number of bytes that a slice checks, and number of words that a slice writes.
 const BYTES_PER_SLICE: usize = 124;
 const WORDS_PER_SLICE: usize = 64;
 
-// All slices are whole, so the checksum (shared with images of dampers) needs no case for a shorter slice.
+// All slices have the same length, so the checksum (shared with images of dampers) needs no case for a shorter slice.
 const _: () = assert!((HealthModel::IMAGE_BYTES - CHECK_BYTES).is_multiple_of(BYTES_PER_SLICE));
 
 /// Errors of a health model's image.
@@ -44,14 +44,14 @@ pub enum HealthImageError {
     /// The first four bytes are not `DAHM`.
     #[error("not a health model: must start with DAHM")]
     Magic,
-    /// The image has this other version of the format.
+    /// The image has a different format version, given here.
     #[error("format version {0}, must be {VERSION}")]
     Version(u32),
     /// The CRC-32 does not match: the bytes are damaged.
     #[error("CRC-32 does not match: the bytes are damaged")]
     Checksum,
     /// Invalid constants: the step is not positive or the block is too short.
-    #[error("invalid constants: not from a build")]
+    #[error("invalid constants: no build produced them")]
     Values,
 }
 
@@ -68,7 +68,7 @@ pub(crate) struct HealthLoading {
 pub(crate) struct CheckedImage<'a>(&'a [[u8; 4]; WORDS]);
 
 impl HealthLoading {
-    /// Before the first slice.
+    /// Progress before the first slice.
     pub(crate) const START: Self = Self {
         slices: 0,
         crc: 0,
@@ -116,13 +116,14 @@ impl HealthLoading {
 }
 
 impl HealthLoading {
-    /// True if no word was written yet.
+    /// True if no word has been written yet.
     #[cfg(feature = "link")]
     pub(crate) fn writes_nothing_yet(&self) -> bool {
         self.words == 0
     }
 
-    /// Writes the next slice of checked constants to a model, without a copy on the stack. True after the last slice.
+    /// Writes the next slice of checked constants to a model, without a copy on the stack. Returns true after the last
+    /// slice.
     pub(crate) fn write_slice(
         &mut self,
         image: &CheckedImage<'_>,
@@ -160,7 +161,7 @@ impl HealthModel {
     /// Number of bytes of an image.
     pub const IMAGE_BYTES: usize = HEADER_BYTES + 4 * WORDS + CHECK_BYTES;
 
-    /// Not a model yet: all bits are zero.
+    /// Placeholder before a model is loaded: all bits are zero.
     pub(crate) const EMPTY: Self = zerocopy::transmute!([0_u32; WORDS]);
 
     /// Returns this model as bytes, with baseline and limits.
@@ -178,7 +179,7 @@ impl HealthModel {
         image
     }
 
-    /// Returns the model of an image, identical in every bit.
+    /// Returns the model of an image, bit for bit.
     ///
     /// # Errors
     /// The bytes are not from [`Self::to_image`] of this version.

@@ -7,13 +7,14 @@
 //! ```
 //!
 //! with the nominal velocity law `v_h` and the nominal oil column `delta_oil` of the built damper. `F` is the measured
-//! force minus the zero of its sensor. Both laws take the force minus the added friction of the seals.
+//! force minus the zero offset of its sensor. Both laws are evaluated at the force minus the added friction of the
+//! seals.
 //!
 //! A Kalman filter has seven states: displacement of the piston `x_r`, flow factor `phi`, compliance of the mount
-//! `kappa = 1/Ke`, half the clearance `a`, lag of the force behind the displacement `tau`, zero of the force and added
-//! friction. It measures while both ends are in contact and forgets `x_r` when the element yields. The covariance is
-//! stored as `U D U'` (Bierman, *Factorization Methods for Discrete Sequential Estimation*, 1977), so it stays positive
-//! in single precision.
+//! `kappa = 1/Ke`, half the clearance `a`, lag of the force behind the displacement `tau`, zero offset of the force and
+//! added friction. It takes measurements only while both ends are in contact, and forgets `x_r` when the element
+//! yields. The covariance is stored as `U D U'` (Bierman, *Factorization Methods for Discrete Sequential Estimation*,
+//! 1977), so it stays positive in single precision.
 //!
 //! [`HealthModel`] contains the constants and [`Health`] the state. See docs/health.md.
 

@@ -2,7 +2,7 @@
 
 use zerocopy::{FromBytes, Immutable, IntoBytes};
 
-/// Mark of a model and of an estimate, which uninitialised memory does not have.
+/// Mark that distinguishes a model or an estimate from uninitialised memory.
 pub(crate) const MARK: u32 = 0x4d48_4144;
 
 /// Smallest number of ticks of a block: one for each stage of the filter.
@@ -10,7 +10,7 @@ pub(crate) const MIN_TICKS: u32 = 8;
 
 /// Number of pieces of a side: four for each octave of force. The first piece starts at zero force.
 pub(crate) const PIECES: usize = 64;
-/// Number of low bits of a force that do not select a piece.
+/// Number of low bits of a force that do not affect the choice of the piece.
 pub(crate) const PIECE_SHIFT: u32 = 21;
 
 /// The laws over one piece of force magnitude F (N), each as a line `value + slope F`.
@@ -29,13 +29,14 @@ pub(crate) struct Piece {
 
 /// Healthy state of a damper with its uncertainty.
 ///
-/// Plain numbers to file with the damper's documents. [`HealthReading::as_baseline`](super::HealthReading::as_baseline)
-/// returns the baseline of a run with the new damper; [`HealthModel::set_baseline`] uses it.
+/// These are plain numbers, which you can store with the documents of the damper.
+/// [`HealthReading::as_baseline`](super::HealthReading::as_baseline) returns the baseline of a run with the new damper;
+/// [`HealthModel::set_baseline`] uses it.
 #[derive(Clone, Copy, Debug, PartialEq, FromBytes, Immutable, IntoBytes)]
 #[non_exhaustive]
 #[repr(C)]
 pub struct Baseline {
-    /// Flow over nominal flow at the same force (1).
+    /// Ratio of the flow to the nominal flow at the same force (1).
     pub flow_factor: f32,
     /// Compliance of the mount `1/Ke` (m/N).
     pub compliance_m_per_n: f32,
@@ -140,7 +141,7 @@ pub struct HealthModel {
     pub(crate) max_move_m: f32,
     /// Largest credible force (N).
     pub(crate) max_force_n: f32,
-    /// Number of the first piece in the bits of a force.
+    /// Leading bits of the forces in the first piece.
     pub(crate) first_piece: u32,
     /// Number of ticks of a block.
     pub(crate) block_ticks: u32,
@@ -150,7 +151,7 @@ pub struct HealthModel {
     pub(crate) per_block_s: f32,
     /// Centre of a block in ticks from its first tick.
     pub(crate) block_centre: f32,
-    /// Factor from the sum of force times ticks from the centre to the rate of force (1/s).
+    /// Factor that converts the sum of force times ticks from the centre into the rate of the force (1/s).
     pub(crate) rate_scale_per_s: f32,
     /// Force above which both ends are in contact in spite of noise (N).
     pub(crate) contact_force_n: f32,
@@ -158,21 +159,24 @@ pub struct HealthModel {
     pub(crate) yield_force_n: f32,
     /// Variance of a block's measurement (m^2).
     pub(crate) measured_variance: f32,
-    /// Variance of the piston's travel in a block over the square of the mean slope of the law (N^2 s^2).
+    /// Variance of the piston's travel in a block due to force noise, divided by the square of the law's mean slope
+    /// (N^2 s^2).
     pub(crate) force_travel_variance: f32,
-    /// Variance of the piston's travel in a block over the square of the travel, due to errors of the law (1).
+    /// Variance of the piston's travel in a block due to errors of the law, divided by the square of the travel (1).
     pub(crate) law_variance: f32,
-    /// Growth of the parameters' variance in a block (1).
+    /// Growth factor of the parameters' variance in a block (1).
     pub(crate) growth: f32,
-    /// Growth of the lag's variance in a block (1).
+    /// Growth factor of the lag's variance in a block (1).
     pub(crate) lag_growth: f32,
-    /// Number of blocks without contact after which the position counts as unknown: it drifts with the force zero.
+    /// Number of blocks without contact after which the position counts as unknown, because it drifts with the force
+    /// offset.
     pub(crate) max_unmeasured: u32,
-    /// Number of consecutive measured blocks beyond a limit that cause an alarm.
+    /// Number of consecutive measured blocks beyond a limit after which there is an alarm.
     pub(crate) alarm_blocks: u32,
-    /// Initial flow factor, compliance, half clearance and lag. Force zero and added friction start at 0.
+    /// Initial flow factor, compliance, half clearance and lag. Force offset and added friction start at 0.
     pub(crate) start: [f32; 4],
-    /// Initial and largest variances, in the order of `start`, then force zero and added friction.
+    /// Initial variances, which are also the largest: in the order of `start`, then those of force offset and added
+    /// friction.
     pub(crate) start_variance: [f32; 6],
     /// Mean compliance of the oil column (m/N).
     pub(crate) oil_compliance: f32,
@@ -180,9 +184,10 @@ pub struct HealthModel {
     pub(crate) block_s: f32,
     /// Largest move that can be noise (m).
     pub(crate) still_m: f32,
-    /// Move beyond the clearance at which the force is missing, however recent the last contact (m).
+    /// The force counts as missing if the ends move beyond the clearance by more than this, even after recent contact
+    /// (m).
     pub(crate) missing_m: f32,
-    /// Alarm limit of the force zero (N).
+    /// Alarm limit of the force offset (N).
     pub(crate) zero_limit_n: f32,
     pub(crate) baseline: Baseline,
     pub(crate) limits: HealthLimits,
@@ -191,7 +196,8 @@ pub struct HealthModel {
 }
 
 impl HealthModel {
-    /// True for a model, false for uninitialised memory. For programs whose models come from elsewhere.
+    /// True for a model, false for uninitialised memory. Use this in programs whose models come from elsewhere, for
+    /// example from C.
     #[inline]
     pub fn is_marked(&self) -> bool {
         self.mark == MARK
@@ -202,7 +208,7 @@ impl HealthModel {
         2.0 * self.half_step_s
     }
 
-    /// Baseline of the alarms. That of a new model is the nominal damper.
+    /// Baseline of the alarms. In a new model it is the nominal damper.
     pub fn baseline(&self) -> Baseline {
         self.baseline
     }
@@ -240,7 +246,7 @@ impl HealthModel {
         self.limits = limits;
     }
 
-    /// Finds the piece of a force (N); its sign selects the side. Any bits are safe.
+    /// Finds the piece of a force (N); its sign selects the side. Every bit pattern of the force is safe.
     #[inline(always)]
     pub(crate) fn piece(&self, force: f32) -> &Piece {
         let bits = force.to_bits();

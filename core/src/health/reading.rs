@@ -14,7 +14,7 @@ bitflags::bitflags! {
         const LITTLE_EXCITATION = 1 << 3;
         /// A sample was not finite or not credible and was left out.
         const INPUT_REJECTED = 1 << 4;
-        /// The estimate was damaged or contradicted the samples for long, and restarted.
+        /// The estimate was damaged, or contradicted the samples for a long time, and was restarted.
         const RESTARTED = 1 << 5;
         /// Alarm: the damper moved, but the force is zero or does not change. Possible causes are a dead or stuck force
         /// channel, oil full of air, or a clearance wider than the motion.
@@ -64,7 +64,7 @@ pub struct Estimate {
 #[non_exhaustive]
 #[repr(C)]
 pub struct HealthReading {
-    /// Flow over nominal flow at the same force (1). Its inverse is the damping factor.
+    /// Ratio of the flow to the nominal flow at the same force (1). Its inverse is the damping factor.
     pub flow_factor: Estimate,
     /// Effective stiffness Ke of the mount without the nominal oil column (N/m).
     pub stiffness_n_per_m: Estimate,
@@ -74,7 +74,7 @@ pub struct HealthReading {
     pub lag_s: Estimate,
     /// Compliance `1/Ke` (m/N), the quantity that the filter estimates.
     pub compliance_m_per_n: Estimate,
-    /// Number of usable samples: in contact, not yielding.
+    /// Number of usable samples, taken in contact and without yielding.
     pub samples: u32,
     /// Number of samples that were not finite or not credible.
     pub rejected: u32,
@@ -82,12 +82,12 @@ pub struct HealthReading {
     pub status: HealthStatus,
     /// Zero offset of the force sensor (N). The other estimates are corrected for it.
     pub force_zero_n: Estimate,
-    /// Friction of the seals beyond the nominal one (N). The other estimates are corrected for it.
+    /// Friction of the seals in excess of the nominal friction (N). The other estimates are corrected for it.
     pub added_friction_n: Estimate,
 }
 
 impl HealthStatus {
-    /// Bits for which the intervals may not contain the true values.
+    /// Bits that warn that the intervals may not contain the true values.
     pub const DOUBTS: Self = Self::NO_FORCE
         .union(Self::LATE)
         .union(Self::SEVERAL_CHANGED)
@@ -100,8 +100,8 @@ impl HealthReading {
         !self.status.intersects(HealthStatus::DOUBTS)
     }
 
-    /// Damping force over the nominal force at the same velocity (1), assuming a linear law: the inverse of the flow
-    /// factor.
+    /// Ratio of the damping force to the nominal force at the same velocity (1), assuming a linear law: the inverse of
+    /// the flow factor.
     pub fn damping_factor(&self) -> Estimate {
         let value = 1.0 / self.flow_factor.value;
         Estimate {

@@ -6,9 +6,9 @@ use super::reading::HealthStatus;
 
 /// Inverse of the number of blocks over which innovations are averaged (1).
 const RATE: f32 = 1.0 / 128.0;
-/// Bound of the squared innovation over its variance in the averages (1).
+/// Upper bound on the ratio of the squared innovation to its variance, applied before averaging (1).
 const MAX_SQUARE: f32 = 9.0;
-/// Bound of the product of successive innovations over their variance in the averages (1).
+/// Bound on the product of successive innovations divided by their variance, applied before averaging (1).
 const MAX_PRODUCT: f32 = 3.0;
 /// Correlation of successive innovations above which the model does not fit (1).
 const MISFIT: f32 = 0.5;
@@ -18,27 +18,28 @@ const FITS_AGAIN: f32 = 0.2;
 const CONVERGING: f32 = 1.0;
 /// Correlation that occurs by chance (1).
 const CHANCE: f32 = 0.1;
-/// Factor from the remaining correlation to the variance inflation (1): repeated errors do not average out.
+/// Factor that converts the remaining correlation into variance inflation (1). Correlated errors do not average out.
 const REPEATED: f32 = 6.0;
-/// Largest standard deviation over the alarm limit (1); above it there is little excitation.
+/// Largest ratio of a standard deviation to its alarm limit (1). Above it, there is too little excitation.
 const KNOWN: f32 = 0.5;
-/// Smallest change of a parameter over the alarm limit (1).
+/// Smallest ratio of a change to its alarm limit at which a parameter counts as changed (1).
 const CHANGED: f32 = 1.0 / 6.0;
-/// Smallest squared change of a parameter over its variance (1).
+/// Smallest ratio of a squared change to its variance at which a parameter counts as changed (1).
 const SURELY: f32 = 9.0;
-/// Squared difference of the lag from its prior over the prior variance, above which the channels are late (1).
+/// Squared difference of the lag from its prior, divided by the prior variance, above which the lag is too large (1).
 const LATE: f32 = 2.25;
 
 /// Averages of the innovations, and the time each parameter has been beyond its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Watch {
-    /// Mean of the squared innovation over its variance.
+    /// Mean of the squared innovation divided by its variance.
     scatter: f32,
-    /// Mean of the product of successive innovations over their variance: 0 if the model fits.
+    /// Mean of the product of successive innovations divided by their variance: 0 if the model fits.
     correlation: f32,
     last: f32,
-    /// Number of consecutive measured blocks with flow, compliance, clearance and force zero beyond the limit.
+    /// For each of flow, compliance, clearance and force offset, the number of consecutive measured blocks beyond its
+    /// limit.
     beyond: [u32; 4],
     /// Status bits found so far in this block.
     found: u32,
@@ -58,7 +59,7 @@ struct Change {
 }
 
 impl Watch {
-    /// All bits zero.
+    /// Placeholder: all bits are zero.
     pub(crate) const EMPTY: Self = Self {
         scatter: 0.0,
         correlation: 0.0,
@@ -75,7 +76,8 @@ impl Watch {
         self.last = 0.0;
     }
 
-    /// Averages the squared innovation of a measured block over its variance, and returns it with its bound applied.
+    /// Adds the squared innovation of a measured block, divided by its variance, to the average. Returns this ratio,
+    /// limited to its bound.
     #[inline(always)]
     pub(crate) fn average_square(&mut self, ratio: f32) -> f32 {
         let bounded = if ratio < MAX_SQUARE {
@@ -87,7 +89,7 @@ impl Watch {
         bounded
     }
 
-    /// Averages the product of the innovations of a measured block and the previous one.
+    /// Adds the product of the innovations of a measured block and the previous one to the average.
     #[inline(always)]
     pub(crate) fn correlate(&mut self, prepared: &Prepared) {
         let product = self.last * prepared.innovation / prepared.variance;
@@ -141,7 +143,7 @@ impl Watch {
         self.compare(model, 1, &compliance, measured, HealthStatus::STIFFNESS);
     }
 
-    /// Compares clearance, force zero and lag with their reference values. Returns the status with all findings.
+    /// Compares clearance, force offset and lag with their reference values. Returns the status with all findings.
     #[inline(always)]
     pub(crate) fn compare_second(
         &mut self,

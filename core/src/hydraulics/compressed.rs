@@ -3,13 +3,14 @@
 use super::flow::Laws;
 use crate::math::root::bracketed_root;
 
-/// Largest pressure over the bulk modulus (1).
+/// Ratio of the largest pressure to the bulk modulus (1).
 ///
 /// The volume falls linearly with the pressure and would be zero at the bulk modulus. At half of the modulus the oil
 /// has half its volume, far beyond any real damper.
 const MAX_PRESSURE_RATIO: f64 = 0.5;
 
-/// Pressure over the bulk modulus above which the density is constant (1). Root searches exceed the largest pressure.
+/// Ratio of the pressure to the bulk modulus above which the density is constant (1). Root searches also try pressures
+/// above the largest allowed one.
 const MAX_DENSITY_RATIO: f64 = 0.9;
 
 impl Laws {
@@ -42,7 +43,7 @@ impl Laws {
     fn two_chamber_force(&self, vapour_pressure_pa: f64, pressure_pa: f64) -> f64 {
         let (rod_side, rod) = (self.rod_side_area, self.rod_area());
         let foot = self.through_foot(pressure_pa) * rod_side;
-        // The rod side cannot fall below the vapour pressure.
+        // The pressure of the rod side cannot fall below the vapour pressure.
         let max_difference = pressure_pa - vapour_pressure_pa;
         let difference = bracketed_root(0.0, max_difference, |difference| {
             self.through_piston(true, difference, pressure_pa) * rod - foot

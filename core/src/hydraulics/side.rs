@@ -8,10 +8,11 @@ use super::two_chamber::{above_vapour_pa, compression_velocity, force_at_differe
 use crate::math::elementary::sqrt;
 use crate::math::root::bracketed_root;
 
-/// Corners of one side, with their forces (N); room for more than a side has.
+/// Corners of one side, with their forces (N). There is room for more corners than a side has.
 pub(crate) type Corners = Vec<(Corner, f64), 8>;
 
-/// Panels, equal in the root of the force, that are searched for the start and the end of vapour.
+/// Number of panels in the search for the start and the end of vapour. The panels have equal widths in the square root
+/// of the force.
 const VAPOUR_PANELS: u32 = 32;
 
 /// Extension (rod-side chamber) or compression (piston-side chamber) of a physical damper.
@@ -81,7 +82,8 @@ impl HydraulicSide<'_> {
             }
             return corners;
         };
-        // The rod side is under pressure only with flow, so the force on the rod area opens the foot valve.
+        // Until the foot valve opens, nothing flows and both chambers have the same pressure. The force is therefore
+        // this pressure times the rod area.
         add(Corner::FootValveOpens, foot * laws.rod_area());
         openings.for_each(|(corner, opening)| {
             add(corner, force_at_difference(laws, vapour, opening));

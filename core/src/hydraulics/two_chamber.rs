@@ -1,6 +1,7 @@
 //! Compression with a pressure in each chamber.
 //!
-//! `A_ext v = Q_piston(P1 - P2)`, `A_rod v = Q_foot(P1 - P_b)`, `F = P1 A_comp - P2 A_ext`. All forces act on the oil.
+//! `A_ext v = Q_piston(P1 - P2)`, `A_rod v = Q_foot(P1 - P_b)`, `F = P1 A_comp - P2 A_ext`. All forces are forces on
+//! the oil, without seal friction.
 
 use super::flow::Laws;
 use crate::math::root::bracketed_root;
@@ -26,7 +27,7 @@ pub(super) fn above_vapour_pa(laws: &Laws, vapour_pressure_pa: f64, force_n: f64
 
 /// Piston velocity (m/s) in compression under a force (N).
 ///
-/// P2 cannot fall below the vapour pressure. At the vapour pressure the oil no longer fills the rod side:
+/// P2 cannot fall below the vapour pressure. At the vapour pressure the oil no longer fills the rod side, so
 /// `A_comp v = Q_piston(P1 - P_v) + Q_foot(P1 - P_b)`.
 pub(super) fn compression_velocity(laws: &Laws, vapour_pressure_pa: f64, force_n: f64) -> f64 {
     let (upstream, difference) = pressures(laws, force_n);

@@ -5,7 +5,7 @@ pub trait Line {
     /// Returns the next received byte, if any.
     fn receive(&mut self) -> Option<u8>;
 
-    /// Sends a byte. False if the line cannot take it now.
+    /// Sends a byte. Returns false if the line cannot take it now.
     fn send(&mut self, byte: u8) -> bool;
 }
 

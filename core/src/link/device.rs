@@ -17,11 +17,11 @@ const BYTES_PER_PASS: usize = 32;
 
 /// A bank of `N` dampers behind a serial link. The first `WATCHED` dampers can have a health estimate.
 ///
-/// All bits are zero until [`Device::start`], so a static takes no flash. It needs 22 KB, 13 KB for each damper and
-/// 2.4 KB for each watched damper. The firmware calls [`Device::poll`] in a loop.
+/// All bits are zero until [`Device::start`], so a static variable takes no flash. It needs 22 KB, plus 13 KB for each
+/// damper and 2.7 KB (2.6 KiB) for each watched damper. The firmware calls [`Device::poll`] in a loop.
 ///
-/// After power on and after [`Request::Stop`](super::Request::Stop) the host steps: each step request is a tick. After
-/// [`Request::Run`](super::Request::Run) the timer of the firmware determines the ticks.
+/// After power on and after [`Request::Stop`](super::Request::Stop) the host determines the ticks: each step request is
+/// one tick. After [`Request::Run`](super::Request::Run) the timer of the firmware determines the ticks.
 ///
 /// ```
 /// use dashpot_core::Damper;
@@ -61,14 +61,14 @@ const BYTES_PER_PASS: usize = 32;
 /// # Ok::<(), dashpot_core::link::StepSizeError>(())
 /// ```
 #[derive(Debug)]
-#[repr(C)] // starts with the fields that every byte needs, within reach of one instruction
+#[repr(C)] // the fields used for every byte come first, where one instruction can address them
 pub struct Device<const N: usize, const WATCHED: usize = 0> {
-    /// Number of bytes of the response still to send, at its end.
+    /// Number of bytes at the end of the response that are not sent yet.
     unsent: usize,
     answers_with_notice: bool,
     intake: Intake,
     reader: FrameReader<REQUEST_BYTES>,
-    /// The load in progress, if any. An `Option` would not have zero bits.
+    /// The load in progress, if any. This is not an `Option`, because the bits of `None` may not be zero.
     load: Load,
     session: Session,
     /// Response to the last request of the session, for repeated requests.
@@ -91,9 +91,9 @@ enum Intake {
     Frames,
     /// The byte is dropped because an image is being loaded from the frame buffer.
     Loading,
-    /// The byte is dropped as for [`Intake::Loading`], within a frame.
+    /// Like [`Intake::Loading`], and the last dropped byte did not end its frame.
     LoadingWithinFrame,
-    /// The byte is dropped until its frame ends.
+    /// The loading has ended. The rest of a frame that began during the loading is dropped.
     Dropping,
 }
 
@@ -119,10 +119,10 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         }
     }
 
-    /// Starts with copies of `dampers` at rest at 0, stepped by the host. `clock` measures the steps.
+    /// Starts with copies of `dampers` at rest at 0, which the host steps. `clock` measures the duration of the steps.
     ///
     /// # Errors
-    /// The dampers are built for different steps; the device is unchanged.
+    /// The dampers are built for different step sizes; the device is unchanged.
     pub fn start(
         &mut self,
         dampers: &[&Damper<f32>; N],
@@ -159,8 +159,8 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         }
     }
 
-    /// Reads bytes from the line until there is a response, no byte is left, or the limit of a pass is reached. True if
-    /// there is a response to send.
+    /// Reads bytes from the line until there is a response, no byte is left, or the limit of a pass is reached. Returns
+    /// true if there is a response to send.
     #[inline]
     fn receive_waiting(&mut self, line: &mut impl Line) -> bool {
         for _ in 0..BYTES_PER_PASS {
@@ -173,7 +173,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         false
     }
 
-    /// Takes a byte of the link. True if there is a response, which must be sent before the next byte is taken.
+    /// Takes a byte of the link. Returns true if there is a response, which must be sent before the next byte is taken.
     #[inline]
     pub fn receive(&mut self, byte: u8) -> bool {
         if self.intake != Intake::Frames {
@@ -229,7 +229,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         self.unsent > 0
     }
 
-    /// Loads the next slice of an image. True if there is a response to send.
+    /// Loads the next slice of an image. Returns true if there is a response to send.
     pub fn advance(&mut self) -> bool {
         if !self.is_busy() {
             return false;
@@ -277,7 +277,7 @@ impl<const N: usize, const WATCHED: usize> Device<N, WATCHED> {
         self.service.tick(due);
     }
 
-    /// Takes a sample of a real damper from sensors of this board, once in each step.
+    /// Takes a sample of a real damper from sensors of this board. Call it once in each step.
     ///
     /// The displacement (m) is positive in extension, the force (N) when it resists extension. The host reads the
     /// estimate over the link.

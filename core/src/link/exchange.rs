@@ -73,7 +73,7 @@ impl<const N: usize, const WATCHED: usize> Exchange<'_, N, WATCHED> {
         let done = self.service.execute(&request);
         let carried_out = done.is_ok();
         let frame = if opens && !carried_out {
-            // A hello with another protocol opens no session.
+            // A hello with another protocol version opens no session.
             self.notice
         } else {
             self.session.advance(header, message.check);

@@ -1,4 +1,4 @@
-//! Frames on the wire: COBS of message and CRC-32 (ISO-HDLC, little-endian), ended by a zero byte.
+//! Frames on the wire: a message and its CRC-32 (ISO-HDLC, little-endian), encoded with COBS and ended by a zero byte.
 
 use cobs::{DecodeResult, DecoderState};
 use heapless::Vec;
@@ -13,7 +13,7 @@ use crate::damper::Damper;
 pub const REQUEST_BYTES: usize = Damper::<f32>::IMAGE_BYTES + 32;
 /// Largest response with header and CRC-32 (bytes).
 pub const RESPONSE_BYTES: usize = 512;
-/// Largest frame of a request (bytes): one more byte for every 254, one at the start and the final zero.
+/// Largest frame of a request (bytes). COBS adds one byte for every 254, one at the start and the final zero.
 pub const REQUEST_FRAME_BYTES: usize = frame_bytes(REQUEST_BYTES);
 /// Largest frame of a response (bytes).
 pub const RESPONSE_FRAME_BYTES: usize = frame_bytes(RESPONSE_BYTES);
@@ -30,9 +30,9 @@ const fn frame_bytes(message_bytes: usize) -> usize {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FrameError {
-    /// A zero byte inside a COBS block.
+    /// The frame has a zero byte inside a COBS block.
     Framing,
-    /// Longer than the reader's buffer.
+    /// The frame is longer than the reader's buffer.
     TooLong,
     /// The CRC-32 is missing or does not match the message.
     Check,
@@ -44,7 +44,7 @@ pub enum FrameError {
 pub struct Message<'a> {
     /// The message, encoded with postcard.
     pub bytes: &'a [u8],
-    /// CRC-32 of the message, which distinguishes a repeated request from another one with the same number.
+    /// CRC-32 of the message, which distinguishes a repeated request from another one with the same sequence number.
     pub check: u32,
 }
 
@@ -55,7 +55,7 @@ pub struct Message<'a> {
 ///
 /// let mut frame = Frame::<16>::new();
 /// assert!(frame.write(&(7_u8, 0_u8)));
-/// // COBS: 7, then a zero two bytes on; the CRC-32 of 07 00 is 0x0e988438; the end.
+/// // COBS: 2 and 5 are the distances to the next zero byte. The CRC-32 of 07 00 is 0x0e988438.
 /// assert_eq!(frame.bytes(), [2, 7, 5, 0x38, 0x84, 0x98, 0x0e, 0]);
 /// ```
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ impl<const BYTES: usize> Frame<BYTES> {
         }
     }
 
-    /// Encodes `message`. If it does not fit, the frame is empty and the result false.
+    /// Encodes `message`. If it does not fit, the frame is empty and the result is false.
     pub fn write(&mut self, message: &impl Serialize) -> bool {
         self.length = self.encode(message).unwrap_or(0);
         self.length > 0
@@ -168,7 +168,7 @@ impl<const BYTES: usize> Flavor for Plain<'_, BYTES> {
 /// assert_eq!(messages, 1);
 /// ```
 #[derive(Debug)]
-#[repr(C)] // starts with the fields that every byte needs, within reach of one instruction
+#[repr(C)] // the fields used for every byte come first, where one instruction can address them
 pub struct FrameReader<const BYTES: usize> {
     /// Number of bytes of the message so far.
     length: usize,
@@ -192,7 +192,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
             length: 0,
             register: 0,
             cobs: DecoderState::Idle,
-            // Has zero bits; the first byte replaces it.
+            // All bits of this error are zero. The first byte of a frame replaces it.
             error: Some(FrameError::Framing),
             message: [0; BYTES],
         }
@@ -203,7 +203,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         self.take(byte).then(|| self.message())
     }
 
-    /// Takes a byte. True at the end of a frame.
+    /// Takes a byte. Returns true at the end of a frame.
     #[inline(always)]
     pub(crate) fn take(&mut self, byte: u8) -> bool {
         let starts = matches!(self.cobs, DecoderState::Idle);
@@ -249,7 +249,7 @@ impl<const BYTES: usize> FrameReader<BYTES> {
         }
     }
 
-    /// Returns bytes of the last message. They remain until the next byte.
+    /// Returns bytes of the last message. They stay valid until the next byte is taken.
     pub(crate) fn last_message(&self, bytes: core::ops::Range<usize>) -> &[u8] {
         self.message.get(bytes).unwrap_or_default()
     }

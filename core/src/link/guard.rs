@@ -1,4 +1,4 @@
-//! Checks memory for damage: at each tick one slice of constants, damper by damper, and one state.
+//! Checks memory for damage, damper by damper: at each tick one slice of constants and one state.
 
 use super::limits::MAX_DAMPERS;
 use super::loaded::Loaded;
@@ -15,9 +15,9 @@ pub(crate) struct Guard<const N: usize> {
     next_state: u8,
     constants: u16,
     states: u16,
-    /// Force (N) of the damper under check at the start of its round.
+    /// Force (N) of the damper whose constants are being checked, at the start of its round.
     at_start_n: f32,
-    /// Force (N) of each damper at the start of the last round that found sound constants.
+    /// Force (N) of each damper at the start of the last round that found its constants sound.
     of_sound_constants_n: [f32; N],
     /// Force (N) of each damper when a check last found its state sound.
     of_sound_states_n: [f32; N],
@@ -37,7 +37,8 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// Checks the next slice of constants and the next state. Returns the number of newly damaged ones.
+    /// Checks the next slice of constants and the next state. Returns the number of dampers and states that it newly
+    /// found damaged.
     pub(crate) fn check(&mut self, loaded: &mut Loaded<N>) -> u32 {
         let mut found = 0;
         let damper = self.next_constants;
@@ -49,7 +50,7 @@ impl<const N: usize> Guard<N> {
         } else if self.check.is_at_start() {
             keep(&mut self.of_sound_constants_n, damper, self.at_start_n);
         }
-        // A state also latches damage of the constants.
+        // Damage to the constants of a damper is also latched in its state, so it is not counted again here.
         let damper = self.next_state;
         if !loaded.check_state(damper) {
             if self.constants & bit(damper) == 0 {
@@ -76,7 +77,7 @@ impl<const N: usize> Guard<N> {
         found
     }
 
-    /// Replaces the force (N) of each damaged damper with its last one from before the damage.
+    /// Replaces the force (N) of each damaged damper with its last force from before the damage.
     ///
     /// A bit may have flipped at any time since the start of the previous round, so the present force can be wrong.
     pub(crate) fn replace_damaged(&self, forces_n: &mut [f32; N]) {
@@ -94,7 +95,7 @@ impl<const N: usize> Guard<N> {
         }
     }
 
-    /// Records a newly loaded damper. If the old one was damaged, its state is damaged too.
+    /// Records a newly loaded damper. If the constants of the old damper were damaged, the state counts as damaged too.
     pub(crate) fn loaded(&mut self, damper: u8) {
         if damper == self.next_constants {
             self.check = Check::START;
@@ -138,7 +139,7 @@ fn bit(damper: u8) -> u16 {
     1 << (damper % u16::BITS as u8)
 }
 
-/// Marks a damper. True if it was not marked before.
+/// Marks a damper. Returns true if it was not marked before.
 fn mark(dampers: &mut u16, damper: u8) -> bool {
     let new = *dampers & bit(damper) == 0;
     *dampers |= bit(damper);

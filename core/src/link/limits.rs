@@ -1,7 +1,8 @@
 //! Version of the protocol, and the largest numbers in its messages.
 
 /// Version of the messages. It changes whenever the bytes of a message change. New messages are added at the end
-/// without a new version: a device that does not know one answers [`Refusal::Unreadable`](super::Refusal::Unreadable).
+/// without a new version, because a device answers a message that it does not know with
+/// [`Refusal::Unreadable`](super::Refusal::Unreadable).
 pub const PROTOCOL: u16 = 3;
 /// Largest number of dampers of a device.
 pub const MAX_DAMPERS: usize = 16;

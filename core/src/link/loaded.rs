@@ -16,12 +16,12 @@ const STATE_BYTES: usize = DamperState::<f32>::BYTES;
 /// Buffer for the states of a bank in bytes.
 pub(crate) type SavedStates = [u8; MAX_DAMPERS * STATE_BYTES];
 
-/// The dampers of a bank are built for different steps.
+/// The dampers of a bank are built for different step sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("damper {damper} is built for another step than damper 0")]
 #[non_exhaustive]
 pub struct StepSizeError {
-    /// Index of the first damper with another step than damper 0.
+    /// Index of the first damper whose step size differs from that of damper 0.
     pub damper: usize,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Loaded<const N: usize> {
 }
 
 impl<const N: usize> Loaded<N> {
-    /// No dampers yet.
+    /// A bank before the dampers are copied into it: all bits are zero.
     pub(crate) const fn new() -> Self {
         Self {
             dampers: Slots::new(),
@@ -89,7 +89,7 @@ impl<const N: usize> Loaded<N> {
         Ok(())
     }
 
-    /// Steps once at the last displacements.
+    /// Steps every damper once, at the last displacements.
     #[inline]
     pub(crate) fn step(&mut self) {
         let (dampers, states) = (self.dampers.all(), &mut self.states);
@@ -160,7 +160,7 @@ impl<const N: usize> Loaded<N> {
         known.then_some(()).ok_or(Refusal::Damper(N as u8))
     }
 
-    /// Checks a slice of a damper's constants. Damage returns false and is latched.
+    /// Checks a slice of a damper's constants. If it finds damage, it latches the damage and returns false.
     pub(crate) fn check_constants(&mut self, damper: u8, check: &mut Check) -> bool {
         let found = self.dampers.get(damper);
         let good = found.is_none_or(|damper| check.slice(damper).is_ok());
@@ -168,7 +168,7 @@ impl<const N: usize> Loaded<N> {
         good
     }
 
-    /// Checks a damper's state. Damage now or at the last step returns false and is latched.
+    /// Checks a damper's state. If it finds damage, or the last step did, it latches the damage and returns false.
     pub(crate) fn check_state(&mut self, damper: u8) -> bool {
         let pair = self.dampers.get(damper);
         let pair = pair.zip(self.states.get(usize::from(damper)));
@@ -241,7 +241,7 @@ impl<const N: usize> Loaded<N> {
     }
 }
 
-/// Returns the numbers as an array of `N`, if there are as many.
+/// Returns the numbers as an array, if there are exactly `N`.
 fn all<const N: usize>(reals: &Reals) -> Result<[f32; N], Refusal> {
     <[f32; N]>::try_from(&**reals).map_err(|_| Refusal::Count(N as u8))
 }

@@ -1,6 +1,6 @@
 //! Requests of a host and responses of a device, encoded with postcard.
 //!
-//! The fields of requests and responses are part of the protocol; a new field is a new [version](super::PROTOCOL).
+//! The fields of requests and responses are part of the protocol; a new field needs a new [version](super::PROTOCOL).
 
 use serde::{Deserialize, Serialize};
 
@@ -57,7 +57,8 @@ pub enum Request<'a> {
         /// Displacement of each damper (m).
         displacements_m: Reals,
     },
-    /// Starts the free-running tick with every damper at rest at these displacements. Ends a loss of the link.
+    /// Starts the free-running tick with every damper at rest at these displacements. Also recovers from a loss of the
+    /// link.
     Run {
         /// Displacement of each damper (m).
         displacements_m: Reals,
@@ -170,7 +171,7 @@ pub enum Response<'a> {
     Status {
         /// Latched [`Status`](crate::Status) bits of each damper.
         status: PerDamper<u16>,
-        /// Number of ticks of each damper with a held or limited displacement, up to 65535.
+        /// For each damper, the number of ticks with a held or limited displacement or a restart, up to 65535.
         rejected_inputs: PerDamper<u16>,
     },
     /// The request was refused and nothing changed.
@@ -199,7 +200,7 @@ pub struct Welcome<'a> {
     pub tick: u32,
     /// Rate of the clock behind [`Forces::clock_ticks`] (Hz).
     pub clock_hz: u32,
-    /// True while the tick runs free.
+    /// True while the device is free-running.
     pub running: bool,
 }
 

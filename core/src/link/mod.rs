@@ -3,8 +3,8 @@
 //! Messages are encoded with postcard and framed with COBS and a CRC-32; docs/link.md has the tables and the rules. The
 //! module does not depend on the processor: firmware adds a UART, a tick and a clock.
 //!
-//! Only an intact, readable request of the open session changes a state, in sequence and with the next tick. The device
-//! counts and answers anything else.
+//! A request changes a state only if it is intact, readable, part of the open session and in sequence; a step must also
+//! name the next tick. The device counts and answers everything else.
 
 mod board;
 mod device;

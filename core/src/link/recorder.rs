@@ -7,8 +7,8 @@ use super::refusal::Refusal;
 use crate::state::DamperState;
 use crate::status::Status;
 
-/// Number of ticks kept for [`Request::Telemetry`](super::Request::Telemetry). A power of two: the ring stays in order
-/// as the count of ticks wraps.
+/// Number of ticks kept for [`Request::Telemetry`](super::Request::Telemetry). It is a power of two, so that the ring
+/// stays in order when the count of ticks wraps.
 pub const KEPT_TICKS: usize = 64;
 
 /// One tick of the bank.

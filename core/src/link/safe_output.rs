@@ -1,8 +1,8 @@
-//! Safe outputs after the loss of the link or damage in memory while the tick runs free.
+//! Safe outputs after the link is lost or memory is damaged while the device is free-running.
 
 use serde::{Deserialize, Serialize};
 
-/// Condition for a lost link, and the output from then on.
+/// Condition at which the link counts as lost, and the output from then on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LossOfLink {
     /// Number of ticks without new displacements before the link is lost, at least 1.
@@ -12,7 +12,7 @@ pub struct LossOfLink {
 }
 
 impl Default for LossOfLink {
-    /// Loss after 100 ticks, then to zero in 100 ticks: 0.1 s each at 1 kHz.
+    /// The link is lost after 100 ticks, and the output then falls to zero in 100 ticks: 0.1 s each at 1 kHz.
     fn default() -> Self {
         Self {
             after_ticks: 100,
@@ -36,19 +36,19 @@ pub enum SafeOutput {
     Zero,
 }
 
-/// Counts silent ticks and computes the outputs of each tick.
+/// Counts silent ticks (without new displacements) and computes the outputs of each tick.
 #[derive(Clone, Debug)]
 pub(crate) struct Watch<const N: usize> {
     configuration: LossOfLink,
     silent_ticks: u32,
     /// Number of ticks with safe outputs so far.
     safe_ticks: u32,
-    /// Output before the safe output (N); for damaged dampers, output before the damage.
+    /// Last output before the safe output (N); for damaged dampers, the output before the damage.
     last_good: [f32; N],
 }
 
 impl<const N: usize> Watch<N> {
-    /// Not configured: all bits are zero.
+    /// A watch before its configuration: all bits are zero.
     pub(crate) const fn new() -> Self {
         Self {
             configuration: LossOfLink {
@@ -61,7 +61,7 @@ impl<const N: usize> Watch<N> {
         }
     }
 
-    /// Sets the configuration. Ticks that were silent so far never lose the link immediately.
+    /// Sets the configuration. The ticks that have been silent so far never cause an immediate loss of the link.
     pub(crate) fn configure(&mut self, configuration: LossOfLink) {
         self.silent_ticks = self.silent_ticks.min(configuration.after_ticks);
         self.configuration = configuration;
@@ -72,7 +72,7 @@ impl<const N: usize> Watch<N> {
         self.silent_ticks = 0;
     }
 
-    /// Starts again as the free-running tick starts or stops.
+    /// Starts again when the free-running tick starts or stops.
     pub(crate) fn restart(&mut self) {
         self.alive();
         self.safe_ticks = 0;
@@ -87,8 +87,8 @@ impl<const N: usize> Watch<N> {
         &mut self.last_good
     }
 
-    /// Returns the outputs of a tick with these forces (N), and true if this tick lost the link. Damaged memory also
-    /// causes safe outputs.
+    /// Returns the outputs of a tick with these forces (N), and true if the link was lost at this tick. Damaged memory
+    /// also causes safe outputs.
     pub(crate) fn output(&mut self, forces: &[f32; N], damaged: bool) -> ([f32; N], bool) {
         let was_lost = self.lost();
         self.silent_ticks = self.silent_ticks.saturating_add(1);

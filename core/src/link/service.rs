@@ -13,7 +13,7 @@ use super::watched::Watched;
 use crate::damper::Damper;
 use crate::state::DamperState;
 
-/// A free-running clock that measures steps.
+/// A free-running clock that measures the duration of steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
     now: fn() -> u32,
@@ -27,7 +27,7 @@ impl Clock {
     }
 }
 
-/// The dampers and all that requests read or change.
+/// The dampers and everything else that requests read or change.
 #[derive(Debug)]
 pub(crate) struct Service<const N: usize, const WATCHED: usize> {
     loaded: Loaded<N>,
@@ -124,7 +124,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         });
     }
 
-    /// Loads a slice of an image. True once the damper or the health model is in use.
+    /// Loads a slice of an image. Returns true once the damper or the health model is in use.
     pub(crate) fn load_slice(
         &mut self,
         damper: u8,
@@ -154,7 +154,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 return Ok(Response::Welcome(self.welcome()));
             }
             Request::Hello { .. } => return Err(Refusal::Protocol(PROTOCOL)),
-            // `load_slice` does the rest.
+            // `load_slice` then loads the image.
             Request::Load { damper, .. } => self.loaded.require_damper(*damper)?,
             Request::Set {
                 damper,
@@ -189,7 +189,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 }
                 self.loaded.displace(displacements_m)?;
                 self.step();
-                // The outputs are driven only while the tick runs free, so these forces are not outputs.
+                // The outputs are driven only while the device is free-running, so these forces are not outputs.
                 let forces = self.loaded.forces(self.loaded.forces_n(), self.clock_ticks);
                 return Ok(Response::Forces(forces));
             }
@@ -245,7 +245,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
                 self.loaded.clear_status();
                 return Ok(cleared);
             }
-            // `load_slice` does the rest.
+            // `load_slice` then loads the image.
             Request::LoadHealth { damper, .. } => {
                 self.loaded.require_damper(*damper)?;
                 self.watched.require_slot(*damper)?;
@@ -294,7 +294,7 @@ impl<const N: usize, const WATCHED: usize> Service<N, WATCHED> {
         Ok(())
     }
 
-    /// Refuses a request while the tick runs free.
+    /// Refuses a request while the device is free-running.
     fn require_host_steps(&self) -> Result<(), Refusal> {
         if self.running {
             Err(Refusal::Running)

@@ -26,8 +26,8 @@ impl Session {
     /// No session is open.
     pub(crate) const NONE: Self = Self { last: None };
 
-    /// Decides how to handle a request from its header and the CRC-32 of its message. A repeated request is identical
-    /// to the last one.
+    /// Uses the header of a request and the CRC-32 of its message to decide how to handle it. A repeated request is
+    /// identical to the last one.
     pub(crate) fn judge(&self, header: Header, check: u32) -> Verdict {
         let Some((last, last_check)) = self.last else {
             return Verdict::NoSession;

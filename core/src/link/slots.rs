@@ -2,7 +2,7 @@
 
 use crate::damper::Damper;
 
-/// Dampers in the order of their slots. `slots` has the slot of each damper of the bank.
+/// Dampers in the order of their slots. The damper in the spare slot is not part of the bank.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots<const N: usize> {
     dampers: [Damper<f32>; N],
@@ -15,7 +15,7 @@ pub(crate) struct Slots<const N: usize> {
 }
 
 impl<const N: usize> Slots<N> {
-    /// No dampers yet.
+    /// Slots before the dampers are copied into them: all bits are zero.
     pub(crate) const fn new() -> Self {
         Self {
             dampers: [Damper::<f32>::EMPTY; N],

@@ -6,8 +6,8 @@ use crate::health::{Health, HealthLoading, HealthModel, HealthReading};
 
 /// Health models and estimates of the first `N` dampers of a bank.
 ///
-/// They change neither a damper's state nor an output, so memory is not guarded: estimates with any bits can be read
-/// and fed safely.
+/// They change neither a damper's state nor an output, so the guard does not check their memory. An estimate with
+/// any bit pattern can be read and fed safely.
 #[derive(Clone, Debug)]
 pub(crate) struct Watched<const N: usize> {
     models: [HealthModel; N],
@@ -15,7 +15,7 @@ pub(crate) struct Watched<const N: usize> {
 }
 
 impl<const N: usize> Watched<N> {
-    /// No models yet.
+    /// No model is loaded: all bits are zero.
     pub(crate) const fn new() -> Self {
         Self {
             models: [HealthModel::EMPTY; N],
@@ -29,7 +29,7 @@ impl<const N: usize> Watched<N> {
         known.then_some(()).ok_or(Refusal::NoHealth)
     }
 
-    /// Loads a slice of a model for a bank of step `step_s` (s). True once its estimate starts.
+    /// Loads a slice of a model for a bank with the step `step_s` (s). Returns true once its estimate starts.
     pub(crate) fn load_slice(
         &mut self,
         damper: u8,

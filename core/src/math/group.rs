@@ -1,4 +1,4 @@
-//! A group of eight dampers, in the vector instructions of a desktop processor.
+//! A group of eight dampers, computed with the vector instructions of a desktop processor.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -23,7 +23,7 @@ pub(crate) type F32 = Pair<f32x4<Baseline>>;
 /// Numbers of a group in double precision.
 pub(crate) type F64 = Pair<f64x4<Baseline>>;
 
-/// Returns the token of [`Baseline`]; the compiler removes the check.
+/// Returns the token of [`Baseline`]; the compiler removes the check for these instructions.
 #[inline(always)]
 fn baseline() -> Baseline {
     #[cfg(target_arch = "x86_64")]
@@ -68,7 +68,7 @@ fn halves<T: Copy>([a, b, c, d, e, f, g, h]: [T; GROUP]) -> [[T; 4]; 2] {
     [[a, b, c, d], [e, f, g, h]]
 }
 
-/// Joins two halves to an array.
+/// Joins two halves into an array.
 #[inline(always)]
 fn whole<T: Copy>([[a, b, c, d], [e, f, g, h]]: [[T; 4]; 2]) -> [T; GROUP] {
     [a, b, c, d, e, f, g, h]
@@ -134,7 +134,7 @@ macro_rules! group {
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                // One instruction on x86-64. On other processors `max` would return NaN for NaN.
+                // One instruction on x86-64. On other processors `max` would return NaN if a number is NaN.
                 if cfg!(target_arch = "x86_64") {
                     self.zip(other, |v, other| v.max(other))
                 } else {

@@ -1,6 +1,6 @@
 //! Numbers of `L` dampers side by side. The step is written once, for one damper and for several.
 //!
-//! Each lane has the same operations as a single number, so the bits do not depend on `L`.
+//! Each lane goes through the same operations as a single number, so the bits do not depend on `L`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -17,29 +17,31 @@ pub(crate) trait Lanes<T, const L: usize>:
 {
     /// Returns the lanes of an array.
     fn new(lanes: [T; L]) -> Self;
-    /// Returns equal lanes.
+    /// Returns lanes that all have this value.
     fn splat(value: f64) -> Self;
     /// Returns the lanes as an array.
     fn array(self) -> [T; L];
-    /// Transposes four numbers of each lane to four columns of lanes.
+    /// Collects the four numbers of each lane: result `i` contains number `i` of every lane.
     fn transpose(rows: [[T; 4]; L]) -> [Self; 4];
     /// Magnitude.
     fn abs(self) -> Self;
-    /// Lane-wise maximum; `other` if `self` is NaN. `other` must not be NaN, nor both zeros of opposite sign.
+    /// Lane-wise maximum; `other` if `self` is NaN. `other` must not be NaN, and the two must not be zeros of opposite
+    /// sign.
     fn max(self, other: Self) -> Self;
-    /// Lane-wise minimum; `other` if `self` is NaN. `other` must not be NaN, nor both zeros of opposite sign.
+    /// Lane-wise minimum; `other` if `self` is NaN. `other` must not be NaN, and the two must not be zeros of opposite
+    /// sign.
     fn min(self, other: Self) -> Self;
     /// True if no magnitude exceeds its bound, given by its [`doubled_bits`](crate::real::Scalar). False for NaN.
     fn all_within(self, doubled_bits: [&T; L]) -> bool;
     /// True for each lane that is not below the limit. True for NaN.
     fn reaches(self, limit: Self) -> [bool; L];
-    /// Zero in lanes with a positive `gate`, else unchanged.
+    /// Returns zero in lanes with a positive `gate`, else the unchanged number.
     fn unless_positive(self, gate: Self) -> Self;
-    /// Negated in lanes with a negative `direction`, else unchanged.
+    /// Returns the negated number in lanes with a negative `direction`, else the unchanged number.
     fn with_sign_of(self, direction: Self) -> Self;
     /// Index of the table's bin for each positive number; a valid index for any other number.
     fn bins(self) -> [usize; L];
-    /// Number of knots, among the second and the third, that each positive number exceeds.
+    /// Number of knots that each positive number exceeds, counting only the second and the third knot.
     fn knots_passed(self, knots: [[T; 4]; L]) -> [usize; L];
     /// Sign bit of each lane, 0 or 1.
     fn sign_bits(self) -> [usize; L];
@@ -92,8 +94,8 @@ macro_rules! single_lane {
             }
             #[inline(always)]
             fn all_within(self, [doubled_bits]: [&$float; 1]) -> bool {
-                // The shift drops the sign; the bits of NaN exceed those of all numbers. One instruction compares the
-                // shifted bits with the bits of the bound.
+                // Shifting left drops the sign bit. The shifted bits of NaN exceed those of any bound. One instruction
+                // compares the shifted bits with the bits of the bound.
                 let bound: &$bits = zerocopy::transmute_ref!(doubled_bits);
                 *bound >= self.to_bits() << 1
             }

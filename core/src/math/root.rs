@@ -1,7 +1,7 @@
 //! Root of a monotone function in a bracket.
 
-/// Finds the root of the monotone `function` in `[low, high]`. Without a change of sign it returns the end with the
-/// smaller magnitude of the function.
+/// Finds the root of the monotone `function` in `[low, high]`. If the function does not change sign, returns the end at
+/// which its magnitude is smaller.
 ///
 /// Uses the Illinois method with regular bisections; the number of iterations is bounded.
 pub(crate) fn bracketed_root(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {

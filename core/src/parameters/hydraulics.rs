@@ -22,7 +22,7 @@ pub struct Hydraulics {
     pub reservoir: Option<Reservoir>,
     /// Seal friction; `None` for no friction.
     pub seal: Option<Seal>,
-    /// Compression with two chamber pressures; `None` puts piston and foot valve under one pressure.
+    /// Compression with two chamber pressures; `None` applies one pressure to piston and foot valve.
     pub two_chamber: Option<TwoChamber>,
     /// The oil.
     pub oil: Oil,
@@ -92,7 +92,7 @@ parameters! {
 }
 
 impl Geometry {
-    /// A rod and a piston of these diameters (m).
+    /// A rod and a piston with these diameters (m).
     pub const fn new(rod_diameter_m: f64, piston_diameter_m: f64) -> Self {
         Self {
             rod_diameter_m,
@@ -125,7 +125,7 @@ parameters! {
     #[derive(Copy)]
     pub struct Orifice, OrificeRanges {
         /// Orifice diameter (m); 0 closes it.
-        diameter_m: f64, 0 to 1 => "0 to below piston_diameter_m";
+        diameter_m: f64, 0 to 1 => "at least 0 and below piston_diameter_m";
         /// Turbulent discharge coefficient (1).
         discharge_coefficient: f64, 0 to 1;
         /// Reynolds number `Re = u d/nu` (u is the mean velocity in the bore) at which the laminar and the turbulent
@@ -138,7 +138,7 @@ parameters! {
 }
 
 impl Orifice {
-    /// An orifice of this diameter (m) and turbulent discharge coefficient (1), without a laminar part.
+    /// An orifice with this diameter (m) and turbulent discharge coefficient (1), without a laminar part.
     pub const fn new(diameter_m: f64, discharge_coefficient: f64) -> Self {
         Self {
             diameter_m,
@@ -183,8 +183,9 @@ impl Valves {
 parameters! {
     /// A shim-pack valve: edge lift `w = k_w (P - P_0)+`, flow `Q = Cd 2 pi r_w w sqrt(2 P/rho)`.
     ///
-    /// The edge compliance `k_w` (m/Pa) is `edge_compliance_m_per_pa * equivalent_pressure_factor` if the former is
-    /// given, else `Cw(r_w) equivalent_pressure_factor / h_e^3` of the pack.
+    /// If `edge_compliance_m_per_pa` is given, the edge compliance `k_w` (m/Pa) is
+    /// `edge_compliance_m_per_pa * equivalent_pressure_factor`. Otherwise it is
+    /// `Cw(r_w) equivalent_pressure_factor / h_e^3` of the pack.
     pub struct Valve, ValveRanges {
         /// Clamping radius r_n of the discs (m).
         clamp_radius_m: f64, 0 to 1 => "above 0 and below free_radius_m";
@@ -230,7 +231,7 @@ impl Valve {
         }
     }
 
-    /// A valve without shims and preload: radii (m), edge lift per uniform pressure (m/Pa), discharge coefficient (1).
+    /// A valve without shims or preload: radii (m), edge lift per uniform pressure (m/Pa), discharge coefficient (1).
     pub const fn with_edge_compliance(
         clamp_radius_m: f64,
         free_radius_m: f64,
@@ -249,20 +250,20 @@ impl Valve {
 }
 
 parameters! {
-    /// Laminar leakage past the piston: `Q = pi R c^3 (1 + 1.5 e^2) P/(6 mu L)`, R is the piston radius.
+    /// Laminar leakage past the piston: `Q = pi R c^3 (1 + 1.5 e^2) P/(6 mu L)`, where R is the piston radius.
     #[derive(Copy)]
     pub struct Leakage, LeakageRanges {
         /// Radial clearance c between piston and cylinder (m).
         radial_clearance_m: f64, 0 to 1e-3 "m";
         /// Length L of the gap (m).
         length_m: f64, 1e-4 to 1 "m";
-        /// Eccentricity e over clearance (1): 0 is concentric, 1 is touching.
+        /// Ratio e of the eccentricity to the clearance (1): 0 is concentric, 1 is touching.
         eccentricity_ratio: f64 = 0, 0 to 1;
     }
 }
 
 impl Leakage {
-    /// A concentric gap of this radial clearance (m) and length (m).
+    /// A concentric gap with this radial clearance (m) and length (m).
     pub const fn new(radial_clearance_m: f64, length_m: f64) -> Self {
         Self {
             radial_clearance_m,
@@ -273,7 +274,7 @@ impl Leakage {
 }
 
 parameters! {
-    /// Relief valve: `Q = Cd g (P - P_open)+ sqrt(2 P/rho)`, g is the area gradient.
+    /// Relief valve: `Q = Cd g (P - P_open)+ sqrt(2 P/rho)`, where g is the area gradient.
     #[derive(Copy)]
     pub struct Relief, ReliefRanges {
         /// Pressure at which it opens (Pa).
@@ -286,7 +287,7 @@ parameters! {
 }
 
 impl Relief {
-    /// A relief valve of this opening pressure (Pa), area gradient (m^2/Pa) and discharge coefficient (1).
+    /// A relief valve with this opening pressure (Pa), area gradient (m^2/Pa) and discharge coefficient (1).
     pub const fn new(
         opening_pressure_pa: f64,
         area_gradient_m2_per_pa: f64,
@@ -302,9 +303,9 @@ impl Relief {
 
 parameters! {
     /// Gas above the oil in the reservoir. Back pressure (gauge) at the operating point:
-    /// `P_b = (p_fill + p_a) (V_fill/V) (T/T_fill) - p_a` with `V = V_fill - A_rod x_rod`. The gas is isothermal as the
-    /// mean rod position slowly changes. Within a stroke `P_b` is constant: a stroke changes it by a fraction of less
-    /// than `A_rod stroke/V`.
+    /// `P_b = (p_fill + p_a) (V_fill/V) (T/T_fill) - p_a` with `V = V_fill - A_rod x_rod`. The gas is isothermal while
+    /// the mean rod position slowly changes. Within a stroke `P_b` is taken as constant, because a stroke changes it by
+    /// a fraction of less than `A_rod stroke/V`.
     #[derive(Copy)]
     pub struct Reservoir, ReservoirRanges {
         /// Gauge pressure when filled (Pa).
@@ -314,7 +315,7 @@ parameters! {
         /// Oil and gas temperature when filled (degC).
         fill_temperature_c: f64, -60 to 150 "degC";
         /// Mean rod insertion beyond the position at filling (m), positive in compression.
-        rod_insertion_m: f64 = 0, -1 to 1 => "-1 to 1 m and leaving a tenth of gas_volume_m3";
+        rod_insertion_m: f64 = 0, -1 to 1 => "-1 to 1 m, so that a tenth of gas_volume_m3 remains";
     }
 }
 
@@ -348,7 +349,7 @@ parameters! {
 }
 
 impl Seal {
-    /// A seal of this friction force (N).
+    /// A seal with this friction force (N).
     pub const fn new(friction_n: f64) -> Self {
         Self { friction_n }
     }
@@ -365,7 +366,7 @@ parameters! {
 }
 
 impl TwoChamber {
-    /// Two chambers with oil of this vapour pressure (gauge, Pa).
+    /// Two chambers with oil that has this vapour pressure (gauge, Pa).
     pub const fn new(vapour_pressure_pa: f64) -> Self {
         Self { vapour_pressure_pa }
     }

@@ -3,7 +3,7 @@
 //! Signals of the element: `x` is the relative displacement of the two seats (m), positive in extension; `F` is the
 //! force (N), positive when it resists extension.
 //!
-//! Each structure is made by `new` with the parameters it requires; setters change the others, also in a `const`:
+//! `new` creates a structure from its required parameters. Setters change the other parameters, also in a `const`:
 //!
 //! ```
 //! use dashpot_core::parameters::{DamperParameters, Limits, Mount};
@@ -163,7 +163,7 @@ parameters! {
 }
 
 impl Reduced {
-    /// The element of this damping coefficient (N s/m) and saturation velocity (m/s).
+    /// An element with this damping coefficient (N s/m) and saturation velocity (m/s).
     pub const fn new(damping_n_s_per_m: f64, saturation_velocity_m_per_s: f64) -> Self {
         Self {
             damping_n_s_per_m,
@@ -203,8 +203,8 @@ impl Default for Limits {
     }
 }
 
-/// Iterates over all parameters: the table of a damper file that holds each, and its range. The table `valves` is
-/// listed once for the three valves.
+/// Iterates over all parameters: for each, its table in a damper file and its range. The table `valves` is listed once
+/// for the three valves.
 ///
 /// ```
 /// let mut all = dashpot_core::parameters::ranges();

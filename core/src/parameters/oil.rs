@@ -31,7 +31,7 @@ parameters! {
 }
 
 impl Oil {
-    /// Rigid oil of this density (kg/m^3); every other parameter has its default.
+    /// Rigid oil with this density (kg/m^3); every other parameter has its default.
     pub const fn new(density_kg_per_m3: f64) -> Self {
         Self {
             density_kg_per_m3,

@@ -28,7 +28,7 @@ impl Range {
     }
 }
 
-/// Checks a value against its range and the result of its relation to other parameters.
+/// Checks that a value is in its range and keeps its relation to other parameters.
 ///
 /// # Errors
 /// The field, if the value is out of range or `keeps_relation` is false.
@@ -57,7 +57,7 @@ pub(crate) fn require_range(
     numbers.try_for_each(|value| require(section, range, *value, true))
 }
 
-/// `Some` of the literal, or `None` without one.
+/// `Some` with the literal, or `None` if there is none.
 macro_rules! optional {
     () => {
         None
@@ -139,7 +139,7 @@ macro_rules! parameters {
             }
         }
 
-        #[allow(clippy::unnecessary_cast)] // literals with and without a point
+        #[allow(clippy::unnecessary_cast)] // literals with and without a decimal point
         impl $name {
             /// Range and default of each parameter.
             pub const RANGES: $ranges = $ranges {
@@ -178,7 +178,7 @@ macro_rules! parameters {
         }
 
         #[cfg(feature = "serde")]
-        #[allow(clippy::unnecessary_cast)] // literals with and without a point
+        #[allow(clippy::unnecessary_cast)] // literals with and without a decimal point
         impl<'de> serde::Deserialize<'de> for $name {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 /// The keys of a damper file.

@@ -6,7 +6,7 @@ use core::ops::{Deref, DerefMut};
 /// Largest number of shims in a pack.
 pub const MAX_SHIMS: usize = 16;
 
-/// Thickness of each shim of a pack (m), at most [`MAX_SHIMS`] of them; a slice to read and to change.
+/// Thickness of each shim of a pack (m), for at most [`MAX_SHIMS`] shims; it can be read and changed as a slice.
 ///
 /// ```
 /// use dashpot_core::parameters::Shims;

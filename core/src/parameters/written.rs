@@ -1,4 +1,4 @@
-//! The value of a key of a damper file: as written, or its default.
+//! The value of a key in a damper file, as written or by default.
 
 use serde::de::Error;
 
@@ -6,7 +6,7 @@ use super::{OilColumn, Shims};
 
 /// A field of a damper file's table.
 pub(crate) trait Written: Sized {
-    /// Value of an omitted key without a default; `None` if the key is required.
+    /// Value if the key is omitted and has no default; `None` if the key is required.
     fn absent() -> Option<Self>;
 }
 

@@ -36,7 +36,7 @@ impl Disc {
     /// `section` names the disc in errors.
     ///
     /// # Errors
-    /// A radius, the modulus or Poisson's ratio out of the range of [`Valve::RANGES`].
+    /// A radius, the modulus or Poisson's ratio is outside the range of [`Valve::RANGES`].
     pub fn new(
         section: &'static str,
         clamp_radius_m: f64,

@@ -14,7 +14,7 @@ const LICENCE: (&str, &str) = (
     include_str!("../../LICENSE-MIT"),
 );
 
-/// Packs the FMU, with a compiled library if given. Equal content gives equal bytes.
+/// Packs the FMU, with a compiled library if there is one. The same content gives the same bytes.
 ///
 /// # Errors
 /// Returns an error if a file name is not valid in an archive.

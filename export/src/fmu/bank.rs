@@ -34,8 +34,9 @@ pub struct NamedDamper<T> {
 }
 
 impl Fmu {
-    /// FMU of dampers, all built for the step `step_s` (s). Its functions start with `identifier`, made of ASCII
-    /// letters, digits and `_`. With `is_loaded`, the constants are replaceable images in the resources folder.
+    /// Returns the FMU of dampers that are all built for the step `step_s` (s). The names of its functions start with
+    /// `identifier`, which consists of ASCII letters, digits and `_`. With `is_loaded`, the constants are images in the
+    /// resources folder, which the user can replace.
     ///
     /// # Errors
     /// Returns an error if the identifier in capitals is not a valid C constant name.
@@ -85,7 +86,7 @@ impl Fmu {
                 T::NAME
             ),
             step_s,
-            // The end of the last whole step.
+            // End of the step that ends closest to 1 s.
             stop_s: nearest_nanosecond((1.0 / step_s).round() * step_s),
             variables: all_variables(dampers),
             has_input_derivatives: true,
@@ -107,7 +108,7 @@ fn all_variables<T>(dampers: &[NamedDamper<T>]) -> Vec<Variable> {
     (1..).zip(dampers).flat_map(of_damper).collect()
 }
 
-/// Variables of a damper, in the order of `model.c`; their names start with `prefix`.
+/// Variables of a damper, in the same order as in `model.c`; their names start with `prefix`.
 fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
     let prefixed = |name: &str| format!("{prefix}{name}");
     [
@@ -132,7 +133,7 @@ fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
         Variable {
             name: prefixed("clearance_m"),
             unit: "m",
-            description: "Clearance 2a, the whole play",
+            description: "Clearance 2a, the total play",
             kind: Kind::Tunable {
                 start: clearance_m,
                 max: MAX_CLEARANCE_M,
@@ -141,13 +142,14 @@ fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
         Variable {
             name: prefixed("status"),
             unit: "",
-            description: "Latched bits: 1 input held, 2 input limited, 4 saturated, 8 damper swapped, 16 corrupted",
+            description: "Latched bits: 1 input held, 2 input limited, 4 saturated, 8 damper swapped, 16 corrupted, \
+                          32 restarted",
             kind: Kind::Counter,
         },
         Variable {
             name: prefixed("rejected_inputs"),
             unit: "",
-            description: "Number of steps with a held or limited displacement, up to 65535",
+            description: "Number of steps with a held or limited displacement or a restart, up to 65535",
             kind: Kind::Counter,
         },
     ]
@@ -203,8 +205,8 @@ fn about<T: Word>(step_s: f64, is_loaded: bool) -> Markup {
     }
     @if is_loaded {
         p {
-            "The constants are images in the folder resources, as Dashpot exports them, for this step and scalar. An \
-             image of another damper may be put in place of each."
+            "The constants are images in the folder resources, as Dashpot exports them, for this step and scalar. \
+             Each may be replaced by the image of another damper."
         }
     }
     }

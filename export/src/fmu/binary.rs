@@ -58,7 +58,7 @@ pub enum CompileError {
         platform: String,
     },
     /// The compiler built a library for another platform.
-    #[error("the C compiler {compiler} built {}, needed for {platform}: {needed}", described(.found.as_ref()))]
+    #[error("the C compiler {compiler} built {}, but {platform} needs {needed}", described(.found.as_ref()))]
     OtherMachine {
         /// Name of the compiler.
         compiler: String,
@@ -71,7 +71,7 @@ pub enum CompileError {
     },
     /// The vehicle library is for another platform.
     #[error(
-        "{}: the vehicle library contains object files of another type ({found}), needed for {platform}: {needed}",
+        "{}: the vehicle library contains object files of another type ({found}), but {platform} needs {needed}",
         library.display()
     )]
     OtherLibrary {
@@ -133,7 +133,7 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
     let needed = Machine::here();
     if let Some(library) = &fmu.library {
         let found = Machine::of_archive(&std::fs::read(library)?);
-        // An archive of unknown type is left to the linker.
+        // If the type of the archive is unknown, the linker checks it.
         if let Some(found) = found.filter(|found| !found.links_into(&needed)) {
             let library = library.clone();
             return Err(CompileError::OtherLibrary {

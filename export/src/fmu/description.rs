@@ -7,7 +7,8 @@ use maud::Escaper;
 use super::variable::{Kind, UNITS, Variable};
 use super::{Fmu, Interface};
 
-/// Outputs depend on no input at the same communication point, so a loop of connected FMUs is never an algebraic loop.
+/// No output depends on an input at the same communication point, so a loop of connected FMUs is never an algebraic
+/// loop.
 const NO_DEPENDENCIES: (&str, &str) = ("dependencies", "");
 
 const CATEGORIES: [(&str, &str); 3] = [
@@ -115,7 +116,7 @@ impl Fmu {
         for name in self.compiled() {
             xml.empty("SourceFile", &[("name", name)]);
         }
-        // For a shared library; in a static library the functions have the prefix.
+        // This definition is for a shared library; in a static library, the functions have the prefix.
         let definition = [("name", "FMI3_OVERRIDE_FUNCTION_PREFIX"), ("value", "1")];
         xml.empty("PreprocessorDefinition", &definition);
         xml.close("SourceFileSet");
@@ -141,7 +142,7 @@ impl Fmu {
                 for list in ["Outputs", "InitialUnknowns"] {
                     xml.open(list, &[]);
                     for reference in &outputs {
-                        // Position in the list, where time is number 1.
+                        // Position in the list of variables; time is number 1.
                         let index = (reference + 1).to_string();
                         xml.empty("Unknown", &[("index", &index), NO_DEPENDENCIES]);
                     }
@@ -258,7 +259,7 @@ fn with_values(attributes: &[(&str, &str)]) -> String {
     let mut text = String::new();
     for (name, value) in attributes {
         let _ = write!(text, " {name}=\"");
-        // File names may contain control characters, XML must not.
+        // File names may contain control characters, but XML must not.
         let value = value.replace(char::is_control, " ");
         let _ = Escaper::new(&mut text).write_str(&value);
         text.push('"');

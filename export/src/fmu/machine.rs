@@ -1,4 +1,4 @@
-//! Processor and file format of a library, read from its header, to check what a compiler really built.
+//! Reads the processor and the file format of a library from its header, to check what a compiler really built.
 
 use std::env;
 use std::fmt;
@@ -74,7 +74,7 @@ const MEMBER_HEADER: usize = 60;
 const MEMBER_SIZE: std::ops::Range<usize> = 48..58;
 
 impl Machine {
-    /// Type of shared library that this process can load.
+    /// Returns the type of shared library that this process can load.
     pub fn here() -> Self {
         let format = match env::consts::OS {
             "windows" => Format::Pe,
@@ -103,7 +103,7 @@ impl Machine {
             let size = std::str::from_utf8(&header[MEMBER_SIZE]).ok()?;
             let size: usize = size.trim().parse().ok()?;
             let (member, behind) = behind.split_at_checked(size)?;
-            // BSD and macOS write a long name before the content, and its length in place of the name.
+            // If a name is long, BSD and macOS write it before the content, and write its length into the name field.
             let name = std::str::from_utf8(&header[..16]).ok()?;
             let long = name.strip_prefix("#1/").map(|length| length.trim().parse());
             let skipped = long.and_then(Result::ok).unwrap_or(0);
@@ -115,7 +115,7 @@ impl Machine {
         }
     }
 
-    /// True if a linker can put this object file into a library for `platform`. A processor that is missing in the
+    /// True if a linker can put this object file into a library for `platform`. A processor that is missing from the
     /// tables above is not compared.
     pub fn links_into(&self, platform: &Self) -> bool {
         let has_name = |processor| match processor {
@@ -204,8 +204,7 @@ fn elf(bytes: &[u8]) -> Option<Machine> {
     })
 }
 
-/// Reads a PE header: at 0x3c is the offset of `PE\0\0`, which is followed by `Machine` and `Characteristics` (0x2000:
-/// a DLL).
+/// Reads a PE header: the offset of `PE\0\0` is at 0x3c; after it come `Machine` and `Characteristics` (0x2000: a DLL).
 fn pe(bytes: &[u8]) -> Option<Machine> {
     if bytes.get(..2)? != b"MZ" {
         return None;
@@ -244,7 +243,7 @@ fn mach_o(bytes: &[u8]) -> Option<Machine> {
 }
 
 /// Reads a universal Mach-O file and returns the slice for this machine, or else the first one. The header is
-/// big-endian: magic number, number of slices, and five words per slice. The third word is the offset.
+/// big-endian: magic number, number of slices, and five words per slice. The third word is the offset of the slice.
 fn universal(bytes: &[u8]) -> Option<Machine> {
     let big_endian = |at| word(bytes, at).map(u32::swap_bytes);
     if big_endian(0)? != 0xcafe_babe {
@@ -303,7 +302,7 @@ mod tests {
             .collect();
         universal.extend(&mach_o);
         assert_eq!(Machine::of(&universal), Machine::of(&mach_o));
-        // An archive: symbol table first, then an object file at an even offset.
+        // An archive: first the symbol table, then an object file at an even offset.
         let member = |name: &str, content: &[u8]| {
             let mut member = format!("{name:<48}{:<10}`\n", content.len()).into_bytes();
             member.extend(content);

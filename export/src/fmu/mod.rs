@@ -1,8 +1,8 @@
 //! FMUs for co-simulation (Functional Mock-up Interface 2.0 or 3.0): a damper, a bank of dampers, or a vehicle.
 //!
 //! `sources/` implements the interface in C, on top of the step of `standalone/` or of a library. `headers/` contains
-//! the official headers (Modelica Association, BSD 2-Clause). Constants are compiled in, or are images in the resources
-//! folder.
+//! the official headers (Modelica Association, BSD 2-Clause). The constants are compiled in, or are images in the
+//! resources folder.
 
 mod archive;
 mod bank;
@@ -66,7 +66,8 @@ pub struct Fmu {
     /// Name and content of the files in the resources folder.
     resources: Vec<(String, Vec<u8>)>,
     sources: Vec<Source>,
-    /// Library to link the sources with. Such an FMU contains no sources, because an importer lacks the library.
+    /// Library to link with the sources. Such an FMU contains no sources, because an importer does not have the
+    /// library.
     library: Option<PathBuf>,
 }
 
@@ -76,7 +77,7 @@ impl Fmu {
         &self.token
     }
 
-    /// Prefix of its functions.
+    /// Prefix of the FMU's functions.
     pub fn identifier(&self) -> &str {
         &self.identifier
     }

@@ -43,13 +43,13 @@ const FMI_3: (&str, &str) = ("fmi3.c", include_str!("sources/fmi3.c"));
 /// Prefixes of names that must differ between FMUs in one program.
 const SHARED_PREFIXES: [&str; 4] = ["component_", "damper_", "dampers_", "model_"];
 
-/// Copies of unchanged files.
+/// Copies files without a change.
 pub(super) fn fixed(files: &[(&'static str, &str)]) -> Vec<Source> {
     let owned = |(name, text): &(&'static str, &str)| (*name, (*text).to_owned());
     files.iter().map(owned).collect()
 }
 
-/// Sources of the interface on top of `model.h`.
+/// Sources of the FMI interface, which use the model through `model.h`.
 pub(super) fn of_interface(interface: Interface) -> Vec<Source> {
     let functions = match interface {
         Interface::Two => FMI_2,

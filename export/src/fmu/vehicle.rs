@@ -22,9 +22,9 @@ const UNITS: [(&str, &str); 5] = [
 ];
 
 impl Fmu {
-    /// FMU of a vehicle with the variables of `coupled`. Its functions start with `identifier`, made of ASCII letters,
-    /// digits and `_`. `library` is the static library of `dashpot-vehicle-model`; `tables` is name and content of the
-    /// file with the contact tables.
+    /// Returns the FMU of a vehicle with the variables of `coupled`. The names of its functions start with
+    /// `identifier`, which consists of ASCII letters, digits and `_`. `library` is the static library of
+    /// `dashpot-vehicle-model`; `tables` is the name and content of the file with the contact tables.
     ///
     /// # Errors
     /// Returns an error if the identifier in capitals is not a valid C constant name, if the case cannot be written, or

@@ -8,15 +8,14 @@ use super::digest::digest;
 use super::number::hexadecimal;
 use crate::Word;
 
-/// A damper's words are its scalars, its revisions, then its pieces.
+/// A damper's words are its scalars, then two revisions (identifiers of its constants), then its pieces.
 const SCALARS: usize = 11;
 const REVISIONS: usize = 2;
 
 /// Index of the scalar that is half the force limit; C stores the whole limit.
 const HALF_FORCE_LIMIT: usize = 7;
 
-/// Indices of the scalars that are compared by their bits and stored as bits in C: bounds of move, displacement and
-/// stretch.
+/// Indices of the scalars that C compares and stores as bits: the bounds of move, displacement and stretch.
 const BIT_BOUNDS: [usize; 3] = [0, 9, 10];
 
 /// Words per piece: three cubics and the knot.
@@ -45,7 +44,7 @@ pub(super) fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> Strin
     )
 }
 
-/// Returns the definitions. Their names start with `name`; the names of the step they belong to start with `prefix`.
+/// Returns the definitions. Their names start with `name`; the names of the step that uses them start with `prefix`.
 pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>) -> String {
     let words = T::words(damper);
     let (scalars, rest) = words.split_at(SCALARS);

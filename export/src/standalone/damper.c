@@ -20,7 +20,7 @@
 #endif
 
 /* clang defines no macro for -funsafe-math-optimizations and its parts (-fassociative-math, -freciprocal-math,
- * -fno-signed-zeros), so no #error can refuse them. Its pragmas turn them off; prefix_digest finds what is left. */
+ * -fno-signed-zeros), so no #error can detect them. Its pragmas turn them off; prefix_digest detects the rest. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #if defined(__x86_64__) || defined(__i386__)
@@ -68,7 +68,7 @@
 #define PREFIX_ROUND(product) (void)0
 #endif
 
-/* Forces the computation of a number in every step, used or not, so that each step has the same cost. */
+/* Forces the computation of a number in every step, even if it is not used, so that each step has the same cost. */
 #ifdef PREFIX_REGISTER
 #define PREFIX_ALWAYS(number) __asm__ volatile("" : PREFIX_REGISTER(number))
 #else
@@ -114,7 +114,7 @@ enum {
     PREFIX_BINS = 2048,
     /* Leading bits of a number's fraction that contribute to the index of a bin. */
     PREFIX_BIN_FRACTION_BITS = 7,
-    /* Bits of a number, of its fraction, and below those that give the index of a bin. */
+    /* Sizes of a number, of its fraction, and of the fraction's bits below those that give the index of a bin. */
     PREFIX_REAL_BYTES = sizeof(prefix_real),
     PREFIX_REAL_BITS = 8 * PREFIX_REAL_BYTES,
     PREFIX_FRACTION_BITS = (PREFIX_REAL_BYTES == 4 ? FLT_MANT_DIG : DBL_MANT_DIG) - 1,
@@ -164,7 +164,7 @@ PREFIX_INLINE prefix_real prefix_magnitude(prefix_real value)
 #endif
 }
 
-/* Maximum and minimum; if one number is NaN, the other one. */
+/* Maximum and minimum; if one number is NaN, the result is the other one. */
 PREFIX_INLINE prefix_real prefix_larger(prefix_real value, prefix_real other)
 {
 #if PREFIX_HAS_MAXIMUM
@@ -198,7 +198,7 @@ PREFIX_INLINE bool prefix_is_within(prefix_real value, prefix_bits bound)
     return bound >= (prefix_bits)(prefix_bits_of(value) << 1);
 }
 
-/* a b, always rounded. */
+/* The product a b, always rounded. */
 PREFIX_INLINE prefix_real prefix_product(prefix_real a, prefix_real b)
 {
     prefix_real product = a * b;
@@ -211,7 +211,7 @@ PREFIX_INLINE prefix_real prefix_product(prefix_real a, prefix_real b)
 PREFIX_INLINE prefix_real prefix_add_product(prefix_real sum, prefix_real a, prefix_real b)
 {
 #if SCALAR_BITS == 32 && defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__)
-    /* One instruction that rounds the product too; GCC would use two. */
+    /* One instruction that also rounds the product; GCC would use two. */
     __asm__("vmla.f32 %0, %1, %2" : "+t"(sum) : "t"(a), "t"(b));
     return sum;
 #else
@@ -229,7 +229,8 @@ PREFIX_INLINE prefix_real prefix_subtract_product(prefix_real sum, prefix_real a
 #endif
 }
 
-/* c0 + c1 z + c2 z^2 + c3 z^3, evaluated in pairs: a shorter dependency chain than Horner's for one more product. */
+/* c0 + c1 z + c2 z^2 + c3 z^3, evaluated in pairs: one more product than Horner's scheme, but a shorter dependency
+ * chain. */
 PREFIX_INLINE prefix_real prefix_cubic(const prefix_real c[4], prefix_real z)
 {
     const prefix_real low = prefix_add_product(c[0], c[1], z);
@@ -251,11 +252,12 @@ PREFIX_INLINE prefix_bits prefix_passed(prefix_bits reach, prefix_real knot)
     return (prefix_bits)(prefix_bits_of(knot) - reach) >> (PREFIX_REAL_BITS - 1);
 }
 
-/* The stage whose stretch and flow sum to `reach` (m). A bin, named by exponent and leading bits of the reach beyond
- * the offset, names the piece at its lower border; at most two knots lie within it. Any number is safe to look up. */
+/* Finds the stage whose stretch and flow sum to `reach` (m). The exponent and leading bits of the reach beyond the
+ * offset give the index of a bin, and the bin gives the piece at its lower border; at most two knots lie within a bin.
+ * Every number can be looked up safely. */
 PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, prefix_stage *stage)
 {
-    /* The maximum of the sums equals the sum of the maximum and needs no zero. */
+    /* The same as max(|reach| - offset, 0) + knot, but needs no constant zero. */
     const prefix_real knot = damper->first_knot_m;
     const prefix_real place = prefix_larger(prefix_magnitude(reach) - damper->offset_m + knot, knot);
     const prefix_bits bits = prefix_bits_of(place);
@@ -270,7 +272,7 @@ PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, 
     stage->flow_m = prefix_cubic(stage->piece->flow, stage->z_m);
 }
 
-/* Force magnitude (N) at a stretch (m), by the stiffness of the stage that ended there; it may exceed the limit. */
+/* Force magnitude (N) at a stretch (m), from the stiffness of the stage that ended there; it may exceed the limit. */
 PREFIX_INLINE prefix_real prefix_force(const prefix_damper *damper, prefix_real stretch, prefix_real stiffness)
 {
     const prefix_real clearance = damper->half_clearance_m;
@@ -279,10 +281,10 @@ PREFIX_INLINE prefix_real prefix_force(const prefix_damper *damper, prefix_real 
 }
 
 /* With the stretch u = x - x_r of clearance and springs, the chain x = g + delta(F) + x_r, dx_r/dt = v_h(F) is one
- * equation, du/dt = dx/dt - f(u), with f = v_h(F(u)) zero in the clearance and rising beyond. A step takes two
+ * equation, du/dt = dx/dt - f(u), where f = v_h(F(u)) is zero in the clearance and rises beyond it. A step takes two
  * implicit stages (Alexander's SDIRK2, gamma = 1 - 1/sqrt 2: second order, L-stable, last stage at the tick) and then
  * corrects the flow by the difference between its exact mean along the step's straight path and the stages'
- * quadrature of that path. Stated in docs/numerics.md of Dashpot; its other transcription is core/src/step.rs.
+ * quadrature of that path. The method is in docs/numerics.md of Dashpot; core/src/step.rs is the same step in Rust.
  * Inlined twice, so that the usual step calls nothing and saves no registers for a call. */
 PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state *state, prefix_real travel)
 {
@@ -305,7 +307,7 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
     change = travel - quadrature;
     end = start + change;
 
-    /* The flow's mean over the straight path, by its potential and, off the path, by its slope. */
+    /* Mean flow over the straight path, from the potential; the slope gives the part off the path. */
     end_potential = prefix_cubic(last.piece->potential, last.z_m);
     area = prefix_add_product(end_potential - state->potential_m2, bend, bend);
     most = prefix_magnitude(change * PREFIX_LARGEST_CORRECTION);
@@ -326,7 +328,8 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
         status_word |= PREFIX_SATURATED;
     }
     state->status_word = (uint16_t)status_word;
-    /* Only damaged constants make it negative, NaN or larger than any limit; the bits of all these exceed the bound. */
+    /* Only damaged constants make the force negative, NaN or larger than any limit; in all these cases its bits exceed
+     * those of the bound. */
     if (prefix_bits_of(limited) > prefix_bits_of(PREFIX_LARGEST_FORCE_N)) {
         limited = prefix_larger(prefix_smaller(limited, PREFIX_LARGEST_FORCE_N), 0);
     }
@@ -364,7 +367,7 @@ prefix_real prefix_largest_displacement_m(const prefix_damper *damper)
     return prefix_real_of(damper->displacement_bound >> 1);
 }
 
-/* Reach beyond the offset (m) at the end of the bins; no stage of a sound state looks beyond it. */
+/* Reach beyond the offset (m) at the end of the bins; no stage of an undamaged state looks beyond it. */
 static prefix_real prefix_largest_reach_beyond_offset(const prefix_damper *damper)
 {
     return (prefix_real)(1U << (PREFIX_BINS >> PREFIX_BIN_FRACTION_BITS)) * damper->first_knot_m;
@@ -400,7 +403,7 @@ static void prefix_latch(prefix_state *state, unsigned status)
     state->status_word = (uint16_t)(state->status_word | status);
 }
 
-/* The travel (m) of a step whose displacement is held. */
+/* Returns the travel (m) of a step whose displacement is held, and latches and counts the event. */
 static prefix_real prefix_hold(prefix_state *state)
 {
     prefix_count_rejected_input(state);
@@ -417,7 +420,7 @@ static void prefix_restart(const prefix_damper *damper, prefix_state *state, pre
     const uint16_t count = marked ? state->rejected_inputs : 0;
 
     prefix_at_rest(damper, state, displacement_m);
-    state->rejected_inputs = count; /* held displacements are counted elsewhere */
+    state->rejected_inputs = count; /* callers count held displacements */
     prefix_latch(state, status | because);
 }
 
@@ -484,7 +487,7 @@ void prefix_at_rest(const prefix_damper *damper, prefix_state *state, prefix_rea
     state->rejected_inputs = good ? 0 : 1;
 }
 
-/* Gives a state the stretch and the flow potential at which the damper has a force (N), by bisection of its stages. */
+/* Gives a state the stretch and the flow potential at which the damper has a force (N); finds them by bisection. */
 static void prefix_take_force(const prefix_damper *damper, prefix_state *state, prefix_real force)
 {
     const prefix_real target = prefix_magnitude(force);
@@ -510,8 +513,8 @@ static void prefix_take_force(const prefix_damper *damper, prefix_state *state, 
     }
 }
 
-/* Keeps displacement and force within the limits of the damper, and sets the stretch to that of the damper under this
- * force; without force the stretch stays within the clearance. */
+/* Limits displacement and force to the range of the damper, and sets the stretch to that of the damper under this
+ * force; without force, the stretch stays within the clearance. */
 void prefix_adopt(const prefix_damper *damper, prefix_state *state)
 {
     const prefix_real limit = prefix_force_limit_n(damper);
@@ -582,7 +585,7 @@ prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearanc
     hash = prefix_hash_real(hash, damper->offset_m);
     hash = prefix_hash_real(hash, damper->first_knot_m);
     hash = prefix_hash_real(hash, damper->half_clearance_m);
-    hash = prefix_hash_real(hash, (prefix_real)0.5 * damper->force_limit_n); /* what the core keeps of it */
+    hash = prefix_hash_real(hash, (prefix_real)0.5 * damper->force_limit_n); /* the core stores half of it */
     hash = prefix_hash_real(hash, damper->held_m);
     hash = prefix_hash_bits(hash, damper->displacement_bound);
     hash = prefix_hash_bits(hash, damper->stretch_bound);
@@ -698,8 +701,9 @@ static void prefix_copy(prefix_damper *to, const prefix_damper *from)
     to->bins = from->bins;
 }
 
-/* Displacements about zero from a linear congruential generator (Numerical Recipes). The moves start at the largest
- * credible one and are halved every 128 steps, repeatedly; with a failed reading, a jump and a change of clearance. */
+/* The motion consists of random moves about zero from a linear congruential generator (Numerical Recipes). The moves
+ * start at the largest credible size, are halved every 128 steps and start over every 1024 steps. There are also failed
+ * readings, a jump and a change of clearance. */
 uint32_t prefix_digest(const prefix_damper *damper)
 {
     prefix_damper copy;

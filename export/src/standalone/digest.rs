@@ -7,13 +7,14 @@ use crate::Word;
 /// Number of steps of the motion.
 const STEPS: u32 = 2048;
 
-/// Hash (FNV-1a, 32 bit) of a damper's states over the motion generated in `damper.c`: random moves about zero from a
-/// linear congruential generator (Numerical Recipes), halved every 128 steps from the largest credible move, with
-/// failed readings, a jump and a change of clearance.
+/// Hash (FNV-1a, 32 bit) of a damper's states during the motion that `damper.c` generates. The motion consists of
+/// random moves about zero from a linear congruential generator (Numerical Recipes). The moves start at the largest
+/// credible size, are halved every 128 steps and start over every 1024 steps. There are also failed readings, a jump
+/// and a change of clearance.
 pub(super) fn digest<T: Word>(damper: &Damper<T>) -> u32 {
     let mut damper = *damper;
     let mut state = damper.at_rest(T::ZERO);
-    // The first word holds the bits of the largest move, doubled.
+    // The first word is twice the bit pattern of the largest move.
     let largest_move = T::from_word(T::words(&damper).first().copied().unwrap_or_default() >> 1);
     let number = T::from_f64;
     let (mut hash, mut random) = (0x811c_9dc5_u32, 1_u32);
@@ -33,7 +34,7 @@ pub(super) fn digest<T: Word>(damper: &Damper<T>) -> u32 {
             displacement = displacement + number(1.0);
         }
         if step == 1500 {
-            // In range, so it cannot fail.
+            // The clearance is in range, so this cannot fail.
             let _ = damper.set_clearance_m(number(1.0 / 1024.0));
         }
         let failed = step % 512 == 300;

@@ -1,8 +1,8 @@
 //! A damper in C99 without a library: step and constants in one header and one source.
 //!
-//! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. Names that start
-//! with `prefix_` or `PREFIX_` get the prefix of the constant, so that several dampers link into one program. The step
-//! works with any damper of its scalar: the constants are separate.
+//! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. In names that
+//! start with `prefix_` or `PREFIX_`, the name of the constant replaces the prefix, so that several dampers link into
+//! one program. The constants are separate from the step, so the step works with any damper of the same scalar type.
 
 mod constants;
 mod digest;
@@ -16,7 +16,7 @@ use dashpot_files::Scalar;
 const HEADER: &str = include_str!("damper.h");
 const SOURCE: &str = include_str!("damper.c");
 
-/// End of the header; closes the C++ block and the include guard.
+/// End of the header, which closes the C++ block and the include guard.
 const END_OF_HEADER: &str = "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
 
 /// Returns the C and C++ header of [`standalone_source`]: types, functions and the damper as built.
@@ -31,11 +31,11 @@ pub fn standalone_header<T: Word>(
     Ok(comment(constant, damper, provenance)? + &declarations(constant, damper))
 }
 
-/// Returns C99 source of a damper: step and constants, without a library. The source includes `header`, the file name
-/// of [`standalone_header`]; with `None` the source contains the declarations itself.
+/// Returns C99 source of a damper: step and constants, without a library. The source includes the file `header`, which
+/// contains [`standalone_header`]; with `None`, the source itself contains the declarations.
 ///
 /// # Errors
-/// Same as [`standalone_header`]; also if `header` is not valid between quotation marks.
+/// Same errors as [`standalone_header`]; also an error if `header` is not valid between quotation marks.
 pub fn standalone_source<T: Word>(
     constant: &str,
     damper: &Damper<T>,
@@ -54,17 +54,17 @@ pub fn standalone_source<T: Word>(
         + &constants)
 }
 
-/// Header of the step alone; its names start with `constant`.
+/// Header of the step alone; the names in it start with `constant`.
 pub(super) fn header_of_step<T: Word>(constant: &str) -> String {
     rendered::<T>(HEADER, constant) + END_OF_HEADER
 }
 
-/// Source of the step alone; its names start with `constant`.
+/// Source of the step alone; the names in it start with `constant`.
 pub(super) fn source_of_step<T: Word>(constant: &str) -> String {
     rendered::<T>(SOURCE, constant)
 }
 
-/// Constants of a damper; their names start with `name`, those of the step with `prefix`.
+/// Constants of a damper; their names start with `name`, and the names of the step start with `prefix`.
 pub(super) fn constants_of<T: Word>(prefix: &str, name: &str, damper: &Damper<T>) -> String {
     constants::definitions(prefix, name, damper)
 }
@@ -96,7 +96,7 @@ fn rendered<T: Word>(text: &str, constant: &str) -> String {
         Scalar::F32 => ("float", "uint32_t", "32"),
         Scalar::F64 => ("double", "uint64_t", "64"),
     };
-    // The name comes last because it may contain any of these words.
+    // The name is replaced last, because it may contain any of these words.
     text.replace("SCALAR_TYPE", float)
         .replace("SCALAR_WORD", word)
         .replace("SCALAR_BITS", bits)

@@ -24,7 +24,7 @@ pub enum CaseError {
     Text {
         /// Name of the file or case.
         name: String,
-        /// The problem with line and column, and a similar key if there is one.
+        /// The problem, its line and column, and a similar key if there is one.
         message: String,
     },
     /// A number is out of bounds.
@@ -58,11 +58,11 @@ pub enum CaseError {
     },
 }
 
-/// Positions of a case's values in its file.
+/// Lines of a case's values in its file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Origin {
     pub file: PathBuf,
-    /// Lines by key, by replacement (`dampers=damper`) and by override text.
+    /// Lines by key, by replacement (`WHICH=DAMPER`) and by override text.
     pub lines: BTreeMap<String, u64>,
     /// Line of each fault.
     pub faults: Vec<u64>,

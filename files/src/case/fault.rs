@@ -32,7 +32,8 @@ pub struct FaultOptions {
     pub overrides: Vec<String>,
 }
 
-/// Resolves fault entries into one fault per damper, sorted by time. Later faults build on earlier ones.
+/// Resolves each fault entry into one fault for each damper that it changes, and sorts the faults by time. A later
+/// fault of a damper builds on the earlier ones.
 pub(super) fn resolve(
     faults: &[FaultOptions],
     vehicle: &VehicleParameters,

@@ -81,7 +81,7 @@ impl Case {
     /// Loads the case called `name`: a built-in one, or the TOML file at that path (`-` for standard input).
     ///
     /// # Errors
-    /// Same as [`CaseOptions::load`] and [`CaseOptions::case`].
+    /// Same errors as [`CaseOptions::load`] and [`CaseOptions::case`].
     ///
     /// ```
     /// let case = dashpot_files::case::Case::load("curve-r200")?;
@@ -151,7 +151,7 @@ pub struct CaseOptions {
     pub rails: Option<RailSupport>,
     /// Damper changes during the run.
     pub faults: Vec<FaultOptions>,
-    /// Positions in the case file; `None` if the options are not from a file.
+    /// Lines of the values in the case file; `None` if the options are not from a file.
     origin: Option<Origin>,
 }
 
@@ -194,7 +194,7 @@ impl CaseOptions {
     /// Parses the case in `text`; error messages call it `name`.
     ///
     /// # Errors
-    /// Same as [`Self::load`].
+    /// Same errors as [`Self::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         Self::parse_in(&Found {
             name: name.to_owned(),

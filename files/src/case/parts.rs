@@ -53,7 +53,7 @@ impl CaseParts<'_> {
     /// Returns the unresolved case; `None` if there is neither a case nor both track and speed.
     ///
     /// # Errors
-    /// Same as [`CaseOptions::load`].
+    /// Same errors as [`CaseOptions::load`].
     pub fn options(&self) -> Result<Option<CaseOptions>, CaseError> {
         let mut options = match (self.case, self.track, self.numbers.speed_km_h) {
             (Some(case), ..) => {

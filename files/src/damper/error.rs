@@ -57,7 +57,7 @@ pub const FORM: &str = "table.key=value with a TOML value, such as mount.clearan
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContentError {
-    /// The text is not TOML, or has unknown or missing keys; the message has line, column and a similar key.
+    /// The text is not TOML, or has unknown or missing keys; the message gives the line, the column and a similar key.
     #[error("{0}")]
     Text(String),
     /// The overrides lead to unknown or missing keys.

@@ -82,7 +82,7 @@ const SHIPPED: Shipped = Shipped {
 /// Parses the damper in `text`; error messages call it `name`.
 ///
 /// # Errors
-/// Same as [`load`].
+/// Same errors as [`load`].
 pub fn parse(
     name: &str,
     text: &str,
@@ -109,7 +109,7 @@ pub fn parse(
         .and_then(from_file)
         .map_err(|source| match plain {
             Ok(_) => DamperError::Overridden { name, source },
-            // The file itself is incomplete: overrides may complete it, but are not the cause of the error.
+            // The file is incomplete even without the overrides, so they are not the cause of the error.
             Err(_) => DamperError::Content { name, source },
         })
 }
@@ -198,7 +198,7 @@ impl DamperFile {
                 oil: Some(hydraulics.oil),
                 ..empty
             },
-            // An unknown kind of damper: reading the file back reports the missing tables.
+            // Unknown kind of damper: reading the text back reports the missing tables.
             _ => empty,
         }
     }

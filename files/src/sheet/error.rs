@@ -17,7 +17,7 @@ pub enum SheetFileError {
     Text {
         /// Name of the file or sheet.
         name: String,
-        /// The problem with line and column, and a similar key if there is one.
+        /// The problem, its line and column, and a similar key if there is one.
         message: String,
     },
     /// Invalid entry.

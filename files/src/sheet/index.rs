@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Index of a periodic cycle.
+/// Characteristic value (index) of a periodic cycle, such as its maximum force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Index {
@@ -20,11 +20,11 @@ pub enum Index {
     AsymmetryRate,
     /// Energy dissipated per cycle (J).
     EnergyPerCycleJ,
-    /// Mean of both maximum forces divided by the peak velocity (N s/m).
+    /// Mean of the two maximum forces, divided by the peak velocity (N s/m).
     DampingCoefficientNSPerM,
     /// First harmonic of the force divided by the amplitude (N/m).
     DynamicStiffnessNPerM,
-    /// Phase lead of the first harmonic of the force over the displacement (degrees); undefined without force.
+    /// Phase by which the first harmonic of the force leads the displacement (degrees); undefined without force.
     LossAngleDeg,
 }
 
@@ -33,12 +33,12 @@ pub enum Index {
 pub struct DisplayUnit {
     /// Symbol of the unit.
     pub symbol: &'static str,
-    /// Size of the unit in units of the index's key, such as 1000 for kN.
+    /// One display unit, in the unit of the index's key, such as 1000 for kN.
     pub size: f64,
 }
 
 impl Index {
-    /// All indices, in the order of a sheet.
+    /// All indices, in the order in which a sheet lists them.
     pub const ALL: [Self; 9] = [
         Self::MaxExtensionForceN,
         Self::MaxCompressionForceN,

@@ -101,7 +101,7 @@ impl SheetParameters {
     /// Parses the sheet in `text`; error messages call it `name`.
     ///
     /// # Errors
-    /// Same as [`Self::load`].
+    /// Same errors as [`Self::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, SheetFileError> {
         Self::parse_in(&Found {
             name: name.to_owned(),

@@ -21,7 +21,7 @@ impl Value {
     /// Converts a TOML value.
     ///
     /// # Errors
-    /// Returns a description of the problem if the value is neither a number nor a name.
+    /// Returns an error message if the value is neither a number nor a name.
     pub(super) fn from_toml(value: toml::Value) -> Result<Self, String> {
         match value {
             toml::Value::Integer(number) => Ok(Self::Number(number as f64)),
@@ -31,7 +31,7 @@ impl Value {
         }
     }
 
-    /// Resolves a name written in a file of `folder`.
+    /// Resolves a name that a file in `folder` contains.
     pub(super) fn resolve_name(self, folder: &Path) -> Self {
         match self {
             Self::Word(word) => Self::Word(resolve_name(folder, &word)),
@@ -55,8 +55,8 @@ impl fmt::Display for Value {
     }
 }
 
-/// Formats a number with at most six decimals, which hides the rounding errors of a factor. Smaller numbers have an
-/// exponent.
+/// Formats a number with at most six decimals, which hides the rounding errors of a factor. A number too small for six
+/// decimals has an exponent.
 ///
 /// ```
 /// assert_eq!(dashpot_files::study::format_number(0.1 + 0.2), "0.3");
@@ -81,11 +81,11 @@ pub struct Axis {
     pub set: Vec<String>,
     /// Label of the axis in figures.
     pub label: String,
-    /// Factor from the number in the file to the number in figures.
+    /// Factor by which figures multiply the values.
     pub factor: f64,
 }
 
-/// Parameter whose values name the damper that is worn; [`NO_DAMPER`] leaves all as new.
+/// Parameter whose values name the damper that is worn; [`NO_DAMPER`] leaves all dampers as new.
 pub const WORN_DAMPER: &str = "worn_damper";
 /// Value of [`WORN_DAMPER`] for no worn damper.
 pub const NO_DAMPER: &str = "none";
@@ -97,8 +97,8 @@ impl Axis {
     /// Sets the parameter of a case to a value.
     ///
     /// # Errors
-    /// Returns a description of the problem for an unknown parameter, or for a number where a name is needed and vice
-    /// versa.
+    /// Returns an error message for an unknown parameter, for a number where a name is needed, or for a name where a
+    /// number is needed.
     pub fn apply(&self, case: &mut CaseOptions, value: &Value) -> Result<(), String> {
         let parameter = self.parameter.as_str();
         let is_number = CaseOptions::NUMBERS.contains(&parameter);

@@ -18,7 +18,7 @@ pub enum StudyFileError {
     Text {
         /// Name of the file or study.
         name: String,
-        /// The problem with line and column, and a similar key if there is one.
+        /// The problem, its line and column, and a similar key if there is one.
         message: String,
     },
     /// Invalid entry.
@@ -40,7 +40,7 @@ pub enum StudyFileError {
         line: u64,
         /// Name of the sweep.
         sweep: String,
-        /// Description of the case's values.
+        /// The case's values as text, such as ` at speed_km_h 120`; empty if no parameter varies.
         at: String,
         /// The problem.
         source: Box<CaseError>,

@@ -21,13 +21,15 @@ pub struct Figure {
 /// Content of a figure.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FigureContent {
-    /// Observed indices over the first axis, one panel per sweep: mean over seeds with its confidence interval.
+    /// Observed indices against the first axis, one panel per sweep: the mean over the seeds and its confidence
+    /// interval.
     Indices {
         /// Names of the sweeps.
         sweeps: Vec<String>,
         /// Observed indices.
         observed: Vec<String>,
-        /// Factor of each index, so that all share one axis that starts at zero; empty to show them unscaled.
+        /// Factor by which each index is multiplied, so that all share one axis that starts at zero; empty for unscaled
+        /// indices.
         factors: Vec<f64>,
     },
     /// Damper forces over time, displacement and velocity, for the first case of a sweep with its first seed.
@@ -41,7 +43,7 @@ pub enum FigureContent {
     Signal {
         /// Name of the sweep.
         sweep: String,
-        /// Values of its first axis.
+        /// Values of the sweep's first axis that are drawn.
         values: Vec<Value>,
         /// Name of the signal, as in a history file.
         signal: String,
@@ -50,17 +52,17 @@ pub enum FigureContent {
     Response {
         /// Name of the sweep.
         sweep: String,
-        /// Values of its first axis.
+        /// Values of the sweep's first axis that are drawn.
         values: Vec<Value>,
         /// Name of the damper.
         damper: String,
-        /// Amplitude of its displacement, m.
+        /// Amplitude of the damper's displacement, m.
         amplitude_m: f64,
     },
 }
 
 impl FigureContent {
-    /// Returns the values drawn, each with its sweep.
+    /// Returns the values that the figure shows, each with its sweep.
     pub(super) fn values(&self) -> impl Iterator<Item = (&str, &Value)> {
         let (sweep, values) = match self {
             Self::Signal { sweep, values, .. } | Self::Response { sweep, values, .. } => {
@@ -71,7 +73,7 @@ impl FigureContent {
         values.iter().map(move |value| (sweep, value))
     }
 
-    /// Returns the names of the sweeps drawn.
+    /// Returns the names of the sweeps that the figure shows.
     pub fn sweeps(&self) -> &[String] {
         match self {
             Self::Indices { sweeps, .. } => sweeps,
@@ -131,7 +133,7 @@ impl FigureTable {
     /// Converts the table to a figure.
     ///
     /// # Errors
-    /// Returns a description of the problem.
+    /// Returns an error message that describes the problem.
     pub fn figure(self) -> Result<Figure, String> {
         let read = |values: Vec<toml::Value>| -> Result<Vec<Value>, String> {
             if values.is_empty() {

@@ -56,7 +56,7 @@ pub struct StudyParameters {
     pub observed: Vec<String>,
     /// Line of `observed` in the file.
     pub observed_line: u64,
-    /// Sweeps, in the order of their cases.
+    /// Sweeps, in the order in which their cases are numbered.
     pub sweeps: Vec<Sweep>,
     /// Figures of the page.
     pub figures: Vec<Figure>,
@@ -64,7 +64,8 @@ pub struct StudyParameters {
     pub file: String,
 }
 
-/// A case with varied parameters: every combination of the values of all axes, each with every seed.
+/// A case with varied parameters: it runs with each combination of the values of all axes, and each combination with
+/// each seed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
     /// Name, unique in the study.
@@ -104,7 +105,7 @@ impl StudyParameters {
     /// Parses the study in `text`; error messages call it `name`.
     ///
     /// # Errors
-    /// Same as [`Self::load`].
+    /// Same errors as [`Self::load`].
     pub fn parse(name: &str, text: &str) -> Result<Self, StudyFileError> {
         Self::parse_in(&Found {
             name: name.to_owned(),
@@ -122,7 +123,7 @@ impl StudyParameters {
         tables.parameters(found)
     }
 
-    /// Replaces the seeds of each sweep that has seeds by 1 to `count`.
+    /// Replaces the seeds with 1 to `count` in each sweep that has seeds.
     #[must_use]
     pub fn with_seeds(mut self, count: u64) -> Self {
         for sweep in &mut self.sweeps {
@@ -146,7 +147,7 @@ impl Sweep {
         counts.fold(1, u64::saturating_mul)
     }
 
-    /// Returns the value of each axis at a point, which is a combination counted from 0.
+    /// Returns the value of each axis at a point; points are combinations of values, counted from 0.
     pub fn values(&self, point: u64) -> Vec<&Value> {
         let mut rest = point;
         let mut values: Vec<&Value> = Vec::with_capacity(self.axes.len());
@@ -162,7 +163,7 @@ impl Sweep {
     /// Returns the case with each axis set to a value.
     ///
     /// # Errors
-    /// Returns a description of the problem for an unknown parameter or a value of the wrong kind.
+    /// Returns an error message for an unknown parameter or a value of the wrong kind.
     pub fn options(&self, values: &[&Value]) -> Result<CaseOptions, String> {
         let mut options = self.case.clone();
         for (axis, value) in self.axes.iter().zip(values) {
@@ -172,7 +173,7 @@ impl Sweep {
         Ok(options)
     }
 
-    /// Number of cases: each point with every seed.
+    /// Number of cases: one per point and seed.
     pub fn cases(&self) -> u64 {
         self.points().saturating_mul(self.seeds.len().max(1) as u64)
     }

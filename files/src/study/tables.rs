@@ -63,7 +63,8 @@ impl StudyTables {
         let observed = self.observed.into_inner();
         let once: BTreeSet<&String> = observed.iter().collect();
         if observed.is_empty() || once.len() < observed.len() {
-            let message = "observed: allowed: one or more indices, each once";
+            let message =
+                "observed: empty or with a duplicate, allowed: one or more indices, each once";
             return Err(error_at(observed_at, message.into()));
         }
         if self.sweep.is_empty() {
@@ -106,7 +107,7 @@ impl StudyTables {
 }
 
 impl StudyParameters {
-    /// Checks that the study has the content of the figure.
+    /// Checks that the study has the sweeps, values and indices that the figure shows.
     fn check(&self, figure: Figure) -> Result<Figure, String> {
         if figure.content.sweeps().is_empty() {
             return Err("no sweeps, allowed: one or more".into());

@@ -32,7 +32,7 @@ impl VaryTable {
     /// Converts the table to an axis.
     ///
     /// # Errors
-    /// Returns a description of the problem.
+    /// Returns an error message that describes the problem.
     pub fn axis(self, folder: &Path) -> Result<Axis, String> {
         let parameter = self.parameter;
         let invalid = |reason: String| format!("{parameter}: {reason}");

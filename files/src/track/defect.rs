@@ -59,7 +59,7 @@ impl DefectTable {
         }
     }
 
-    /// Returns the rails, required for every kind except a twist.
+    /// Returns the rails, which every kind except a twist requires.
     fn rails(&self, owner: &str) -> Result<Rails, String> {
         match self.rails {
             Some(RailsName::Left) => Ok(Rails::Left),
@@ -72,7 +72,7 @@ impl DefectTable {
     /// Converts the table to a defect.
     ///
     /// # Errors
-    /// Returns a description of a missing key, or of a key that does not apply to this kind.
+    /// Returns an error message for a missing key, or for a key that does not apply to this kind.
     pub fn defect(&self) -> Result<Defect, String> {
         let mut keys = self.keys();
         let owner = keys.owner;

@@ -17,7 +17,7 @@ pub enum TrackFileError {
     Text {
         /// Name of the file or track.
         name: String,
-        /// The problem with line and column, and a similar key if there is one.
+        /// The problem, its line and column, and a similar key if there is one.
         message: String,
     },
 }

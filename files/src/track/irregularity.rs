@@ -83,7 +83,7 @@ impl IrregularityTable {
     /// Converts the table; file names are relative to `folder`.
     ///
     /// # Errors
-    /// Returns a description of the problem.
+    /// Returns an error message that describes the problem.
     pub fn parameters(self, folder: &Path) -> Result<IrregularityParameters, String> {
         let spectrum_keys = [
             ("seed", self.seed.is_some()),

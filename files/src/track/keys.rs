@@ -1,6 +1,6 @@
 //! Numbers of a table whose allowed keys depend on its kind.
 //!
-//! A tagged enumeration would do the same, but its errors name the line of the first table.
+//! A tagged enum could do the same, but its errors would give the line of the first table.
 
 /// Numbers given in a table, each taken once.
 pub(super) struct Keys {
@@ -18,7 +18,7 @@ impl Keys {
         value.ok_or_else(|| format!("{} needs `{key}`", self.owner))
     }
 
-    /// Checks that no other key is given.
+    /// Checks that every given key was taken.
     pub fn end(self) -> Result<(), String> {
         match self.given.iter().find(|(_, value)| value.is_some()) {
             Some((key, _)) => Err(format!("{} has no `{key}`", self.owner)),

@@ -88,7 +88,7 @@ impl TrackParameters {
     /// other file.
     ///
     /// # Errors
-    /// Same as [`Self::build`].
+    /// Same errors as [`Self::build`].
     pub fn resolved(&self) -> Result<Self, FileError> {
         Ok(Self {
             irregularity: IrregularityParameters::Given(self.irregularity()?),
@@ -150,7 +150,7 @@ pub fn load(name: &str) -> Result<TrackParameters, TrackFileError> {
 /// Parses the track in `text`; error messages call it `name`, and file names are relative to `folder`.
 ///
 /// # Errors
-/// Same as [`load`].
+/// Same errors as [`load`].
 pub fn parse(name: &str, text: &str, folder: &Path) -> Result<TrackParameters, TrackFileError> {
     let tables: TrackTables = toml::from_str(text).map_err(|error| TrackFileError::Text {
         name: name.to_owned(),

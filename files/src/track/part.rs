@@ -26,7 +26,7 @@ impl PartTable {
     /// Converts the table to a part.
     ///
     /// # Errors
-    /// Returns a description of a missing key, or of a key that does not apply to this kind.
+    /// Returns an error message for a missing key, or for a key that does not apply to this kind.
     pub fn part(&self) -> Result<Part, String> {
         let owner = match self.kind {
             Kind::Straight => "a straight part",

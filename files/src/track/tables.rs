@@ -82,7 +82,7 @@ impl TrackTables {
         let defects =
             convert_all(&self.defect, DefectTable::defect, Place::Defect).map_err(in_table)?;
         let layout = Layout::new(&parts).map_err(invalid)?;
-        // Checked here because the lines are known here.
+        // This check is here because the lines are known only here.
         let track = Track::new(layout, Irregularity::default(), defects).map_err(invalid)?;
         let (mut irregularity, mut irregularity_line) = (IrregularityParameters::None, 1);
         if let Some(table) = self.irregularity {

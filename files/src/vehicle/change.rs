@@ -7,11 +7,11 @@ use super::dampers::find_dampers;
 use super::error::VehicleFileError;
 use crate::{damper, overrides};
 
-/// Override `dampers.table.key=value`, split after the dampers.
+/// Override `dampers.table.key=value`, split after `dampers`.
 pub(super) struct DamperOverride<'a> {
     /// Direction or name of the dampers.
     dampers: &'a str,
-    /// Override `table.key=value` of each of them.
+    /// Override `table.key=value` to apply to each of them.
     change: &'a str,
 }
 
@@ -42,7 +42,7 @@ pub(super) fn apply(
     };
     overrides::parse(assignment).map_err(invalid)?;
     let Some(DamperOverride { dampers, change }) = split(assignment) else {
-        return Err(invalid("no damper table in the path".into()));
+        return Err(invalid("it names no table of the damper".into()));
     };
     let change = [change.to_owned()];
     // Identical dampers are changed only once.

@@ -36,7 +36,7 @@ pub(super) fn resolve_files(folder: &Path, tree: &mut toml::Table) {
 /// name, or one damper by name and number.
 ///
 /// # Errors
-/// Returns a description of the problem, with a similar name, if there is no such damper.
+/// Returns an error message, with a similar name, if there is no such damper.
 pub(crate) fn find_dampers(vehicle: &VehicleParameters, name: &str) -> Result<Vec<usize>, String> {
     let all: Vec<(usize, &str, Direction)> = vehicle
         .elements

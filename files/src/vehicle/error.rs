@@ -37,7 +37,7 @@ pub enum VehicleFileError {
     Text {
         /// Name of the file or vehicle.
         name: String,
-        /// The problem with line and column, and a similar key if there is one.
+        /// The problem, its line and column, and a similar key if there is one.
         message: String,
     },
     /// Valid file content that the overrides make invalid.

@@ -64,7 +64,7 @@ pub fn load(name: &str, overrides: &[String]) -> Result<VehicleParameters, Vehic
 /// Same as [`load`], but replaces dampers before the overrides are applied.
 ///
 /// # Errors
-/// Same as [`load`]; also for a replacement of, or by, an unknown damper.
+/// Same errors as [`load`]; also an error if the damper to replace or the new damper is unknown.
 ///
 /// ```
 /// use dashpot_files::vehicle::{self, Replacement};
@@ -88,7 +88,7 @@ pub fn load_with(
 /// Parses the vehicle in `text`; error messages call it `name`.
 ///
 /// # Errors
-/// Same as [`load`].
+/// Same errors as [`load`].
 pub fn parse(
     name: &str,
     text: &str,
@@ -143,8 +143,8 @@ fn parse_in(
     Ok(vehicle)
 }
 
-/// Returns the file name with the line of a part. A part that is one of several equal ones is called by name and
-/// number.
+/// Returns the file name with the line of a part. The name of one of several identical parts ends with a number, which
+/// the file does not contain.
 fn locate(file: &str, text: &str, part: &str) -> String {
     let without_number = part.rsplit_once(' ').map(|(name, _)| name);
     let line_of = |wanted: &str| {
@@ -176,7 +176,7 @@ fn set(tree: &mut toml::Table, assignment: &str) -> Result<(), VehicleFileError>
     };
     let Override { path, key, value } = overrides::parse(assignment).map_err(invalid)?;
     let [part] = path[..] else {
-        return Err(invalid("not one part and one key".into()));
+        return Err(invalid("it does not name one part and one key".into()));
     };
     let name_of = |table: &toml::Value| Some(table.get("name")?.as_str()?.to_owned());
     let parts = |tree: &toml::Table| -> Vec<String> {

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use dashpot_core::DamperParameters;
 
-/// Replacement of a vehicle's dampers by another damper, written `dampers=damper`. It also discards the overrides in
+/// Replacement of a vehicle's dampers by another damper, written `WHICH=DAMPER`. It also discards the overrides in
 /// the replaced tables.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replacement {
@@ -46,7 +46,7 @@ impl FromStr for Replacement {
                 Ok(Self::named(dampers.to_owned(), damper.to_owned()))
             }
             _ => Err(format!(
-                "`{text}`, allowed: dampers=damper, such as vertical=in-service"
+                "`{text}`, allowed: WHICH=DAMPER, such as vertical=in-service"
             )),
         }
     }

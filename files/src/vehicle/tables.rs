@@ -153,7 +153,7 @@ impl From<DirectionName> for Direction {
     }
 }
 
-/// Name that attaches an end to the track.
+/// Name that attaches an element's end to the track.
 const TRACK: &str = "track";
 
 fn end(on: &str, at_m: [f64; 3]) -> End {
@@ -230,7 +230,7 @@ impl VehicleFile {
         }
         for (number, table) in self.damper.iter().enumerate() {
             let replacement = replaced.get(number).copied().flatten();
-            // A later override may have named another damper.
+            // A later override may have replaced the damper again.
             let replacement = replacement.filter(|replacement| replacement.damper == table.damper);
             let parameters = match replacement.and_then(|by| by.parameters.as_deref()) {
                 Some(parameters) => damper::change(&table.damper, parameters, &table.set),

@@ -148,7 +148,7 @@ fn a_measured_file_is_relative_to_the_track_file() {
     assert_eq!(track.irregularity(), &expected);
 }
 
-/// All wheelsets of a vehicle of 30 m that starts 15 m before the irregularity stay within it until its smooth end.
+/// A vehicle of 30 m that starts 15 m before the irregularity ends its run before the smooth end of the irregularity.
 #[test]
 fn shipped_tracks_are_long_enough_for_their_cases() {
     let class_6 = Spectrum::fra(6).unwrap();
@@ -222,11 +222,11 @@ fn errors_have_file_line_and_name() {
         ),
         (
             part("kind = \"circular\"\nlength_m = 1\nradius_m = 30\ncant_m = 0"),
-            "line.toml:7: part 2 of the layout: radius_m without its sign 30, allowed: 50 to 1000000",
+            "line.toml:7: part 2 of the layout: magnitude of radius_m 30, allowed: 50 to 1000000",
         ),
         (
             part("kind = \"transition\"\nlength_m = 1"),
-            "line.toml:7: part 2 of the layout: a transition without neighbours",
+            "line.toml:7: part 2 of the layout: a transition must lie between two",
         ),
         (
             format!("{STRAIGHT}\n[[defect]]\nkind = \"twist\"\nrails = \"left\"\nstart_m = 1\n"),

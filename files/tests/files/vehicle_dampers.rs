@@ -103,7 +103,7 @@ fn unknown_dampers_are_refused() {
     }
     for text in ["vertical", "=paper", "vertical="] {
         let message = text.parse::<Replacement>().unwrap_err();
-        assert!(message.contains("allowed: dampers=damper"), "{message}");
+        assert!(message.contains("allowed: WHICH=DAMPER"), "{message}");
     }
 }
 

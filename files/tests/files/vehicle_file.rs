@@ -83,7 +83,7 @@ fn errors_have_file_line_and_name() {
         (
             "[0.02, 0], ",
             "",
-            "wagon.toml:31: stop 1: points of a stop: allowed: 2 to 16 points",
+            "wagon.toml:31: stop 1: points of a stop, allowed: 2 to 16 points",
         ),
         (
             "name = \"stop\"",

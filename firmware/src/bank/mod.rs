@@ -1,5 +1,5 @@
-//! Dampers of the image: one in-service damper, one reduced vertical damper and one reduced lateral damper for each end
-//! of two bogies.
+//! Dampers of the image: each end of the two bogies has one in-service, one reduced vertical and one reduced lateral
+//! damper.
 
 mod in_service;
 mod reduced_lateral;

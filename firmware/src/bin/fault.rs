@@ -1,4 +1,4 @@
-//! Drives the outputs, then causes a fault. The outputs after it must be zero.
+//! Drives the outputs, then causes a fault. The outputs after the fault must be zero.
 #![no_std]
 #![no_main]
 
@@ -12,7 +12,7 @@ fn main() -> ! {
     let mut outputs = SerialOutputs::start();
     for tick in 1..=3 {
         outputs.drive(&[1000.0 * tick as f32; DAMPERS]);
-        // This interrupts the last packet: a pass sends at least one byte and as many as the line takes.
+        // This call sends only what the line takes now, at least one byte, so the fault interrupts the last packet.
         outputs.send_waiting();
     }
     cortex_m::asm::udf()

@@ -1,8 +1,8 @@
-//! Counts the instructions of a tick of the health estimator over samples that the host puts into memory, and digests
-//! its results.
+//! Counts the instructions that a tick of the health estimator takes, over samples that the host puts into memory. Also
+//! computes a digest of the results.
 //!
-//! The host loads a [`Watch`] at [`__sheap`] before the start and reads one JSON object from the link's UART. The image
-//! `step-cost` describes the counts.
+//! The host loads a [`Watch`] at [`__sheap`] before the start and reads one JSON object from the link's UART. The
+//! documentation of the image `step-cost` explains the counts.
 #![no_std]
 #![no_main]
 
@@ -38,7 +38,7 @@ extern "C" fn c_tick(
     let _ = unsafe { dashpot_health_tick(model, health, sample[0], sample[1]) };
 }
 
-/// A function of one instruction, its return.
+/// A function that only returns.
 #[unsafe(naked)]
 extern "C" fn nothing() {
     core::arch::naked_asm!("bx lr")
@@ -57,7 +57,7 @@ fn timed(function: *const (), integers: [usize; 5]) -> u32 {
 fn main() -> ! {
     board::start_clock();
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
-    // SAFETY: the host wrote it before the start; nothing writes it now.
+    // SAFETY: the host wrote this memory before the start; nothing writes it now.
     let bytes = unsafe { &*black_box(&raw const __sheap) };
     match Watch::parse(bytes) {
         Some(watch) => measure(&watch, &mut printer),
@@ -100,7 +100,7 @@ fn measure(watch: &Watch<'_>, printer: &mut Printer) {
         c_max = timed(c_tick as *const (), integers).max(c_max);
     });
     if c_digest.value() != digest.value() {
-        let _ = writeln!(printer, "the C library has different bits");
+        let _ = writeln!(printer, "the C library gives other results than the core");
         return;
     }
     let _ = writeln!(

@@ -1,11 +1,11 @@
 //! Measures one tick of the bank including the link: a step request is received byte by byte from the register of a
 //! UART, carried out and answered byte by byte, and the outputs are sent.
 //!
-//! Answers go to the spare UART. The image prints one JSON object on the UART of the link: clock ticks of [`CLOCK_HZ`]
-//! for all requests, largest clock ticks of one request, bytes in and out. For health these are the longest slice of
-//! loading a model that the host put at [`__sheap`], the longest request with measured samples, and a reading. It also
-//! prints the sizes of devices of 1, 4, 12 and 16 dampers. Under QEMU's `-icount shift=0` a clock tick is 40
-//! instructions.
+//! Answers go to the spare UART. The image prints one JSON object on the UART of the link: clock ticks at [`CLOCK_HZ`]
+//! for all requests, the largest number of clock ticks of one request, and bytes in and out. For health it prints the
+//! largest number of clock ticks for each of these: a slice while a model is loaded, a request with measured samples, a
+//! reading. The host puts the model at [`__sheap`]. The image also prints the sizes of devices with 1, 4, 12 and 16
+//! dampers. Under QEMU's `-icount shift=0` a clock tick is 40 instructions.
 #![no_std]
 #![no_main]
 
@@ -24,9 +24,9 @@ use dashpot_firmware::safe_state;
 use static_cell::ConstStaticCell;
 
 const REQUESTS: usize = 1000;
-/// Number of requests with measured samples, [`MAX_MEASURED`] each.
+/// Number of requests with measured samples. Each request has [`MAX_MEASURED`] samples.
 const MEASUREMENTS: u32 = 500;
-/// Force over displacement of the measured samples (N/m), large enough for contact most of the time.
+/// Ratio of force to displacement of the measured samples (N/m), large enough for contact most of the time.
 const STIFFNESS_N_PER_M: f32 = 4e5;
 /// Amplitude of the triangular motion (m).
 const AMPLITUDE_M: f32 = 5e-3;
@@ -44,7 +44,8 @@ unsafe extern "C" {
 
 static DEVICE: ConstStaticCell<Device<DAMPERS, DAMPERS>> = ConstStaticCell::new(Device::new());
 
-/// A line with a waiting frame. It reads the registers of the UART as for a received frame.
+/// A serial line on which a frame waits to be read. It reads the registers of the UART as if the UART had received the
+/// frame.
 struct Replayed<'a> {
     uart: Uart,
     frame: &'a [u8],
@@ -72,7 +73,8 @@ fn main() -> ! {
     let Some(device) = DEVICE.try_take() else {
         safe_state::halt();
     };
-    // Access through a pointer uses offsets. With a known address each access takes two more instructions.
+    // Hides the address from the compiler. If the compiler knows the address, each access takes two instructions more
+    // than with an offset from a pointer.
     let device = core::hint::black_box(device);
     if device.start(&BANK, board::start_clock()).is_err() {
         safe_state::halt();
@@ -94,7 +96,7 @@ fn main() -> ! {
         frame.write(&(header(tick), step));
         let asked = ask(device, &mut outputs, frame.bytes());
         total += asked.ticks;
-        // The first displacements are too far from rest, so those of all dampers are limited.
+        // The first displacements are too far from rest, so the displacements of all dampers are limited.
         if tick == 1 {
             limited = asked.ticks;
         } else {
@@ -142,7 +144,7 @@ fn header(sequence: u32) -> Header {
 struct Asked {
     /// Clock ticks including the answer and the outputs.
     ticks: u32,
-    /// Clock ticks of the longest pass during loading of an image.
+    /// Clock ticks of the longest pass while an image is loaded.
     slice: u32,
     /// Number of bytes of the answer.
     sent: usize,
@@ -169,12 +171,12 @@ fn ask(device: &mut Device<DAMPERS, DAMPERS>, outputs: &mut SerialOutputs, frame
     Asked { ticks, slice, sent }
 }
 
-/// Largest clock ticks of health requests.
+/// Largest numbers of clock ticks of health requests.
 #[derive(Default)]
 struct HealthCost {
     /// Number of requests carried out.
     accepted: u32,
-    /// Clock ticks of a slice of loading a model.
+    /// Clock ticks of one slice while a model is loaded.
     slice: u32,
     /// Clock ticks of a request with measured samples.
     measure: u32,
@@ -193,7 +195,7 @@ fn measure_health(
     sequence += 1;
     let load = Request::LoadHealth {
         damper: 0,
-        // SAFETY: the host wrote it before the start; nothing writes it now.
+        // SAFETY: the host wrote this memory before the start; nothing writes it now.
         image: unsafe { &*core::hint::black_box(&raw const __sheap) },
     };
     frame.write(&(header(sequence), load));

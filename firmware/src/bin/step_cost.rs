@@ -1,8 +1,9 @@
-//! Counts the instructions of the step of one damper or a bank of twelve over a motion that the host puts into memory,
-//! and digests the forces. Then it counts the instructions of unusual steps and of the functions of the C library.
+//! Counts the instructions that each step of one damper, or of a bank of twelve, takes over a motion that the host puts
+//! into memory. Also computes a digest of the forces. Then it counts the instructions of unusual steps and of the
+//! functions of the C library.
 //!
 //! The host loads an [`Experiment`] at [`__sheap`] before the start and reads one JSON object from the link's UART.
-//! Counts are in clock ticks and include the call: `call` is the count of a function of one instruction, its return.
+//! Counts are in clock ticks and include the function call itself; `call` is the count of a function that only returns.
 //! Under QEMU's `-icount shift=10` an instruction takes 1024 ns.
 #![no_std]
 #![no_main]
@@ -24,7 +25,7 @@ use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
 use dashpot_firmware::counted_call::{Arguments, Returned, counted_call};
 use dashpot_firmware::printer::Printer;
 
-/// Size of the checked stack below the measured call (bytes).
+/// Size of the part of the stack, below the measured call, that is checked for use (bytes).
 const PAINTED: usize = 2048;
 const PAINT: u32 = 0xa5a5_a5a5;
 
@@ -34,7 +35,7 @@ unsafe extern "C" {
     static __sheap: [u8; BYTES];
 }
 
-/// Smallest, largest and total clock ticks.
+/// Smallest, largest and total number of clock ticks of the calls.
 #[derive(Clone, Copy)]
 struct Cost {
     least: u32,
@@ -76,7 +77,7 @@ extern "C" fn load_slice(damper: &mut Damper<f32>, image: &&[u8], loading: &mut 
     damper.load_slice(image, loading).map_or(2, usize::from)
 }
 
-/// Returns the largest clock ticks of a slice of loading a damper; 0 if it is refused.
+/// Returns the largest number of clock ticks of one slice while a damper is loaded; 0 if the image is refused.
 fn timed_load(image: &[u8]) -> u32 {
     let mut damper = Damper::<f32>::from_words(&[0; Damper::<f32>::WORDS]);
     let mut loading = Loading::START;
@@ -99,13 +100,13 @@ fn timed_load(image: &[u8]) -> u32 {
     }
 }
 
-/// A function of one instruction, its return.
+/// A function that only returns.
 #[unsafe(naked)]
 extern "C" fn nothing() {
     naked_asm!("bx lr")
 }
 
-/// A function of 101 instructions, which proves the count.
+/// A function of 101 instructions, which shows that the count is correct.
 #[unsafe(naked)]
 extern "C" fn known() {
     naked_asm!(".rept 100", "nop", ".endr", "bx lr")
@@ -132,7 +133,7 @@ fn address<T: ?Sized>(value: &T) -> usize {
     (&raw const *value).expose_provenance()
 }
 
-/// Stack of `call` including the frames of the counting (bytes).
+/// Stack that `call` uses, including the stack frames of the counting (bytes).
 #[inline(always)]
 fn stack_of(call: impl FnOnce()) -> usize {
     let top = cortex_m::register::msp::read() as usize & !3;
@@ -143,7 +144,7 @@ fn stack_of(call: impl FnOnce()) -> usize {
     }
     call();
     let mut used = PAINTED;
-    // SAFETY: the same unused RAM.
+    // SAFETY: this is the same unused RAM.
     while used > 0 && unsafe { word(used).read_volatile() } == PAINT {
         used -= 4;
     }
@@ -156,7 +157,7 @@ struct Library {
     step: u32,
     step_bank: u32,
     set_clearance: u32,
-    /// Largest clock ticks of a slice in a round.
+    /// Largest number of clock ticks of one slice in a round of the integrity check.
     check_slice: u32,
 }
 
@@ -178,7 +179,7 @@ impl Library {
             0.0,
         );
         for state in &mut states {
-            // SAFETY: separate storage and an initialised damper.
+            // SAFETY: the storage is separate and the damper is initialised.
             let _ = unsafe { dashpot_state_init(state, &damper, 0.0) };
         }
         let states_address = (&raw mut states).expose_provenance();
@@ -222,7 +223,7 @@ impl Library {
             [damper_address, 0, 0, 0, 0],
             2e-3,
         );
-        // An error would cost less than the work.
+        // A refused call does not do the work, so its clock ticks are reported as 0.
         let counted = |returned: Returned| match returned.integer {
             0 => returned.ticks,
             _ => 0,
@@ -241,7 +242,7 @@ impl Library {
 fn main() -> ! {
     board::start_clock();
     let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
-    // SAFETY: the host wrote it before the start; nothing writes it now.
+    // SAFETY: the host wrote this memory before the start; nothing writes it now.
     let bytes = unsafe { &*black_box(&raw const __sheap) };
     match Experiment::parse(bytes) {
         Some(experiment) => measure(&experiment, &mut printer),

@@ -36,7 +36,7 @@ pub struct ChannelsArguments {
 struct Report {
     #[serde(flatten)]
     overview: Overview,
-    /// Command line that replays it.
+    /// Command line that replays the recording.
     replay: String,
 }
 
@@ -60,7 +60,7 @@ pub fn run(arguments: &ChannelsArguments) -> Outcome<()> {
     })
 }
 
-/// Returns the command line that replays the file, with words in capitals for missing choices.
+/// Returns the command line that replays the file, with placeholders in capitals for choices that are still missing.
 fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overview) -> String {
     let file = arguments.file.display().to_string();
     let mut line = format!("dashpot replay --input {}", quoted(&file));

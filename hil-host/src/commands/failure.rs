@@ -37,7 +37,7 @@ pub struct Failure {
 /// Kind of a failure, which determines the exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A file, the system or a result is invalid.
+    /// A file is invalid, the system reports an error, or a result is not acceptable.
     Failed,
     /// The value of an option or a combination of options is not allowed.
     WrongUse,
@@ -90,7 +90,7 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Errors whose own text needs no change for the command line.
+/// Converts errors whose text needs no change for the command line.
 macro_rules! failures {
     ($($error:ty),*) => {$(
         impl From<$error> for Failure {

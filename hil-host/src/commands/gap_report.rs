@@ -10,7 +10,7 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
     if let Some(first) = gaps.left_out.first {
         writeln!(
             out,
-            "warning: {} with a missing value omitted, the first at {}; the motion is interpolated linearly",
+            "warning: omitted {} with a missing value, the first at {}; the motion is interpolated linearly",
             counted(gaps.left_out.rows, "row"),
             place(first)
         )?;

@@ -1,7 +1,7 @@
 //! Handling of SIGINT, SIGTERM and SIGHUP.
 //!
-//! The handler deletes temporary files and ends child processes; then the signal ends the process as usual. A command
-//! that supports a gentle end is only notified by the first signal, and ended by the second.
+//! The handler deletes temporary files and ends child processes; then the signal ends the process as usual. If a
+//! command supports a gentle end, the first signal only notifies it and the second signal ends it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -10,7 +10,7 @@ use crate::commands::failure::{Failure, Outcome};
 static ENDS_GENTLY: AtomicBool = AtomicBool::new(false);
 static IS_WANTED: AtomicBool = AtomicBool::new(false);
 
-/// While this value exists, the first interruption only sets [`is_wanted`].
+/// While this value exists, the first interruption only makes [`is_wanted`] return true.
 #[derive(Debug)]
 pub struct EndsGently(());
 
@@ -67,7 +67,7 @@ pub fn clean_up() -> Outcome<()> {
                 }
                 let _no_new_files = temporary::delete_all();
                 let _no_new_children = dashpot_host_link::end_children();
-                // Ends the process by the signal itself.
+                // The default action of the signal ends the process.
                 let _ = emulate_default_handler(signal);
             }
         })

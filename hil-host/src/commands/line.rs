@@ -26,7 +26,7 @@ pub struct LineOptions {
         value_name = "MS"
     )]
     timeout_ms: u64,
-    /// Number of attempts before the target counts as silent.
+    /// Number of attempts before the target is reported as silent.
     #[arg(long, default_value_t = TRIES, value_parser = clap::value_parser!(u32).range(1..=1000))]
     tries: u32,
     /// Bit rate of a serial device, bit/s.
@@ -47,7 +47,7 @@ impl LineArguments {
         Ok(self.options.open(&self.link)?)
     }
 
-    /// Returns timeout and number of attempts.
+    /// Returns the timeout and the number of attempts.
     pub fn retry_limits(&self) -> RetryLimits {
         self.options.retry_limits()
     }
@@ -72,7 +72,7 @@ impl LineOptions {
         link.open(self.baud)
     }
 
-    /// Returns timeout and number of attempts.
+    /// Returns the timeout and the number of attempts.
     pub fn retry_limits(&self) -> RetryLimits {
         RetryLimits {
             timeout: Duration::from_millis(self.timeout_ms),

@@ -64,7 +64,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     print_report(results.format(), &report, sweep::print)
 }
 
-/// Repeats random cases.
+/// Runs random cases again and compares their rows.
 fn check_again(study: &Study, rows: &Rows, count: u32, seed: Option<u64>) -> Outcome<Checked> {
     let seed = seed.unwrap_or_else(|| fastrand::u64(..));
     let cases = choose(rows, count as usize, seed);

@@ -60,7 +60,8 @@ struct Report {
 struct HuntingRow {
     critical_speed_km_h: Option<f64>,
     greatest_speed_km_h: f64,
-    /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is none.
+    /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is no linear
+    /// critical speed.
     nonlinear_critical_speed_km_h: Option<f64>,
     /// Maximum lateral displacement of a wheelset in the limit cycle at that speed, m.
     limit_cycle_m: Option<f64>,
@@ -75,7 +76,7 @@ const SPEEDS_KM_H: std::ops::RangeInclusive<f64> = 1.0..=700.0;
 const MAX_SEARCH_KM_H: f64 = 500.0;
 const SEARCH_STEP_KM_H: f64 = 10.0;
 
-/// Modes above this frequency belong to wheel and rail and are not listed, Hz.
+/// Modes above this frequency (Hz) are those of wheel and rail and are not listed.
 const MAX_MODE_HZ: f64 = 50.0;
 
 #[derive(Serialize)]

@@ -1,4 +1,4 @@
-//! Option values for types of the libraries, which know no command line.
+//! Parsers of option values whose types come from libraries that do not depend on the command line.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use dashpot_files::Scalar;

@@ -8,7 +8,7 @@ use super::remedy::option_of;
 use dashpot_testbench::health::Noise;
 
 /// Heading of the options in the help.
-const HEADING: &str = "Sensors and memory of the health estimate";
+const HEADING: &str = "Settings of the health estimate";
 
 /// Sensor properties; the core checks the ranges.
 #[derive(Debug, Clone, Copy, Default, PartialEq, clap::Args)]

@@ -48,7 +48,7 @@ impl StepSize {
         Self::from_us((decimal * 1e12).round() / 1e6)
     }
 
-    /// Like [`Self::from_target`], with an error, for building the dampers of a target.
+    /// Like [`Self::from_target`], but returns an error; for building the dampers of a target.
     ///
     /// # Errors
     /// The step is outside [`STEP_RANGE_S`].

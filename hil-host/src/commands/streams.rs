@@ -58,7 +58,7 @@ pub(super) fn refuse_twice(option: &str, inputs: &[PathBuf]) -> Outcome<()> {
     Ok(())
 }
 
-/// Rejects one file for two of `outputs`, which are pairs of option and path.
+/// Rejects the same file for two of `outputs`, which are pairs of option and path.
 ///
 /// # Errors
 /// Two paths are the same file, even if they are spelled differently.

@@ -93,7 +93,7 @@ fn a_check_finds_an_altered_cell_with_a_matching_digest() {
     )
     .unwrap();
     let error = error_of(&check(&["--check", "12"]).code(1));
-    let expected = "case 3: column derailment_greatest: `9.014`, run again: `";
+    let expected = "case 3: column derailment_greatest: `9.014`, but a new run gives `";
     assert!(error.contains(expected), "{error}");
     assert!(error.contains("run its shard again with --anew"), "{error}");
     assert!(!folder.path().join("merged").exists(), "nothing is written");

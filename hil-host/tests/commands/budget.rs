@@ -1,4 +1,4 @@
-//! Runs of the budget on a simulated clock, and `dashpot budget` from outside.
+//! Runs of the budget on a simulated clock, and `dashpot budget` as a command.
 
 use std::cell::Cell;
 use std::path::Path;
@@ -71,7 +71,7 @@ fn a_free_run_knows_the_tick_of_its_worst_case() {
     let run = free_run(Length::Ticks(250), None);
     assert_eq!(run.ticks, 250);
     assert_eq!(run.missed_deadlines, None);
-    // Minus the 30 ns of the clock; three batches of a hundred ticks follow.
+    // The 30 ns of the clock are subtracted; three batches of a hundred ticks follow.
     assert_eq!(
         spans(&run),
         [("batched", 3, 99.7, 0), ("single", 250, 2_999_970.0, 12)]

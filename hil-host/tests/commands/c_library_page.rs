@@ -12,7 +12,7 @@ use xtask::tools::{ARM_GCC, ARM_LIBC, CMAKE, GCC, GXX, MAKE, PKG_CONFIG, QEMU, h
 use crate::common::page::blocks;
 use crate::common::program;
 
-/// A `cargo` whose `cargo run --release --` is the command under test, already built.
+/// Writes a stand-in for `cargo` whose `cargo run --release --` runs the command under test, which is already built.
 fn stand_in_for_cargo(folder: &Path) {
     let path = folder.join("cargo");
     let script = format!(

@@ -27,7 +27,7 @@ const KNOWN: [&str; 6] = [
 fn a_skew_beyond_its_bounds_is_found_as_advised() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    // The force lags by 30 ms, so a force belongs to the displacement 28 ms later.
+    // The recorded force lags by 2 ms. Pairing it with the displacement 28 ms later makes it lag by 30 ms.
     let mut samples = Vec::new();
     let seen = std::cell::RefCell::new(&mut samples);
     bench::write(&folder.join("run.csv"), |sample| {

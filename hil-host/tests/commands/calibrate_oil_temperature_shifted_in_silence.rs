@@ -18,7 +18,8 @@ fn report(folder: &Path, more: &[&str]) -> Value {
     json_of(&dashpot(&line, folder).success())
 }
 
-/// Estimate and interval of the discharge coefficient, and its sensitivity to the temperature.
+/// Returns the estimate and the interval of the discharge coefficient, and its shifts at both ends of the temperature
+/// interval.
 fn discharge(report: &Value) -> (f64, [f64; 2], [f64; 2]) {
     let number = &report["numbers"][0];
     let value = |key: &str| number[key].as_f64().unwrap();
@@ -66,7 +67,7 @@ fn the_interval_includes_the_temperature_and_a_wrong_one_is_reported() {
             .any(|one| one["kind"] == "assumed" && one["key"] == TRUTH[0].0),
         "{wrong}"
     );
-    // With an interval for 25 K, the true value is at its end.
+    // With an uncertainty of 30 K, the interval includes the true value.
     let stated = report(
         folder,
         &[&cold[..], &["--temperature-uncertainty-k", "30"]].concat(),

@@ -57,7 +57,7 @@ fn text_reports_conicity_over_amplitude() {
     assert!(text.contains("           3.0     0.18"), "{text}");
 }
 
-/// Writes a wheel and a rail, as their gauge would, into an otherwise empty folder.
+/// Writes a wheel and a rail, as a profile gauge would write them, into an otherwise empty folder.
 fn folder_of(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -81,8 +81,8 @@ fn files_of_a_profile_gauge_are_reported_with_omitted_points() {
     let text = text_of(&output);
     for part in [
         "x on y, rails 1:40",
-        "x: miniprof, 6 of 200 points beyond the widest point left out\n",
-        "y: miniprof, 15 of 169 points beyond the widest point left out, turned upright",
+        "x: miniprof, 6 of 200 points removed at the ends\n",
+        "y: miniprof, 15 of 169 points removed at the ends, rotated by 180 degrees",
         // S1002 on UIC 60: literature 0.17 to 0.18.
         "           3.0     0.18",
         "plots: contact-plots/contact-points.svg",
@@ -153,7 +153,7 @@ fn a_refused_profile_leaves_no_plots() {
     }
 }
 
-/// S1002 with waves of 8 mm and 60 um worn into its tread, in two columns.
+/// Returns S1002 as two columns, with waves of 10 mm length and 0.15 mm amplitude worn into its tread.
 fn worn_wheel() -> String {
     let (_, rows) = include_str!("../../../rail/tests/data/s1002.csv")
         .split_once("y_mm,z_mm\n")
@@ -173,7 +173,7 @@ fn worn_wheel() -> String {
     text
 }
 
-/// The geometry of such a pair is reported, but no vehicle can run on it.
+/// The geometry of a pair whose contact force jumps is reported, but no vehicle can run on it.
 #[test]
 fn a_pair_whose_force_jumps_is_reported_with_the_location() {
     let folder = folder_of(&[("worn.csv", &worn_wheel())]);
@@ -191,5 +191,5 @@ fn a_pair_whose_force_jumps_is_reported_with_the_location() {
 
     let built_in = json_of(&contact(&["--no-plots", "--format", "json"]));
     assert!(built_in["force_jump"].is_null());
-    assert!(!text_of(&contact(&["--no-plots"])).contains("refused"));
+    assert!(!text_of(&contact(&["--no-plots"])).contains("rejected"));
 }

@@ -17,7 +17,7 @@ static SHOWN: LazyLock<(String, String)> = LazyLock::new(|| {
     (text_of(&output), page)
 });
 
-/// Promised accuracy.
+/// Checks the promised accuracy.
 fn check_limit(row: &serde_json::Value) {
     let scalar = if row["scalar"] == "f32" {
         Scalar::F32

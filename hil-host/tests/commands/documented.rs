@@ -1,4 +1,5 @@
-//! The command accepts every command line in the documents and in `--help`; those of pages about other tools are run.
+//! Every command line in the documents and in `--help` is parsed without error; on pages about other tools, the
+//! `export` commands without `--case` are also run.
 
 use std::path::{Path, PathBuf};
 use std::{fs, iter};

@@ -102,7 +102,7 @@ fn the_model_is_the_desks_in_every_language() {
 #[test]
 fn the_array_compiles() {
     use xtask::tools::{GCC, have};
-    if !have(&[GCC], "an exported model of health, compiled") {
+    if !have(&[GCC], "an exported health model, compiled") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -172,7 +172,7 @@ fn incompatible_options_are_wrong_use() {
     );
     assert_eq!(
         text,
-        "PAPER_HEALTH in y.c, declared in y.h: health model of paper for 1000 us: image 2236 bytes, 2224 bytes in \
-         memory, estimate 440 bytes\n"
+        "PAPER_HEALTH in y.c, declared in y.h: health model of paper for a step of 1000 us: image 2236 bytes, 2224 \
+         bytes in memory, 440 bytes per estimate\n"
     );
 }

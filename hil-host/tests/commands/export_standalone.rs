@@ -32,7 +32,9 @@ fn header_and_source_are_named_and_always_the_same() {
     let folder = folder.path();
     let text = text_of(&export(&["--output", "a.c"], folder));
     assert!(
-        text.starts_with("IN_SERVICE in a.c, declared in a.h: in-service for 1000 us, f32"),
+        text.starts_with(
+            "IN_SERVICE in a.c, declared in a.h: in-service for a step of 1000 us, f32"
+        ),
         "{text}"
     );
     assert!(

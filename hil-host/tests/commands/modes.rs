@@ -219,7 +219,7 @@ fn errors_name_the_problem_its_location_and_the_allowed_values() {
         (
             &["--set", "mass_kg=3"],
             2,
-            "--set mass_kg=3: not one part and one key; expected part.key=value",
+            "--set mass_kg=3: it does not name one part and one key; expected part.key=value",
         ),
         (
             &["--speed-km-h", "0"],

@@ -86,8 +86,8 @@ fn the_bounce_is_damped_by_airspring_dampers_and_axleboxes() {
     close(found, ratio, 0.03);
 }
 
-/// The body on the shear stiffness of its airsprings in series with the axlebox springs: lateral at the bogies,
-/// longitudinal off the centre line.
+/// The body yaws on the shear stiffness of its airsprings: laterally at the bogies, in series with the axlebox springs,
+/// and longitudinally off the centre line.
 #[test]
 fn the_body_yaws_on_the_shear_of_its_airsprings() {
     let (shear, axleboxes) = (2.0 * 160e3, 4.0 * 3.884e6);

@@ -1,5 +1,5 @@
-//! Regression: the locomotive in a curve of 200 m at 130 km/h was reported as having "left the tables of the contact"
-//! when it overturned.
+//! Regression: the locomotive in a curve of 200 m at 130 km/h was reported as having left the tables of the contact when it
+//! overturned.
 
 use std::fs;
 
@@ -23,7 +23,7 @@ fn a_vehicle_that_tips_over_is_reported_as_overturned() {
         let (error, report) = ended(&["--case", "curve-r200", "--speed-km-h", speed_km_h]);
         assert!(
             error.contains("overturned to the left at ")
-                && error.contains("wheels of the other side carry no load"),
+                && error.contains("wheels on the other side carry no load"),
             "{speed_km_h} km/h: {error}"
         );
         let ending = &report["ending"];

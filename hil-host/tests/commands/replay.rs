@@ -243,7 +243,7 @@ fn rejected_ticks_are_all_counted() {
     assert!(report["held_inputs"].as_u64() > Some(69_000), "{report}");
 }
 
-/// A million rows with 4 MiB of heap, where storing them would take 16 MiB; the system denies more.
+/// Replays a million rows in a heap that the system limits to 4 MiB; storing the rows would take 16 MiB.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_million_rows_replay_in_bounded_memory() {
@@ -271,7 +271,7 @@ fn a_million_rows_replay_in_bounded_memory() {
     limited("replay --input in.csv --output out.csv").success();
     let written = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     assert_eq!(written.lines().count(), 1 + ROWS as usize);
-    // The limit is effective: `verify` stores the whole recording and fails.
+    // The limit works: `verify`, which stores the whole recording, fails.
     limited("verify --input in.csv")
         .failure()
         .stderr(contains("out of memory"));

@@ -68,9 +68,9 @@ fn within_the_clearance_there_is_no_force() {
     assert_eq!(found.asymmetry_rate, None);
 }
 
-/// Peaks and energy of the third cycle from the reference solver, with linear motion between samples 1 ms apart, which
-/// differs from a sine by (w dt)^2/8 = 2e-6. The static check values of the published equations, 11 824 N and 16 638 N
-/// at 0.1 m/s, are upper bounds: behind the spring, the force peaks after the maximum velocity.
+/// Compares peaks and energy of the third cycle with the reference solver, with linear motion between samples 1 ms
+/// apart, which differs from a sine by (w dt)^2/8 = 2e-6. The static check values of the published equations, 11 824 N
+/// and 16 638 N at 0.1 m/s, are upper bounds: behind the spring, the force peaks after the maximum velocity.
 #[test]
 fn the_published_damper_agrees_with_the_reference() {
     let output = rig(&["--damper", "paper", "--format", "json"]).success();
@@ -95,7 +95,8 @@ fn the_published_damper_agrees_with_the_reference() {
     for (found, expected) in [(extension, peak(1.0)), (compression, peak(-1.0))] {
         assert!((found / expected - 1.0).abs() < 2e-5, "{found} {expected}");
     }
-    // The third cycle ends half a sample after the last one: 3e-4 of it at the fastest motion.
+    // The third cycle ends half a sample after the last sample: 3e-4 of the cycle is missing, where the motion is
+    // fastest.
     let found = value("energy_per_cycle_j");
     assert!((found / energy - 1.0).abs() < 1e-3, "{found} {energy}");
     let faster = TAU * 0.64 * 24.875e-3 / 0.1;

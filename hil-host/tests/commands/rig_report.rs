@@ -48,8 +48,8 @@ fn the_loops_are_drawn_on_request() {
     };
     let nominal = svg(&[]);
     for words in [
-        "Force over displacement, harmonic motion of ±24.875 mm at 0.64 Hz",
-        "Force over velocity, harmonic motion",
+        "Force against displacement, harmonic motion of ±24.875 mm at 0.64 Hz",
+        "Force against velocity, harmonic motion",
         "displacement, mm",
         "velocity, m/s",
         "force, kN",

@@ -102,12 +102,12 @@ fn a_violated_limit_exits_with_1_and_the_sheet_is_written() {
         "drawing 12, 3.4",
         "0 of 1",
         "computed from its model, not measured",
-        "Forces over velocity",
+        "Forces against velocity",
     ] {
         assert!(page.contains(words), "{words}");
     }
     // With one temperature there is no curve over temperature.
-    assert!(!page.contains("Forces over temperature"));
+    assert!(!page.contains("Forces against temperature"));
 }
 
 /// A value outside its limit by less than the usual rounding is printed with enough digits to show it.
@@ -152,7 +152,7 @@ fn the_shipped_sheet_lists_temperatures_and_speeds() {
     assert!(force("0.1 m/s") > force("0.1 m/s, warm"));
     assert!(force("0.2 m/s") > force("0.1 m/s"));
     let page = text_of(&ended);
-    assert!(page.contains("Forces over temperature"));
+    assert!(page.contains("Forces against temperature"));
     assert_eq!(report["page"], "standard output");
 }
 

@@ -76,7 +76,7 @@ fn lift_plot(arguments: &[&str]) -> (String, Vec<String>) {
     (svg, words)
 }
 
-/// Slopes computed by hand: theory of Table 1, last rows of Tables 2-4, and these times Ce.
+/// The slopes are computed by hand: by theory from Table 1, from the last rows of Tables 2-4, and the latter times Ce.
 #[test]
 fn theory_published_and_used_lift_are_named_curves() {
     let (svg, words) = lift_plot(&[]);
@@ -115,7 +115,7 @@ fn a_pack_of_another_damper_has_no_published_curve() {
     assert_eq!(svg.matches("<circle").count(), 5 + 1);
 }
 
-/// A preload keeps the valve closed below it: the logarithm of zero lift, or of its rounding error, is not drawn.
+/// Below the preload, the valve is closed: the logarithm of zero lift, or of its rounding error, is not drawn.
 #[test]
 fn a_preload_leaves_the_scale_readable() {
     for preload_pa in ["3e5", "7e5", "2e7"] {

@@ -25,7 +25,8 @@ fn near(value: &Value, expected: f64, fraction: f64) {
     );
 }
 
-/// Ce of Tables 2 to 4, edge compliance from disc theory (mm/MPa) and cubed thickness of the packs of Table 1.
+/// The expected values are Ce from Tables 2 to 4, and the edge compliance (m/Pa) of the packs of Table 1, from disc
+/// theory with their cubed thickness.
 #[test]
 fn the_papers_valves_have_areas_fitted_to_their_factors() {
     let report = report(&[]);
@@ -42,7 +43,7 @@ fn the_papers_valves_have_areas_fitted_to_their_factors() {
         assert_eq!(valve["pressure_area"]["kind"], kind);
         assert_eq!(valve["pressure_area_is_given"], false);
     }
-    // Sectors over the whole width have the Ce of their share of the circumference.
+    // For sectors over the whole width, Ce equals their share of the circumference.
     let fits = |valve: usize, kind: &str| -> Vec<Value> {
         let all = valves[valve]["fits"].as_array().unwrap().iter();
         all.filter(|fit| fit["kind"] == kind).cloned().collect()
@@ -134,7 +135,7 @@ fn text_lists_area_factor_stress_and_the_validity_of_theory() {
     let text = text_of(&output);
     for part in [
         "on 6 round bosses at radius 22.500 mm",
-        "(assumed kind, fitted to Ce)",
+        "(of an assumed kind, fitted to the Ce of the file)",
         "Ce 0.8265 from the mean edge lift",
         "deg from the centre of a boss, discs 4, 5, 6, 7 of the file",
         "full from 5.000 to 10.436 mm, decaying to zero at 11.000 mm with exponent 2",

@@ -79,7 +79,7 @@ fn export_writes_a_stream() {
         let to_stream = [&arguments[..], &["-"]].concat();
         let output = dashpot_reading(&damper, &to_stream, folder.path())
             .success()
-            .stderr(contains("standard output: - for 1000 us"));
+            .stderr(contains("standard output: - for a step of 1000 us"));
         let written = std::fs::read(folder.path().join("file")).unwrap();
         if lang == "bin" {
             assert_eq!(output.get_output().stdout, written);

@@ -47,7 +47,7 @@ const ON_ONE_THREAD: [&str; 7] = [
     "one",
 ];
 
-/// Folder that contains the study.
+/// Returns a folder that contains the study.
 pub fn folder(study: &str) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("study.toml"), study).unwrap();
@@ -58,7 +58,7 @@ pub fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).unwrap()
 }
 
-/// The row with the cell in the named column replaced.
+/// Returns the row with the cell in the named column replaced.
 pub fn altered(row: &str, column: &str, header: &str, cell: &str) -> String {
     let at = header.split(',').position(|name| name == column).unwrap();
     let mut cells: Vec<&str> = row.split(',').collect();
@@ -66,7 +66,7 @@ pub fn altered(row: &str, column: &str, header: &str, cell: &str) -> String {
     cells.join(",")
 }
 
-/// The row with the digest updated to its cells.
+/// Returns the row with its digest recomputed from its cells.
 pub fn with_its_digest(row: &str) -> String {
     let (cells, _) = row.rsplit_once(',').unwrap();
     format!("{cells},{}", digest_of_cells(cells.split(',')))
@@ -212,11 +212,11 @@ fn merge_names_missing_and_duplicate_cases() {
     ];
     let error = error_of(&dashpot(&merge, folder.path()).code(1));
     assert!(
-        error.contains("4 of 12 cases are missing: 3-4, 9-10; double, in a.csv and b.csv: 1-2"),
+        error.contains("4 of 12 cases are missing: 3-4, 9-10; duplicates in a.csv and b.csv: 1-2"),
         "{error}"
     );
     assert!(!folder.path().join("merged").exists(), "nothing is written");
-    // Rows of a processor with the other arithmetic.
+    // These rows are from a processor with the other arithmetic.
     let (arithmetic, other) = match Arithmetic::here() {
         Arithmetic::Fused => (Arithmetic::Fused, Arithmetic::Separate),
         Arithmetic::Separate => (Arithmetic::Separate, Arithmetic::Fused),
@@ -229,7 +229,7 @@ fn merge_names_missing_and_duplicate_cases() {
         error_of(&dashpot(&["merge", "study.toml", "a.csv", "c.csv"], folder.path()).code(1));
     let expected = format!("c.csv: case 0: arithmetic {other}, allowed here: {arithmetic}");
     assert!(error.contains(&expected), "{error}");
-    // Rows of another study or version, or edited by hand.
+    // These rows are from another study or version, or were edited by hand.
     let row = rows[0];
     for (changed, expected) in [
         (
@@ -267,7 +267,7 @@ fn existing_rows_are_not_run_again() {
     let sweep = ["sweep", "study.toml", "--no-page", "--output", "one"];
     let again = dashpot(&sweep, folder.path()).success();
     assert!(text_of(&again).contains("12 cases, none run now"));
-    // State after a power failure: some rows and an incomplete one.
+    // Recreate the state after a power failure: some rows and an incomplete one.
     let end = expected.match_indices('\n').nth(5).unwrap().0;
     let one = folder.path().join("one");
     fs::write(one.join("rows.csv.partial"), &expected[..end + 20]).unwrap();
@@ -333,7 +333,7 @@ fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
     let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
     wait_for_rows(&mut child, folder.path(), 2);
-    // Replaced atomically, as an editor does it.
+    // Replace the file atomically, as an editor does.
     let new = folder.path().join("new.toml");
     fs::write(&new, text.replace("mass_kg = 63400", "mass_kg = 60000")).unwrap();
     fs::rename(&new, &own).unwrap();
@@ -395,7 +395,7 @@ fn two_processes_do_not_mix_their_rows() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_study_resumes() {
-    // One thread, and cases long enough to be interrupted.
+    // Use one thread, and cases that are long enough to be interrupted.
     let folder = folder(&STUDY.replace("duration_s = 0.5", "duration_s = 4"));
     let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
@@ -537,7 +537,7 @@ fn errors_are_reported_before_anything_runs() {
         (
             "observed = [\"body_vertical_rms_m_per_s2\", \"derailment_greatest\", \"last_lateral_m\"]",
             "observed = []",
-            "study.toml:3: observed: allowed: one or more indices, each once",
+            "study.toml:3: observed: empty or with a duplicate, allowed: one or more indices, each once",
         ),
         (
             "name = \"worn\"",

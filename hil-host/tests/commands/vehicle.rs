@@ -65,7 +65,7 @@ fn a_case_writes_histories_indices_and_a_page() {
         min_load_n,
         number(&report["indices"]["wheelsets"][0]["wheels"][1]["load_least_n"])
     );
-    // Above the front bogie, 5.39 m ahead, the pitch of the body counts; there are two windows of 5 s.
+    // Above the front bogie, 5.39 m ahead of the centre, pitch adds to the acceleration; there are two windows of 5 s.
     let vertical = column(&history, "body_vertical_acceleration_m_per_s2");
     let middle = sperling(&vertical, 1000.0, 5.0, RideDirection::Vertical).unwrap();
     let ride = report["indices"]["ride"].as_array().unwrap();
@@ -172,7 +172,7 @@ fn parts_of_a_case_are_changed_by_options() {
     assert_eq!(coach["case"], "coach on ideal at 120 km/h");
     let load = number(&coach["indices"]["wheelsets"][3]["wheels"][0]["load_least_n"]);
     assert!((load / 54.5e3 - 1.0).abs() < 0.01, "{load}");
-    // At rest on ideal track except for the initial displacement, which the first row still shows.
+    // On ideal track, everything is at rest except for the initial displacement, which the first row still shows.
     run(&["--track", "ideal", "--speed-km-h", "30", "--push-m", "3e-3"]);
     let rows = fs::read_to_string(folder.path().join("dashpot-vehicle/history.csv")).unwrap();
     for (name, expected_m) in [("wheelset_4", 3e-3), ("front_bogie", 3e-3), ("body", 0.0)] {

@@ -81,7 +81,7 @@ fn options_are_refused_in_the_wrong_mode() {
     }
 }
 
-/// A damper without any flow has no reference; the command says so and promises nothing.
+/// A damper without any flow has no reference; the command reports this and guarantees nothing.
 #[test]
 fn a_damper_without_a_reference_is_refused() {
     let closed = [

@@ -47,7 +47,7 @@ fn a_load_far_beyond_the_model_ends_the_run_with_time_and_place() {
     for words in [
         "beyond the model at ",
         "m along the track: wheelset ",
-        "times that at standstill; allowed: 50 times",
+        "times the static load; allowed: 50 times",
     ] {
         assert!(error.contains(words), "{error}");
     }

@@ -15,8 +15,8 @@ const VERIFY: [&str; 3] = ["verify", "--input", "in.csv"];
 const PIL: [&str; 5] = ["pil", "--input", "in.csv", "--link", "tcp:localhost:1"];
 const EXPORT: [&str; 3] = ["export", "--output", "damper"];
 
-/// Runs `command` with `options` in a folder with a good recording, a file that is not a damper and a file that is
-/// neither.
+/// Runs `command` with `options` in a folder with a good recording, an invalid damper file and a text file that is not
+/// a recording.
 fn check(command: &[&str], options: &[&str], code: i32, part: &'static str) {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);

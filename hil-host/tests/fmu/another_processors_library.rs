@@ -41,7 +41,7 @@ fn a_library_for_another_processor_is_refused_with_what_was_found() {
         assert_eq!(output.status.code(), Some(1), "{compiler}: {text}");
         assert!(text.contains(compiler), "{text}");
         assert!(text.contains(found), "{text}");
-        let needed = format!("needed for {}-", std::env::consts::ARCH);
+        let needed = format!("but {}-", std::env::consts::ARCH);
         assert!(text.contains(&needed), "{text}");
         assert!(text.contains("in the variable CC"), "{text}");
         assert!(text.contains("--sources-only"), "{text}");

@@ -157,7 +157,7 @@ static void refuse(importer *of)
     printf("displacement still %g\n", value);
 }
 
-/* Times summed by an importer, with their rounding errors. */
+/* Steps to times that are summed as in an importer, with their rounding errors. */
 static void added(importer *of, unsigned count)
 {
     double at_s = 0, time_s;
@@ -185,7 +185,7 @@ static void steps(importer *of, unsigned from, unsigned to)
     }
 }
 
-/* States that are saved, restored, serialized and deserialized. */
+/* Saves, restores, serializes and deserializes states. */
 static void states(importer *of)
 {
     void *state = NULL, *again = NULL;
@@ -227,7 +227,7 @@ static void states(importer *of)
     printf("then: %s\n", memcmp(&first, &second, sizeof first) == 0 ? "equal" : "other");
 }
 
-/* Steps, with instances and states that are created and freed. */
+/* Steps while instances and states are created and freed. */
 static void many(importer *of, unsigned count, const char *token, const char *resources)
 {
     unsigned number;

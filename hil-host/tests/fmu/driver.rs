@@ -47,7 +47,7 @@ impl Driver {
         text
     }
 
-    /// Like [`Self::run`], but under another program and with any token; the task may fail.
+    /// Like [`Self::run`], but runs the driver under the program `under` and with any token; the task may fail.
     pub fn output(
         &self,
         under: &[&str],

@@ -1,4 +1,4 @@
-//! Forces of an FMU have the bits of a replay, with or without a delay of one communication step.
+//! Forces of an FMU equal those of a replay bit for bit, with or without a delay of one communication step.
 
 use std::fmt::Write;
 use std::fs;

@@ -1,4 +1,4 @@
-//! FMU whose constants are images in its resources folder.
+//! An FMU whose constants are images in its resources folder.
 
 use std::fs;
 

@@ -19,7 +19,7 @@ use dashpot_testbench::excitation::Excitation;
 
 use crate::common::dashpot;
 
-/// FMU in its own folder, unpacked.
+/// An FMU, unpacked into its own folder.
 pub struct Unpacked {
     /// Folder of the FMU and its unpacked contents.
     pub folder: tempfile::TempDir,
@@ -57,12 +57,12 @@ impl Unpacked {
         }
     }
 
-    /// Reads one of its files.
+    /// Returns the path of one of its files.
     pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
-    /// Library for this platform, wherever it is in the FMU.
+    /// Returns the path of the library for this platform, wherever it is in the FMU.
     pub fn library(&self) -> PathBuf {
         let platforms = fs::read_dir(self.path("binaries")).unwrap();
         let [platform] = &platforms
@@ -91,7 +91,7 @@ impl Unpacked {
     }
 }
 
-/// Part of the ride, with a jump that no damper follows.
+/// Returns part of the ride (m), with a jump that is too fast for any damper to follow.
 pub fn displacements_m() -> Vec<f64> {
     let mut ride = Excitation::Ride.displacements_m(1e-3);
     ride.truncate(3000);
@@ -99,7 +99,7 @@ pub fn displacements_m() -> Vec<f64> {
     ride
 }
 
-/// Forces of a preset's step over displacements (m), starting at rest at the first.
+/// Returns the forces (N) of a preset, stepped through displacements (m) from rest at the first one.
 pub fn forces_n(name: &str, displacements_m: &[f64]) -> Vec<f64> {
     let damper: Damper<f32> = damper::load(name, &[]).unwrap().build(1e-3).unwrap();
     let mut state = damper.at_rest(displacements_m[0] as f32);
@@ -107,7 +107,7 @@ pub fn forces_n(name: &str, displacements_m: &[f64]) -> Vec<f64> {
     displacements_m.iter().map(step).collect()
 }
 
-/// Bits of the numbers.
+/// Returns the bit pattern of each number.
 pub fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }

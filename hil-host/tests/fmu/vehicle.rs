@@ -1,5 +1,5 @@
-//! A vehicle and a damper as two FMUs: docs/fmu.md followed literally, the bits of the command, the end of a run, and
-//! rejected exports.
+//! A vehicle and a damper as two FMUs: the commands of docs/fmu.md, results equal to those of `dashpot vehicle` bit for
+//! bit, the end of a run, and rejected exports.
 
 use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
@@ -14,7 +14,7 @@ use crate::common::page::blocks;
 use crate::common::{dashpot, error_of, program};
 use crate::source;
 
-/// Library of vehicles, built once.
+/// Returns the vehicle library, built once.
 fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
@@ -41,7 +41,7 @@ fn library() -> &'static Path {
     })
 }
 
-/// Exports the FMU of a case into `folder`, with these dampers outside.
+/// Exports the FMU of a case with these external dampers into `folder`.
 fn export(folder: &Path, fmi: &str, case: &str, outside: &[&str]) {
     let mut line = vec!["export", "--fmi", fmi, "--case", case, "--output", "it.fmu"];
     let library = library().to_str().unwrap();
@@ -108,7 +108,7 @@ fn the_page_couples_a_vehicle_and_a_damper_to_the_bits_of_the_command() {
     }) {
         run(line);
     }
-    // The motion of the page, and its forces compared with those of the command.
+    // Run the Python block of the page, and replay its motion with the command to compare the forces.
     let blocks = blocks(&page);
     let block = blocks.iter().find(|block| block.language == "python");
     let script = format!(
@@ -185,7 +185,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
         assert!(outputs[0].contains(line), "{line} in {}", outputs[0]);
     }
     assert_eq!(outputs[0], outputs[1]);
-    // Without dampers outside, the command gives the same result.
+    // Without external dampers, the command gives the same result.
     fs::write(
         folder.path().join("none.csv"),
         "time_s,force_n\n0,0\n10,0\n",
@@ -231,7 +231,7 @@ fn invalid_vehicle_exports_are_refused() {
     fs::write(folder.path().join("vehicle.toml"), vehicle).unwrap();
     let text = "name = \"own\"\nvehicle = \"vehicle.toml\"\ntrack = \"ideal\"\nspeed_km_h = 100\n";
     fs::write(folder.path().join("own.toml"), text).unwrap();
-    // `@` is replaced by the options for an existing damper outside.
+    // `@` is replaced by the options for an existing external damper.
     let one = "--outside front_lateral_damper_1";
     for (code, words, expected) in [
         (

@@ -41,7 +41,7 @@ fn status_is_reported_by_name_and_cleared() {
     rig.text(&["stop"]);
     let latched = rig.json(&["status"]);
     let rejected = latched["places"][1]["rejected_inputs"].as_u64().unwrap();
-    // The ticks before the two requests of `stop`.
+    // Ticks pass before each of the two requests of `stop`.
     assert!((1..=2 * u64::from(TICKS)).contains(&rejected), "{latched}");
     let status = latched["places"][1]["status"].as_array().unwrap();
     assert!(status.contains(&json!("input_limited")), "{latched}");
@@ -97,13 +97,13 @@ fn the_tick_runs_stops_and_says_when_it_cannot() {
     let displace = ["displace", "--displacement-m", "0"];
     for action in [&displace[..], &["stop"]] {
         let error = rig.error(action, 1);
-        assert!(error.contains("does not run free; run it first"), "{error}");
+        assert!(error.contains("not free-running; run it first"), "{error}");
     }
     let driven = rig.json(&["run", "--displacement-m", "0,1e-3,-2e-3"]);
     assert_eq!(driven["displacements_m"], json!([0.0, 1e-3, -0.002]));
     let error = rig.error(&["run", "--displacement-m", "0"], 1);
     assert!(
-        error.contains("the target's tick runs free; stop"),
+        error.contains("the target is free-running; stop"),
         "{error}"
     );
     let driven = rig.json(&["displace", "--displacement-m", "0.01"]);
@@ -137,7 +137,7 @@ fn a_lost_link_makes_the_outputs_safe_until_run() {
     let safe = rig.json(&["outputs"]);
     assert_eq!(safe["outputs_n"], json!([0.0, 0.0, 0.0]));
     let error = rig.error(&displace, 1);
-    assert!(error.contains("lost the link; its outputs stay safe until it is run"));
+    assert!(error.contains("lost the link; its outputs stay safe until you run it"));
     rig.text(&run);
     rig.text(&displace);
     rig.text(&["stop"]);

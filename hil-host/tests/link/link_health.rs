@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::link_common::Rig;
 
-/// Displacement and force of an in-service damper over the ride forth and back, as written to its rows, and the rows.
+/// Returns displacement and force of an in-service damper over the ride forth and back, as numbers and as rows of CSV.
 fn measurement(set: &[&str], ticks: usize) -> (Vec<(f64, f64)>, String) {
     let set: Vec<String> = set.iter().map(|set| (*set).to_owned()).collect();
     let parameters = damper::load("in-service", &set).unwrap();
@@ -36,7 +36,7 @@ fn model(name: &str) -> HealthModel {
 
 /// Reading printed by the command, with all bits.
 fn expected_reading(reading: &HealthReading, time_s: Option<f64>) -> Value {
-    // JSON has the shortest digits of a number in single precision.
+    // JSON has the shortest decimal of a number in single precision.
     let number = |number: f32| -> Value {
         serde_json::from_str(&serde_json::to_string(&number).unwrap()).unwrap()
     };

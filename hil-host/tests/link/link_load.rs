@@ -79,7 +79,7 @@ fn an_image_is_loaded_when_it_fits() {
         (&damaged[..], "x.bin: CRC-32 does not match"),
         (
             b"DASH",
-            "x.bin: 4 bytes where a damper has 6728; allowed: a file written by `dashpot export --lang bin`",
+            "x.bin: 4 bytes, but a damper has 6728; allowed: a file written by `dashpot export --lang bin`",
         ),
         (b"", "x.bin: 0 bytes"),
     ] {

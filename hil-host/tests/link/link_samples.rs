@@ -32,7 +32,7 @@ fn ticks(samples: &[Value]) -> Vec<u64> {
 fn every_damper_has_its_own_samples_of_the_same_ticks() {
     let rig = running();
     rig.text(&["stop"]);
-    // The ticks before the requests of `displace` and `stop`, limited to the number that is kept.
+    // Ticks pass before the two requests of `displace` and of `stop`; the target keeps the last 64.
     let last = u64::from(4 * TICKS);
     let expected: Vec<u64> = (last - 63..=last).collect();
     for place in [1, 0] {
@@ -122,7 +122,7 @@ fn samples_are_watched_as_they_come() {
     assert_eq!(samples.len(), 200);
     let ticks = ticks(&samples);
     assert!(ticks.is_sorted_by(|a, b| a < b), "{ticks:?}");
-    // 20 ticks pass with each request, and its answer has 8 samples.
+    // 20 ticks pass per request, but an answer holds only 8 samples, so some are overwritten before they are fetched.
     let warnings = error_of(&output);
     assert!(warnings.starts_with("warning: slot 0: "), "{warnings}");
     assert!(warnings.contains("overwritten before they were fetched"));
@@ -170,7 +170,7 @@ fn an_interruption_ends_the_watch() {
     let rig = running();
     let mut watch = watch(&rig);
     let mut lines = BufReader::new(watch.stdout.take().unwrap()).lines();
-    // A header and samples, written as they arrive.
+    // The command writes the header and each sample as it arrives.
     assert_eq!(lines.by_ref().take(100).map(Result::unwrap).count(), 100);
     let id = watch.id().to_string();
     assert!(
@@ -180,7 +180,7 @@ fn an_interruption_ends_the_watch() {
             .unwrap()
             .success()
     );
-    // Keeps reading, so that the command does not block.
+    // Keep reading, so that the command does not block.
     lines.for_each(drop);
     assert_eq!(watch.wait().unwrap().signal(), Some(SIGINT));
 }

@@ -88,15 +88,12 @@ fn a_refusal_of_the_target_is_reported_in_words() {
     );
     let error = rig.error(&["restore", "--input", "b.toml"], 1);
     assert!(
-        error.contains("with values that no step leaves behind"),
+        error.contains("or has values that no step produces"),
         "{error}"
     );
     rig.text(&["run", "--displacement-m", "0"]);
     let error = rig.error(&["restore", "--input", "a.toml"], 1);
-    assert!(
-        error.contains("runs free; stop or reset the target first"),
-        "{error}"
-    );
+    assert!(error.contains("is free-running; stop it first"), "{error}");
 }
 
 #[test]

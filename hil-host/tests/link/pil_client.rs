@@ -81,7 +81,7 @@ fn a_session_number_in_use_is_skipped() {
 #[test]
 fn every_refusal_has_a_sentence() {
     for (refusal, part) in [
-        (Refusal::Corrupt, "broken"),
+        (Refusal::Corrupt, "corrupted on its way"),
         (Refusal::Unreadable, "cannot read"),
         (Refusal::Protocol(9), "version 9"),
         (Refusal::NoSession, "say hello first"),
@@ -100,9 +100,9 @@ fn every_refusal_has_a_sentence() {
             "the bytes are damaged",
         ),
         (Refusal::StepSize, "another step"),
-        (Refusal::State, "a state of another damper"),
-        (Refusal::Running, "runs free; stop"),
-        (Refusal::NotRunning, "does not run free"),
+        (Refusal::State, "it belongs to another damper"),
+        (Refusal::Running, "is free-running; stop"),
+        (Refusal::NotRunning, "is not free-running"),
         (Refusal::LinkLost, "lost the link"),
         (Refusal::Corrupted(3), "damper 3 was damaged"),
     ] {

@@ -10,7 +10,7 @@ use predicates::str::contains;
 use crate::common::{dashpot, files_in, json_of, json_on_stderr, text_of};
 use crate::pil_common::{altered, desk, serve_tcp};
 
-/// Half a second of motion forth and back with a gap at the end: 601 ticks.
+/// Number of ticks: half a second of motion forth and back, with a gap at the end.
 const TICKS: usize = 601;
 
 fn recording(folder: &Path) {
@@ -92,14 +92,14 @@ fn the_output_has_a_row_for_each_tick() {
         assert!((time_s - (2.0 + index as f64 * 1e-3)).abs() < 1e-9);
         for place in 0..3 {
             let columns = &row[2 + 4 * place..];
-            // Slot i is i ticks behind.
+            // Slot i runs i ticks behind slot 0.
             assert_eq!(columns[0], rows[index.saturating_sub(place)][2]);
             assert_eq!(columns[1], columns[2]);
         }
         assert!(row[15].parse::<u64>().unwrap() > 0);
         assert_eq!(row[16], "");
     }
-    // Different dampers.
+    // The dampers differ, and so do their forces.
     assert!(
         rows.iter()
             .any(|row| row[3] != "0.0" && row[7] != row[3] && row[11] != row[7])
@@ -109,7 +109,7 @@ fn the_output_has_a_row_for_each_tick() {
 #[test]
 fn events_are_named_in_their_rows() {
     let folder = tempfile::tempdir().unwrap();
-    // The only fault that does not involve a timeout.
+    // Duplication is the only fault that causes no timeout.
     let faults = ["--faults", "duplicate=0.05"];
     let output = pil(
         &[&faults[..], &["--output", "-", "--format", "json"]].concat(),
@@ -177,7 +177,7 @@ fn a_paced_run_reports_missed_deadlines() {
 fn a_force_that_differs_fails_the_command_and_is_shown() {
     let folder = tempfile::tempdir().unwrap();
     let wrong = || -> Box<dyn Link> {
-        // One wrong bit in one force of tick 42.
+        // One bit is wrong in one force of tick 42.
         Box::new(altered(|header, mut response, frame| {
             if let Response::Forces(forces) = &mut response
                 && forces.tick == 42

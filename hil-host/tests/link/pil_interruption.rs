@@ -18,7 +18,7 @@ fn make_pipe(path: &Path) {
     assert!(made.unwrap().success());
 }
 
-/// Sends SIGTERM and waits until it has ended the process.
+/// Sends SIGTERM, waits for the process to end, and checks that the signal ended it.
 fn terminate(child: &mut Child) {
     let id = child.id().to_string();
     let sent = Command::new("kill").args(["-TERM", &id]).status();
@@ -45,7 +45,7 @@ fn the_emulator_ends_with_the_command() {
     std::fs::write(at("in.csv"), "time_s,displacement_m\n0,0\n1,0\n").unwrap();
     make_pipe(&at("alive"));
     make_pipe(&at("wait"));
-    // Opened for reading and writing, so that opening does not wait for the other end.
+    // Open the pipe for reading and writing, so that opening does not wait for the other end.
     let mut wait = File::options()
         .read(true)
         .write(true)
@@ -64,7 +64,7 @@ fn the_emulator_ends_with_the_command() {
     assert_eq!(&reported, b"started\n");
     terminate(&mut command);
     wait.write_all(b"\n").unwrap();
-    // Ends when all writers have closed the pipe.
+    // The read ends when all writers have closed the pipe.
     let mut rest = String::new();
     alive.read_to_string(&mut rest).unwrap();
     assert_eq!(rest, "");

@@ -1,6 +1,6 @@
-//! Regression: on a slow line or a busy machine, `dashpot pil` gave up a target that answered every request. It
-//! repeated requests before their answers could arrive, and the target answered each repeat, so that every request
-//! waited for more repeats than the one before.
+//! Regression: on a slow line or a busy machine, `dashpot pil` gave up on a target that answered every request. The
+//! host repeated requests before their answers could arrive. The target answered each repeat, so each request had to
+//! wait for the answers to more repeats than the one before.
 
 use std::collections::VecDeque;
 use std::net::{Ipv4Addr, TcpListener};
@@ -67,10 +67,10 @@ impl SlowLine {
         }
     }
 
-    /// One pass of the firmware's loop.
+    /// Runs one pass of the firmware's loop.
     fn pass(&mut self) {
         self.elapsed += self.byte_time;
-        // While the device sends, a byte waits on the line; while it loads, it reads none.
+        // While the device sends, a byte waits on the line; while it loads a damper, it reads no bytes.
         let takes = !self.device.is_sending() && !self.device.is_busy();
         let byte = takes.then(|| self.to_device.pop_front()).flatten();
         let mut line = Pass {
@@ -123,13 +123,13 @@ fn drive(byte_time: Duration, latency: Duration) -> Result<(Report, Duration), S
 #[test]
 fn a_slow_target_is_waited_for_and_repeats_do_not_pile_up() {
     for (byte_us, latency_ms, most_repeats) in [
-        // First a tenth of the speed that the first timeout allows for, then even slower.
+        // The first timeout allows for 100 us per byte. The line is faster first, then slower.
         (10, 0, 0),
         (90, 0, 0),
         (200, 0, 6),
         (400, 0, 12),
         (800, 0, 20),
-        // Longer than the first timeout of 200 ms.
+        // The latency is longer than the first timeout of 200 ms.
         (10, 505, 40),
         (90, 505, 40),
         (10, 1500, 60),

@@ -1,4 +1,4 @@
-//! The host's end of the link against the firmware's device in the test process, with every kind of fault.
+//! Runs the host's end of the link with the firmware's device in the test process, under every kind of fault.
 
 use std::time::Duration;
 
@@ -40,7 +40,7 @@ fn without_faults_every_force_has_the_hosts_bits() {
     assert_eq!((report.recoveries, made), (0, FaultCounts::default()));
     assert_eq!(report.link_faults, Default::default());
     assert_eq!(report.target_counters.corrupt, 0);
-    // Two hellos, restore, one load per damper, the steps, save.
+    // The target accepted two hellos, a restore, one load per damper, the steps, and a save.
     assert_eq!(report.target_counters.accepted, 3 + 3 + 1000 + 1);
     assert_eq!(report.round_trip.count, 1000);
 }
@@ -175,7 +175,7 @@ fn a_target_that_cannot_be_compared_is_refused() {
     }));
     let message = protocol.unwrap_err().to_string();
     assert!(
-        message.contains("version 4 of the link protocol, this host 3"),
+        message.contains("version 4 of the link protocol, but this host speaks version 3"),
         "{message}"
     );
     let step = report_of(altered(
@@ -207,7 +207,10 @@ fn a_target_that_falls_silent_stops_the_run_with_the_reason() {
     let message = silent.unwrap_err().to_string();
     let start = format!("after tick {last}: no answer from the target to 30 tries within ");
     assert!(message.starts_with(&start), "{message}");
-    assert!(message.ends_with(" s; first wait 300000 ms"), "{message}");
+    assert!(
+        message.ends_with(" s; the first try waited 300000 ms"),
+        "{message}"
+    );
 }
 
 #[test]

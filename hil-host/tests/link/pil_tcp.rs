@@ -16,7 +16,7 @@ fn received_data_is_acknowledged_at_once() {
     let same = stream.try_clone().unwrap();
     let mut link = Tcp::over(stream, "peer".into()).unwrap();
     for _ in 0..3 {
-        // State of the system's socket after answers have carried acknowledgements.
+        // The system leaves the socket in this state after answers have carried acknowledgements.
         set_tcp_quickack(&same, false).unwrap();
         peer.write_all(b"x").unwrap();
         let received = link.receive(&mut [0; 8], Duration::from_secs(300));

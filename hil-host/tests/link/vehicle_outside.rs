@@ -55,7 +55,8 @@ fn built(name: &str, step_s: f64) -> Damper<f32> {
     parameters.build(step_s).unwrap()
 }
 
-/// Forces of a damper from rest, with `steps` steps per displacement on a straight line from the one before.
+/// Returns the forces of a damper that starts at rest and takes `steps` steps to each displacement, in a straight line
+/// from the previous one.
 fn forces(damper: &Damper<f32>, displacements_m: &[f64], steps: u32) -> Vec<f64> {
     let mut state = damper.at_rest(0.0);
     let mut from_m = 0.0;
@@ -90,7 +91,7 @@ fn a_damper_on_a_target_answers_one_tick_late() {
     assert_eq!(found["exchange_step_s"], 1e-3);
     assert_eq!(found["delay_s"], 1e-3);
     assert_eq!(found["dampers"][1]["damper"], VERTICAL);
-    // One bank behind one link.
+    // Both dampers are in one bank behind one link.
     assert_eq!(found["targets"].as_array().unwrap().len(), 1);
     let target = &found["targets"][0];
     assert_eq!(
@@ -222,7 +223,7 @@ fn a_lost_target_ends_the_run_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let (error, report) = lost(|response| *response = Response::Done, folder.path());
     assert!(
-        error.contains("a damper outside was lost at 0.250 s, -2.5 m along the track: tcp:")
+        error.contains("an external damper was lost at 0.250 s, -2.5 m along the track: tcp:")
             && error.contains("after tick 249: the target answers in another protocol"),
         "{error}"
     );

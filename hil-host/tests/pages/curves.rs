@@ -25,7 +25,8 @@ fn column(values: &[f32]) -> String {
     BASE64_STANDARD.encode(bytes)
 }
 
-/// The demonstration's page with the first plot replaced: abscissas 2, 10 and 50, minimum 2, maximum 20, on these axes.
+/// Returns the demo page with the first plot replaced by a curve with abscissas 2, 10 and 50 and the ordinate 2, or 2
+/// to 20 for bands and bars, on linear or logarithmic axes.
 fn page(stroke: &str, decades: bool) -> String {
     let marker = "<script type=\"application/json\">";
     let (before, rest) = DEMONSTRATION.split_once(marker).unwrap();

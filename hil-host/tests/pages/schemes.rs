@@ -5,8 +5,8 @@ use serde_json::json;
 use crate::browser::Browser;
 use crate::shown::DEMONSTRATION;
 
-/// True if the legend of the first curve and some of the first canvas have the curve's colour for a light (0) or dark
-/// (1) screen.
+/// Returns an expression that is true if the key of the second curve in the legend and some pixels of the first canvas
+/// have the curve's colour for a light (0) or dark (1) screen.
 fn is(scheme: usize) -> String {
     format!(
         "(() => {{

@@ -3,7 +3,7 @@
 use crate::installed::{package, run, unpacked};
 use xtask::python::have_packages;
 
-/// Runs a file of tests, which must contain at least one.
+/// Runs a test file, which must contain at least one test.
 fn suite(name: &str) {
     let Some(python) = have_packages("the package of Python") else {
         return;
@@ -52,7 +52,7 @@ suites!(
     test_vehicle,
 );
 
-/// Checks that a test here runs every file of tests.
+/// Checks that each test file of the package is in the list of `suites!`.
 #[test]
 fn every_file_of_tests_is_run() {
     let here = include_str!("suites.rs");

@@ -1,5 +1,5 @@
-//! Regression: MDF4 channels that have no bytes and count their rows restarted at 0 with every part of 16 384 rows. A
-//! time counted like this was rejected as going backwards; any other value was silently wrong.
+//! Regression: virtual MDF4 channels, which store no bytes and count the rows, restarted at 0 after every 16 384 rows.
+//! Such a time was rejected as going backwards; any other value was silently wrong.
 
 use dashpot_recording::{Channel, Channels, Recording};
 

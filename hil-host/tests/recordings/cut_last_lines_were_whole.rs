@@ -7,7 +7,7 @@ use dashpot_recording::{Channels, ForceHistory, Measurement};
 
 use crate::common::{dashpot, json_of, text_of};
 
-/// Line that is reported as incomplete.
+/// Returns the number of the line that is reported as incomplete.
 fn unended(bytes: &[u8]) -> Option<u64> {
     let source = Box::new(Cursor::new(bytes.to_vec()));
     let mut measurement =
@@ -44,30 +44,30 @@ fn an_incomplete_last_line_is_named() {
         // A single row.
         (format!("{header}\n0,0,125"), Some(2)),
         (format!("{header}\ns,m,N\n0,0,125"), Some(3)),
-        // An incomplete line is not a row.
+        // The last line is not a row.
         (format!("{header}\n0,0,1\n1,0,1250.5\n# end\n"), None),
         (format!("{header}\n0,0,1\n1,0,1250.5\n\n\n"), None),
-        // A closing quote or a blank: the number is complete, but nothing shows that the row is.
+        // A closing quote shows that the number is complete, but not that the row is.
         (format!("{header}\n0,0,1\n1,0,\"125\""), Some(3)),
     ];
     for (text, expected) in cases {
         assert_eq!(unended(text.as_bytes()), expected, "{text:?}");
         assert_eq!(unended(&in_gzip(text.as_bytes())), expected, "{text:?}");
         let marked = [b"\xef\xbb\xbf", text.as_bytes()].concat();
-        // Comments start a line.
+        // A comment must start its line, so a text that begins with one gets no mark.
         if !text.starts_with('#') {
             assert_eq!(unended(&marked), expected, "{text:?} with a mark");
             assert_eq!(unended(&in_utf_16(&text)), expected, "{text:?} in UTF-16");
         }
     }
-    // A text longer than the part that is examined first.
+    // This text is longer than the part that is examined first.
     let rows: String = (0..9000).map(|i| format!("{i},0.5,1250.5\n")).collect();
     let text = format!("{header}\n{rows}");
     assert_eq!(unended(text.as_bytes()), None);
     assert_eq!(unended(&text.as_bytes()[..text.len() - 3]), Some(9001));
 }
 
-/// The same for recorded forces, as read by `vehicle --outside`.
+/// `vehicle --outside` reports the incomplete last line of recorded forces in the same way.
 #[test]
 fn recorded_forces_name_an_incomplete_last_line() {
     let folder = tempfile::tempdir().unwrap();

@@ -27,7 +27,7 @@ fn truncated_files_are_refused() {
         for length in (0..whole.len()).step_by(61) {
             match read(&whole[..length], form) {
                 Err(error) => assert!(error.starts_with(form.file), "{error}"),
-                // The missing part may belong to other groups, or to nothing that is needed.
+                // The missing part may belong to other groups or not be needed.
                 Ok(read) => assert_eq!(read, rows, "{} of {length} bytes", form.file),
             }
         }

@@ -1,5 +1,5 @@
 //! Regression: Parquet files of old writers mark a decimal, a date or an unsigned 64-bit integer only with the older
-//! kind of type annotation: 1.23 was read as 123.
+//! kind of type annotation. It was ignored, so 1.23 was read as 123.
 
 use std::path::Path;
 use std::sync::Arc;

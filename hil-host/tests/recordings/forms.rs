@@ -24,12 +24,12 @@ const fn form(file: &'static str, names: [&'static str; 3]) -> Form {
     }
 }
 
-/// The time channel of MDF4 is the group's master channel.
+/// The time channel of MDF4 is the master channel of the group, so it needs no name.
 const MDF: [&str; 3] = ["", "Weg", "Kraft"];
 const OWN: [&str; 3] = [""; 3];
 const GERMAN: [&str; 3] = ["Zeit", "Weg", "Kraft"];
 
-/// Files written by `make.py`, except those that lack values.
+/// The files that `make.py` writes, except those with missing values.
 pub const FORMS: [Form; 26] = [
     form("plain.mf4", MDF),
     form("deflated.mf4", MDF),
@@ -130,13 +130,13 @@ fn every_form_has_the_same_rows() {
     compare(&samples());
 }
 
-/// Number of rows that lack a value: `make.py` marks one in a hundred.
+/// Asserts that rows with a missing value are rejected, or skipped on request; `make.py` marks one row in a hundred.
 pub fn compare_invalid(folder: &Path) {
     let expected = rows(&folder.join("expected.csv"), &Channels::default()).unwrap();
     for (file, names) in [("invalid.mf4", MDF), ("nulls.parquet", OWN)] {
         let path = folder.join(file);
         let mut channels = form(file, names).channels();
-        let error = rows(&path, &channels).expect_err("a value lacks");
+        let error = rows(&path, &channels).expect_err("a value is missing");
         assert_eq!(dashpot_recording::remedy(&error), Some(Remedy::SkipInvalid));
         let error = error.to_string();
         assert!(
@@ -165,7 +165,7 @@ fn rows_that_lack_a_value_are_refused_or_skipped() {
     compare_invalid(&samples());
 }
 
-/// The same contents through a pipe, which cannot be sought.
+/// The same contents are read through a pipe, in which seeking is impossible.
 #[test]
 fn streams_and_compressed_files_are_read_alike() {
     use std::io::Write;

@@ -51,7 +51,8 @@ fn half_floats_of_another_program_are_read() {
     }
 }
 
-/// Every finite half-precision number against its definition: 2^(e - 25) times 1024 + f, or 2^-24 times f if e is 0.
+/// Compares every finite half-precision number with its definition: 2^(e - 25) times 1024 + f, or 2^-24 times f if e is
+/// 0.
 #[test]
 fn every_half_has_its_value() {
     let folder = tempfile::tempdir().unwrap();
@@ -127,12 +128,12 @@ fn other_widths_and_bit_offsets_are_refused() {
         (
             0,
             [23, 1, 8],
-            "numbers up to byte 25 of records that have 24, allowed: numbers within their record",
+            "numbers up to byte 25 of records of 24 bytes, allowed: numbers within their record",
         ),
         (
             4,
             [20, 0, 64],
-            "numbers up to byte 28 of records that have 24, allowed: numbers within their record",
+            "numbers up to byte 28 of records of 24 bytes, allowed: numbers within their record",
         ),
     ];
     for (number, place, expected) in cases {

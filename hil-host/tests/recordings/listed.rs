@@ -22,7 +22,7 @@ fn channels_units_and_times_are_listed() {
     );
     let time = &report["times"][1];
     assert_eq!(time["from_to_s"], serde_json::json!([0.0, 0.059_125]));
-    // Time stamps that are late by multiples of an eighth of a millisecond, up to a half.
+    // The time stamps are late by multiples of an eighth of a millisecond, up to half a millisecond.
     assert!((time["rate_hz"].as_f64().unwrap() - 59.0 / 0.059_125).abs() < 1e-6);
     assert!((time["largest_deviation_s"].as_f64().unwrap() - 5e-4).abs() < 1e-5);
     assert_eq!(time["gaps"]["count"], 0);

@@ -56,7 +56,7 @@ halves = Signal(displacement_mm.astype("<f2"), time_s, "mm", "Weg")
 turned = Signal(displacement_mm.astype(">f2"), time_s, "mm", "geW")
 big_endian = Signal(force_n.astype(">f4"), time_s, "N", "Kraft")
 mdf("halves.mf4", [([halves, turned, big_endian], "Messung")])
-# The tenth sample of every hundred is marked.
+# Samples 10, 110, 210 and so on, counted from 0, are marked as invalid.
 marked = number % 100 == 10
 wrong = np.where(marked, 4.0e3, displacement_mm)
 invalid = Signal(wrong, time_s, "mm", "Weg", invalidation_bits=marked)
@@ -65,7 +65,7 @@ slow = Signal(20.0 + number[::10] / 8, time_s[::10], "degC", "Temperatur")
 other = Signal(displacement_mm[::10], time_s[::10], "mm", "Weg")
 mdf("groups.mf4", [([slow, other], "langsam"), (signals(), "Messung")])
 
-# One data block, and several blocks that end within records.
+# Writes one file with a single data block, and one with several blocks that end within records.
 for name, block_bytes in [("unsorted.mf4", None), ("unsorted_parts.mf4", 333)]:
     unsorted.write(folder / name, time_s, displacement_mm, force_n, block_bytes)
     with MDF(folder / name) as file:

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-/// Channel: type of its values and their position in the record.
+/// A channel: the type of its values and their position in the record.
 pub struct Channel {
     pub name: String,
     /// `cn_type`: 0 a value, 2 the time, 3 a virtual time, 6 a virtual value (both count rows).
@@ -93,7 +93,7 @@ fn block(mark: &[u8; 4], links: &[u64], data: &[u8]) -> Vec<u8> {
     bytes
 }
 
-/// Builds a file with one group with these channels and records, which all have the same length.
+/// Builds a file with one group of these channels and records; all records have the same length.
 pub fn file(channels: &[Channel], records: &[Vec<u8>]) -> Vec<u8> {
     let mut blocks = Blocks(b"MDF     4.10    made    ".to_vec());
     blocks.0.resize(28, 0);
@@ -118,7 +118,7 @@ pub fn file(channels: &[Channel], records: &[Vec<u8>]) -> Vec<u8> {
     blocks.0
 }
 
-/// Writes a file with one group with these channels and records.
+/// Writes a file with one group of these channels and records.
 pub fn write(path: &Path, channels: &[Channel], records: &[Vec<u8>]) {
     std::fs::write(path, file(channels, records)).unwrap();
 }

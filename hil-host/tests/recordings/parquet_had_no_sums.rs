@@ -64,7 +64,7 @@ fn no_changed_byte_of_our_own_files_changes_values() {
     assert!(unchanged < bytes.len(), "{unchanged}");
 }
 
-/// More rows than fit into a row group.
+/// The file has more rows than fit into a row group.
 #[test]
 fn long_files_have_checksums_of_all_rows() {
     let folder = tempfile::tempdir().unwrap();
@@ -106,7 +106,7 @@ fn the_commands_refuse_a_changed_column_and_name_it() {
     }
 }
 
-/// Tables of a vehicle's history, with text and empty cells.
+/// The tables are those of a vehicle's history, with text and empty cells.
 #[test]
 fn tables_have_checksums_of_their_values() {
     let folder = tempfile::tempdir().unwrap();

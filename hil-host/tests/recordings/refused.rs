@@ -1,4 +1,4 @@
-//! Requests that a file does not contain, or that are ambiguous.
+//! Requests for channels that a file does not contain, and ambiguous requests.
 
 use dashpot_recording::{Channel, Channels};
 

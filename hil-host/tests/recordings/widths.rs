@@ -11,7 +11,7 @@ use crate::python::run;
 
 const ROWS: usize = 12;
 
-/// Channel with the raw bits of its values in each row, and the values.
+/// A channel with the raw bits and the value of each row.
 struct Column {
     field: Field,
     raw: Vec<u128>,
@@ -68,7 +68,7 @@ fn columns() -> Vec<Column> {
         }
     }
     for number in 4..6 {
-        // Finite values: one bit of the exponent is cleared.
+        // Clear one bit of the exponent, so that all values are finite.
         add(number, 0, 32, &|random| {
             let bits = random as u32 & !(1 << 26);
             (u128::from(bits), f64::from(f32::from_bits(bits)))

@@ -29,7 +29,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Number of ticks: beyond those at which the envelopes of a page grow and fold, and beyond a window of 5 s of the ride
+/// Number of ticks: enough to enlarge and merge the curves of a page, and to complete a window of 5 s of the ride
 /// indices.
 const TICKS: u64 = 5200;
 

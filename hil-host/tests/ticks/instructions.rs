@@ -7,18 +7,19 @@ use xtask::tools::{VALGRIND, have};
 
 use crate::driven;
 
-/// Number of ticks: beyond those at which the envelopes of a page grow and fold, and beyond a window of 5 s of the ride
+/// Number of ticks: enough to enlarge and merge the curves of a page, and to complete a window of 5 s of the ride
 /// indices.
 const TICKS: u64 = 5200;
 
-/// Windows of counted ticks: around those at which a doubling list grows, at which the curves of a page fold, and at
-/// which a window of 5 s of the ride indices ends.
+/// Middles of the windows of counted ticks: ticks at which a list doubles its capacity, the curves of a page are
+/// merged, or a window of 5 s of the ride indices ends.
 const WINDOWS: [u64; 5] = [512, 1024, 2048, 4096, 5000];
 
-/// Number of counted ticks before each of these ticks, and from it on.
+/// Number of counted ticks before the middle of a window, and from the middle on.
 const AROUND: u64 = 4;
 
-/// Maximum ratio of the count of a tick to the median: flange contact adds patches, and one tick replaces a damper.
+/// Maximum ratio of the count of a tick to the median. Counts differ because flange contact adds patches and one tick
+/// replaces a damper.
 const MAX_OVER_MEDIAN: f64 = 1.5;
 
 /// Environment variable set in the process under Valgrind.
@@ -109,7 +110,7 @@ fn all_ticks_take_about_the_same_number_of_instructions() {
     // The last summary is written when the program ends and contains no ticks.
     let ticks: Vec<u64> = (0..TICKS).filter(|tick| is_counted(*tick)).collect();
     assert_eq!(counts.len(), ticks.len() + 1, "{error}");
-    // The first count after a start lacks the instructions counted before the last stop.
+    // The first count after a start is too small: it lacks the instructions counted before the last stop.
     let (ticks, counts): (Vec<u64>, Vec<u64>) = ticks
         .into_iter()
         .zip(counts)

@@ -1,8 +1,8 @@
 //! Work of the tick thread between two ticks: no allocations, and a constant number of instructions under Valgrind.
 //!
 //! Regression: on a quiet machine, `dashpot vehicle --realtime` was late by 1.4 to 11.7 ms at ticks 512, 1024, 2048 and
-//! 4096, but reported 60 us. The envelopes of its page grew and folded on the tick thread, after the time had been
-//! taken.
+//! 4096, but reported 60 us. The tick thread enlarged and merged the curves of the page after it had taken the time of
+//! the tick.
 
 mod allocations;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
@@ -58,7 +58,7 @@ fn driven(ticks: u64, between: impl FnMut()) {
     assert_eq!(records, ticks);
 }
 
-/// A damper loses its clearance after 200 ticks.
+/// Returns a fault: the clearance of a damper changes to 4 mm after 200 ticks.
 fn fault(case: &Case) -> dashpot_files::case::Fault {
     let (element, damper) = case
         .vehicle

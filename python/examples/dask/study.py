@@ -1,4 +1,4 @@
-# A study on a Dask cluster, here with two processes on this machine; for many machines use
+# A study on a Dask cluster. Here the cluster is two processes on this machine; for several machines, use
 # `Client("tcp://scheduler:8786")`.
 
 from distributed import Client, LocalCluster
@@ -20,5 +20,5 @@ vary = [{ parameter = "vertical.mount.clearance_m", values = [0.0, 1e-3, 2e-3] }
         rows = client.gather(client.map(study.row, range(len(study))))
     for row in rows:
         print(row["vertical.mount.clearance_m"], row["seed"], row["derailment_greatest"])
-    # The same bits as on one machine.
+    # The rows have the same bits as on one machine.
     assert [row["derailment_greatest"] for row in rows] == study.run()["derailment_greatest"].tolist()

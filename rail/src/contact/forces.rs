@@ -117,8 +117,8 @@ impl WheelsetForces {
         accepted
     }
 
-    /// Sets the force and moment of both wheels and their sums; `wrench` has the left wheel's, of its mirror image, and
-    /// the right wheel's.
+    /// Sets the force and moment of both wheels and their sums. `wrench` contains the wrench on the mirror image of the
+    /// left wheel, then that on the right wheel.
     #[inline(always)]
     pub(super) fn set_wrenches(&mut self, wrench: Wrench<[f64; 2]>) {
         let [left_wheel, right_wheel] = &mut self.wheels;
@@ -140,7 +140,7 @@ impl WheelsetForces {
     /// Blends the forces of two profiles where the profiles change along the track: `1 - share` of these forces plus
     /// `share` (0 to 1) of `next`, the forces with the profiles ahead.
     ///
-    /// Patches and creepages are taken from the one with the greater share; the status is the worse of both.
+    /// Patches and creepages are taken from the profile with the greater share; the status is the worse of the two.
     pub fn blended(&self, next: &Self, share: f64) -> Self {
         let mut forces = if share < 0.5 { *self } else { *next };
         let blend = |from: [f64; 3], to: [f64; 3]| {

@@ -21,11 +21,11 @@ pub(super) struct Frame<T> {
     /// Velocity of the centre, m/s, and angular velocity, rad/s.
     pub velocity: [T; 3],
     pub angular_velocity: [T; 3],
-    /// Speed by which creepages are divided, m/s, and its reciprocal.
+    /// Denominator of all creepages, m/s: `hypot` of the speed and [`STANDSTILL_SPEED_M_PER_S`]; and its reciprocal.
     pub reference_speed: T,
     pub per_reference_speed: T,
-    /// 1 when rolling forward, -1 when rolling backward: the contact axes are then rotated by 180 degrees about the
-    /// normal.
+    /// 1 when rolling forward, -1 when rolling backward. When rolling backward, the contact axes are rotated by 180
+    /// degrees about the normal.
     pub direction: f64,
 }
 

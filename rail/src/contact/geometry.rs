@@ -116,7 +116,8 @@ impl ContactGeometry {
         self.patches_of(&wheel, pose.lateral_m, scratch)
     }
 
-    /// Computes [`patches`](ContactGeometry::patches) for a wheel that is already turned, at a lateral shift.
+    /// Computes [`patches`](ContactGeometry::patches) for a wheel that is already rotated by its roll and yaw, at a
+    /// lateral shift.
     pub fn patches_of(
         &self,
         wheel: &TurnedWheel<'_>,

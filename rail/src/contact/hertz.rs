@@ -81,7 +81,7 @@ impl Steel {
     }
 }
 
-/// A Hertzian contact: `load = stiffness penetration^1.5`, `semi-axis = factor sqrt(penetration)`.
+/// A Hertzian contact: `load = stiffness * penetration^1.5`, `semi-axis = factor * sqrt(penetration)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Hertz {
@@ -121,7 +121,7 @@ impl Hertz {
         let k = axis_ratio(rolling.max(across) / rolling.min(across));
         let (first, second) = complete(k);
         let pi = std::f64::consts::PI;
-        // Major semi-axis = major load^(1/3), penetration = depth load^(2/3).
+        // The major semi-axis is `major * load^(1/3)`, the penetration `depth * load^(2/3)`.
         let modulus = steel.contact_modulus_pa();
         let major = (3.0 * second / (2.0 * pi * k * k * modulus * half_sum)).cbrt();
         let depth = 3.0 * first / (2.0 * pi * major * modulus);
@@ -157,8 +157,8 @@ impl Hertz {
     }
 }
 
-/// Minor divided by major semi-axis for a ratio >= 1 of the curvatures, by the secant method on logarithms, starting
-/// from the power law of Hamrock and Brewe (1983).
+/// Minor divided by major semi-axis, computed from the ratio of the curvatures, which is at least 1. The secant method
+/// on logarithms starts from the power law of Hamrock and Brewe (1983).
 fn axis_ratio(ratio: f64) -> f64 {
     if ratio < 1.0 + 1e-9 {
         return 1.0;

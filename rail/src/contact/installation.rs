@@ -86,7 +86,7 @@ impl Installation {
             ("wheel radius", self.wheel_radius_m, 0.1, 1.0),
             ("back-to-back distance", self.back_to_back_m, 0.4, 2.0),
             (
-                "flange back to tread datum",
+                "back of the flange to tread datum",
                 self.back_to_datum_m,
                 0.02,
                 0.15,

@@ -23,7 +23,7 @@ pub(super) fn lay(rail: &Profile, installation: &Installation) -> Option<Profile
     let top = (0..points.len())
         .min_by(|&i, &j| points[i].z_m.total_cmp(&points[j].z_m))
         .unwrap_or(0);
-    // Below its widest point an inclined head curves back, where no wheel can touch it.
+    // Below its widest point, an inclined head curves back, where no wheel can touch it.
     let touchable = |p: &ProfilePoint| p.angle_rad.cos() > 0.01;
     let end = (top..points.len()).find(|&i| !touchable(&points[i]));
     points.truncate(end.unwrap_or(points.len()));

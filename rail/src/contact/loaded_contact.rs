@@ -129,7 +129,7 @@ impl Contact<Tangent> {
     }
 }
 
-/// The reciprocal, or zero without load, if `x` is zero.
+/// The reciprocal of `x`; zero if `x` is zero, as without load.
 fn reciprocal(x: f64) -> f64 {
     if x > 0.0 { 1.0 / x } else { 0.0 }
 }

@@ -24,7 +24,7 @@ impl LoadedZones {
         Self { zones, zone: 0 }
     }
 
-    /// True if another zone carries load.
+    /// True if there is a next zone that carries load.
     #[inline(always)]
     pub fn are_left(&self) -> bool {
         self.zones != 0

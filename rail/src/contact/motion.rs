@@ -12,8 +12,8 @@ pub struct Motion {
     pub speed_m_per_s: f64,
     /// Lateral displacement of the centre, right positive, m.
     pub lateral_m: f64,
-    /// Vertical displacement of the centre, down positive, m. At 0 the tread datum is at the height of the rail's top;
-    /// if the wheels differ, the mean of both is.
+    /// Vertical displacement of the centre, down positive, m. At 0 the tread datum is at the height of the rail's top
+    /// (if the wheels differ, the mean of their datums).
     pub vertical_m: f64,
     /// Roll, right side down positive, rad.
     pub roll_rad: f64,
@@ -25,7 +25,8 @@ pub struct Motion {
     pub vertical_velocity_m_per_s: f64,
     /// Roll rate, rad/s.
     pub roll_rate_rad_per_s: f64,
-    /// Angular velocity about the axle, rolling forward positive, rad/s; speed over rolling radius in free rolling.
+    /// Angular velocity about the axle, rolling forward positive, rad/s; in free rolling, the speed divided by the
+    /// rolling radius.
     pub rotation_rad_per_s: f64,
     /// Yaw rate relative to the ground, rad/s. In a right-hand curve of radius `R` it includes `speed / R`.
     pub yaw_rate_rad_per_s: f64,
@@ -50,7 +51,8 @@ pub struct RailDisplacement {
     pub roll_rate_rad_per_s: f64,
 }
 
-/// Smallest speed by which creepages are divided, m/s; near standstill the creep forces become a viscous drag.
+/// Speed `v0` in the denominator `hypot(speed, v0)` of all creepages, m/s. Near standstill it turns the creep forces
+/// into a viscous drag.
 pub const STANDSTILL_SPEED_M_PER_S: f64 = 0.05;
 
 /// Maximum magnitude of any field, in its unit; its square does not overflow.
@@ -71,7 +73,7 @@ pub const MOTION_FIELDS: usize = 10;
 /// A number with its derivatives with respect to the fields of [`Motion`], padded to three vectors of four.
 pub(super) type Tangent = Dual<12>;
 
-/// The fields of [`Motion`], as vector lanes or with derivatives.
+/// The fields of [`Motion`] in a generic number type: vector lanes, or numbers with derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MotionNumbers<T> {
     pub speed: T,
@@ -89,8 +91,8 @@ pub(super) struct MotionNumbers<T> {
 impl<T> MotionNumbers<T> {
     /// The motion as seen by a right wheel, or by the mirror image of a left wheel.
     ///
-    /// `odd` converts the fields that change sign when mirrored about the track centre, `even` the others. Both get the
-    /// value and the index of the field in [`Motion`].
+    /// `odd` converts the fields that change sign when mirrored about the track centre, `even` the others. Both receive
+    /// the value and the index of the field in [`Motion`].
     #[inline(always)]
     pub fn new(
         motion: &Motion,
@@ -131,7 +133,7 @@ impl Motion {
     }
 }
 
-/// The fields of [`RailDisplacement`], as vector lanes or with derivatives.
+/// The fields of [`RailDisplacement`] in a generic number type: vector lanes, or numbers with derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RailNumbers<T> {
     pub lateral: T,

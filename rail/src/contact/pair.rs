@@ -13,7 +13,7 @@ pub enum PairError {
     Installation(#[from] InstallationError),
     /// The wheel has no flange.
     #[error(
-        "wheel {wheel}: no flange, allowed: a flange with its tip and a face of 50 degrees or more"
+        "wheel {wheel}: no flange, allowed: a profile with a flange tip and a flange face of 50 degrees or more"
     )]
     NoFlange {
         /// Name of the wheel's profile.
@@ -21,8 +21,7 @@ pub enum PairError {
     },
     /// The rail does not reach the depth at which the gauge is measured.
     #[error(
-        "rail {rail}: the gauge side ends above the depth of {:.1} mm at which the gauge is measured; allowed: a \
-         profile that reaches deeper",
+        "rail {rail}: the gauge side must reach below the depth of {:.1} mm at which the gauge is measured",
         .gauge_depth_m * 1e3
     )]
     LowRail {
@@ -49,8 +48,8 @@ pub struct Pair {
 }
 
 /// Contact angle that separates tread and flange. If the flange root is as round as the rail's corner, the contact
-/// jumps within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between, tread and
-/// flange each have one maximum of interpenetration.
+/// angle jumps within one sample from 40 degrees to the 70 degrees of the flange face. With a boundary in between,
+/// tread and flange each have one maximum of interpenetration.
 const FLANGE_ANGLE: f64 = 50.0 * std::f64::consts::PI / 180.0;
 
 impl Pair {
@@ -79,7 +78,8 @@ impl Pair {
         let steepest = (tip..=tread_end)
             .min_by(|&i, &j| points[i].angle_rad.total_cmp(&points[j].angle_rad))
             .map_or(tip, |steepest| {
-                // The innermost point within 0.1 degrees, because contact on a straight face is not yet climbing.
+                // Takes the innermost point within 0.1 degrees of the steepest angle, because a wheel in contact on a
+                // straight flange face does not climb yet.
                 let bound = points[steepest].angle_rad + 1.7e-3;
                 (tip..=steepest)
                     .find(|&i| points[i].angle_rad <= bound)
@@ -141,8 +141,8 @@ impl Pair {
         self.tread_end_m
     }
 
-    /// Position of the steepest point of the flange, m from the tread datum. A wheel in contact at smaller values
-    /// climbs.
+    /// Position of the steepest point of the flange, m from the tread datum. A wheel whose contact lies at a smaller
+    /// value climbs.
     pub fn steepest_flange_m(&self) -> f64 {
         self.steepest_flange_m
     }

@@ -54,17 +54,17 @@ pub struct Patch {
 
 /// Valley depth at which two patches are fully separate, in multiples of the softness.
 const SEPARATION: f64 = 4.0;
-/// Interpenetration assigned to a zone that is nowhere over the rail, m: far out of contact.
+/// Interpenetration of a zone that is nowhere over the rail, m. It lies far out of contact.
 const ABSENT_M: f64 = -0.05;
-/// Weights below `exp` of this are neglected.
+/// Points whose weight is below `exp(MIN_EXPONENT)` are neglected.
 const MIN_EXPONENT: f64 = -20.0;
 
 impl TurnedWheel<'_> {
     /// Computes the patch of each zone at a lateral shift, from the flange to the field side. `scratch` is working
     /// memory and is overwritten.
     ///
-    /// Two summits with a valley of depth `v` between them are merged to the degree `1 - S(v / 4 softness)`, where `S`
-    /// is the smooth step. A fully separate patch carries its own load at its own interpenetration and curvature.
+    /// Two summits with a valley of depth `v` between them are merged to the degree `1 - S(v / (4 * softness))`, where
+    /// `S` is the smooth step. A fully separate patch carries its own load at its own interpenetration and curvature.
     /// Merged patches share one load; its interpenetration and curvature are weighted means over all of them. Sums over
     /// a wheel are therefore continuous where a summit splits or two summits merge.
     pub fn patches(
@@ -214,7 +214,7 @@ struct Summit {
 }
 
 impl Patch {
-    /// A patch whose quantities all have one value, carrying the whole load.
+    /// A patch that carries the whole load and has `value` in every other quantity.
     fn uniform(value: f64) -> Self {
         Self {
             interpenetration_m: value,

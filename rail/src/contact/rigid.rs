@@ -12,7 +12,7 @@ pub struct RigidContact {
     pub lateral_m: f64,
     /// Roll, right side down positive, rad.
     pub roll_rad: f64,
-    /// Depth of the wheelset's centre below its height with the tread datum at the rail's top, m.
+    /// Depth of the wheelset's centre, m; zero at the height at which the tread datum is level with the rail's top.
     pub vertical_m: f64,
     /// Contact points of the left wheel (as its mirror image on the right side) and of the right wheel.
     pub sides: [Patch; 2],

@@ -127,8 +127,8 @@ fn ones(used: [bool; 4]) -> [f64; 4] {
 }
 
 impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
-    /// [`WheelsetContact::update`]: with a loop for any number of patches if `MANY`, else without one for at most two
-    /// patches per wheel. Returns false if there are more.
+    /// Implements [`WheelsetContact::update`]. If `MANY`, a loop handles any number of patches. Otherwise there is no
+    /// loop, and wheels with more than two patches make it return false.
     #[inline(always)]
     pub(super) fn update_side_by_side<const MANY: bool, S: Simd>(
         &self,

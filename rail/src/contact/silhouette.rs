@@ -57,8 +57,7 @@ impl Pair {
     /// Rotates the wheel by `roll_rad` and `yaw_rad`.
     ///
     /// The silhouette is that of the body of revolution, yawed and then rolled about the rail's direction, as seen
-    /// along
-    /// the rail. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind the axle,
+    /// along the rail. A circle of radius `r` and slope `t = dr/ds` touches it `r t tan(yaw)` behind the axle,
     /// `r t tan(yaw) sin(yaw)` inward and `r sqrt(1 - t^2 tan(yaw)^2)` below the axle. This is exact for this order of
     /// rotations.
     pub fn turned(&self, roll_rad: f64, yaw_rad: f64) -> TurnedWheel<'_> {

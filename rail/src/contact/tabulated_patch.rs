@@ -5,19 +5,20 @@ use super::pair::Pair;
 use super::patches::Patch;
 use crate::creep::{KalkerCoefficients, KalkerTable};
 
-/// Minimum transverse curvature of a patch, 1/m. In a closer fit, as in a flange root, the load spreads over the whole
-/// width, which is that of an ellipse of this curvature.
+/// Minimum transverse curvature of a patch, 1/m. Where the surfaces fit more closely, as in a flange root, the load
+/// spreads over the whole width, which equals that of an ellipse with this curvature.
 pub const MIN_CURVATURE_PER_M: f64 = 0.5;
 
-/// Load fraction below which a patch is raised, so that the step need not evaluate it.
+/// Load fraction below which a patch is raised off the rail, so that the step need not evaluate it.
 const LIGHT_FRACTION: f64 = 1e-3;
-/// Height by which such a patch is raised for each factor of e in its load fraction, m.
+/// Amount by which a patch is raised for each factor of `e` by which its load fraction is below [`LIGHT_FRACTION`], m.
 const LIFT_M: f64 = 0.1e-3;
 
 /// Length of a packed [`PatchNumbers`]: three vectors of four.
 pub(super) const NUMBERS: usize = 12;
 
-/// Interpolated quantities of one patch apart from its interpenetration, as numbers, vector lanes or with derivatives.
+/// Interpolated quantities of one patch apart from its interpenetration: scalars, vector lanes, or numbers with
+/// derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct PatchNumbers<T> {
     /// Lateral position on the wheel, m.
@@ -30,7 +31,7 @@ pub struct PatchNumbers<T> {
     pub load_fraction: T,
     /// Hertzian stiffness, N/m^1.5.
     pub stiffness: T,
-    /// Semi-axes over the square root of the penetration, m^0.5.
+    /// Semi-axes divided by the square root of the penetration, m^0.5.
     pub a_factor: T,
     pub b_factor: T,
     pub kalker: KalkerCoefficients<T>,
@@ -111,8 +112,8 @@ pub struct TabulatedPatch {
 }
 
 impl TabulatedPatch {
-    /// Computes the Hertz constants and Kalker coefficients of `patch` on a wheel rolled by `roll`, rad, which is
-    /// subtracted from the contact angle to get that in the wheel's axes.
+    /// Computes the Hertz constants and Kalker coefficients of `patch` on a wheel rolled by `roll`, rad. The contact
+    /// angle in the wheel's axes is that in track axes minus `roll`.
     pub(super) fn new(
         pair: &Pair,
         steel: &Steel,

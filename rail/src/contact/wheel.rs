@@ -109,7 +109,7 @@ pub(super) struct MovingWheel<T> {
     rail: RailNumbers<T>,
     rail_roll: RailRoll<T>,
     lengths: WheelLengths<T>,
-    /// Lateral shift, m, roll and yaw, rad, over the rail.
+    /// Lateral shift, m, and roll and yaw, rad, relative to the rail.
     pub pose: [T; 3],
     /// Depth of the tread datum below the rail's top, m.
     pub depth: T,

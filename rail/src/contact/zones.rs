@@ -8,7 +8,8 @@ pub const ZONES: usize = 4;
 /// Number of cuts within the tread; the boundary between flange and tread is a property of the wheel.
 const CUTS: usize = ZONES - 2;
 
-/// Lateral shifts at which the cuts are determined, m: first shift, spacing and number. Beyond, the cuts are constant.
+/// Lateral shifts at which the cuts are determined, m: first shift, spacing and number. Beyond these shifts, the cuts
+/// are constant.
 const FIRST_SHIFT_M: f64 = -0.025;
 const SHIFT_STEP_M: f64 = 0.2e-3;
 const SHIFTS: usize = 476;
@@ -77,7 +78,7 @@ impl Zones {
     }
 }
 
-/// Interpenetration of the tread over the position on the wheel, for each shift and roll.
+/// Interpenetration of the tread as a function of the position on the wheel, for each shift and roll.
 struct Landscape {
     positions: Vec<f64>,
     /// Indexed by shift, roll and position.

@@ -13,8 +13,8 @@ pub struct CreepDerivatives {
     /// Derivatives with respect to the creepages. Rows: longitudinal force, N, lateral force, N, and moment, N m.
     /// Columns: longitudinal creepage, lateral creepage, and spin, 1/m.
     pub by_creepage: [[f64; 3]; 3],
-    /// Derivatives of the same three with respect to the load, N/N and N m/N; the semi-axes grow as its cube root
-    /// (Hertz).
+    /// Derivatives of the two forces and the moment with respect to the load, N/N and N m/N. The semi-axes grow as the
+    /// cube root of the load (Hertz).
     pub by_load: [f64; 3],
 }
 

@@ -10,14 +10,12 @@ use crate::setters::setters;
 
 /// Kalker's FASTSIM (Vehicle System Dynamics 11, 1982, 1-13).
 ///
-/// The three flexibilities are `L1 = 8a/(3 C11 G)`, `L2 = 8a/(3 C22 G)` and `L3 = pi a sqrt(a/b)/(4 C23 G)`, the
-/// traction
-/// bound is the parabola `2 mu N / (pi a b) (1 - x^2/a^2 - y^2/b^2)`. The tractions are integrated by the midpoint rule
-/// across and along the strips.
+/// The three flexibilities are `L1 = 8a/(3 C11 G)`, `L2 = 8a/(3 C22 G)` and `L3 = pi a sqrt(a/b)/(4 C23 G)`; the
+/// traction bound is the parabola `2 mu N / (pi a b) (1 - x^2/a^2 - y^2/b^2)`. The tractions are integrated by the
+/// midpoint rule across and along the strips.
 ///
 /// The traction of a sliding element opposes the slip, including its elastic part, although `L1 != L2`. The source
-/// instead
-/// scales the sticking traction back to the bound, which would rotate the force of full sliding towards
+/// instead scales the sticking traction back to the bound, which would rotate the force of full sliding towards
 /// `(C11 xi, C22 eta)`. With zero elements or strips there is no force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -29,7 +27,8 @@ pub struct Fastsim {
 }
 
 impl Default for Fastsim {
-    /// 80 elements x 81 strips, within 0.3 % of the friction limit of the result on a mesh four times finer each way.
+    /// 80 elements x 81 strips. A mesh four times finer in both directions changes the result by at most 0.3 % of the
+    /// friction limit.
     fn default() -> Self {
         Self {
             elements: 80,

@@ -174,9 +174,9 @@ pub fn linear_forces(contact: &LoadedContact, creepage: &Creepage) -> CreepForce
     }
 }
 
-/// Limits the force to friction, and the moment to that of full spin under Hertzian pressure (`3 pi / 16 mu N r` for a
-/// circle of radius `r`, here the major semi-axis). Then removes generated power, first from the moment, then from the
-/// force in the sliding direction.
+/// Limits the force to friction, and the moment to that of full spin under Hertzian pressure (`(3 pi / 16) mu N r` for
+/// a circle of radius `r`; here `r` is the major semi-axis). Then removes generated power, first from the moment, then
+/// from the force in the sliding direction.
 #[inline]
 fn passive(contact: &LoadedContact, creepage: &Creepage, mut forces: CreepForces) -> CreepForces {
     let limit = contact.friction * contact.load_n;

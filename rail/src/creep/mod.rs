@@ -12,8 +12,8 @@
 //! With large spin, as on flanges and other steep contacts, the two closed forms are wrong by up to 45 % and 29 % of
 //! the friction limit.
 //!
-//! [`KalkerTable`] provides the coefficients of the linear theory ([`linear_forces`]), [`Friction`] the friction
-//! coefficient as a function of the sliding speed.
+//! [`KalkerTable`] provides the coefficients of the linear theory ([`linear_forces`]). [`Friction`] provides the
+//! friction coefficient as a function of the sliding speed.
 //!
 //! Contact axes: 1 in the rolling direction, 2 along the common tangent to the field side, 3 into the rail. Forces act
 //! on the wheel; creepages are the velocity of the wheel's surface relative to the rail, divided by the speed.

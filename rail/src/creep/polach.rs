@@ -10,13 +10,14 @@ use super::loaded_contact::LoadedContact;
 /// Closed-form saturation with spin (Polach, A Fast Wheel-Rail Forces Calculation Computer Code,
 /// Vehicle System Dynamics Supplement 33, 1999, 728-739).
 ///
-/// `F = 2 mu N / pi (e / (1 + e^2) + atan e)`, `e = G pi a b c s_c / (4 mu N)`, with
-/// `s_c = hypot(xi, eta_c)`, where `eta_c` is the greater in magnitude of `eta` and `eta + phi a`. The lateral force
-/// caused by spin is `9/16 a mu N K (1 + 6.3 (1 - exp(-a/b))) phi / s_c`.
+/// `F = (2 mu N / pi) (e / (1 + e^2) + atan e)`, `e = G pi a b c s_c / (4 mu N)`, with `s_c = hypot(xi, eta_c)`, where
+/// `eta_c` is the greater in magnitude of `eta` and `eta + phi a`. The lateral force caused by spin is
+/// `9/16 a mu N K (1 + 6.3 (1 - exp(-a/b))) phi / s_c`.
 ///
 /// **Not for contacts with spin** (flange, large contact angles). If the spin `phi sqrt(ab)` is half the sliding
-/// creepage, the RMS error of the force is 8 % of the friction limit over the grid of docs/contact.md, at most 20 %. If
-/// it is twice that creepage, the error is 14 % (45 %). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// creepage, the error of the force on the grid of docs/contact.md is 8 % of the friction limit (RMS), and at most 20
+/// %. If the spin is twice that creepage, the RMS error is 14 % and the maximum 45 %. [`KalkerBook`](super::KalkerBook)
+/// has no such limit.
 ///
 /// The source states no moment. Here it is the moment of the linear theory, reduced by the same factor as the force.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -54,7 +55,7 @@ impl CreepLaw for Polach {
         let (linear_x, linear_y) = (kalker.c11 * longitudinal, kalker.c22 * lateral);
         let creepage_square = longitudinal * longitudinal + lateral * lateral;
         let linear_square = linear_x * linear_x + linear_y * linear_y;
-        // In pure spin, the force that `c` scales has no direction.
+        // In pure spin `c` is not needed, because the force that it scales is zero.
         let c = if creepage_square > 0.0 {
             (linear_square / creepage_square).sqrt()
         } else {

@@ -10,8 +10,9 @@ use super::loaded_contact::LoadedContact;
 /// (Shen, Hedrick, Elkins, Vehicle System Dynamics 12, 1983, 79-83).
 ///
 /// **Not for contacts with large spin** (flange, large contact angles). If the spin `phi sqrt(ab)` is half the sliding
-/// creepage, the RMS error of the force is 4 % of the friction limit over the grid of docs/contact.md, at most 8 %. If
-/// it is twice that creepage, the error is 12 % (29 %). [`KalkerBook`](super::KalkerBook) has no such limit.
+/// creepage, the error of the force on the grid of docs/contact.md is 4 % of the friction limit (RMS), and at most 8 %.
+/// If the spin is twice that creepage, the RMS error is 12 % and the maximum 29 %. [`KalkerBook`](super::KalkerBook)
+/// has no such limit.
 ///
 /// The moment is reduced by the same factor, so the dissipation keeps the sign of the linear theory.
 /// In full sliding the force opposes `(C11 xi, C22 eta)`, not the sliding velocity.

@@ -5,7 +5,7 @@ use crate::contact::Pair;
 /// Lateral distance between the contact points for a gauge of 1435 mm (EN 15302), m.
 pub const CONTACT_DISTANCE_M: f64 = 1.5;
 
-/// Errors of the samples of a rolling radius difference function.
+/// Errors in the samples of a rolling radius difference.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RollingRadiusError {
@@ -21,7 +21,8 @@ pub enum RollingRadiusError {
     },
     /// A sample is not finite, or its shift is not evenly spaced.
     #[error(
-        "sample {index}: shift {lateral_m} m, difference {difference_m} m; allowed: finite, shifts rising evenly"
+        "sample {index}: shift {lateral_m} m, difference {difference_m} m; allowed: finite numbers with evenly \
+         rising shifts"
     )]
     Sample {
         /// Index of the sample, from 0.
@@ -33,7 +34,7 @@ pub enum RollingRadiusError {
     },
 }
 
-/// Rolling radius difference over the lateral shift of the wheelset, linear between evenly spaced samples.
+/// Rolling radius difference as a function of the wheelset's lateral shift, linear between evenly spaced samples.
 ///
 /// ```
 /// use dashpot_rail::indices::RollingRadiusDifference;
@@ -184,7 +185,8 @@ impl RollingRadiusDifference {
     }
 
     /// Finds the turning point to the right of `centre` of a motion that turns at `left`. The integral of the
-    /// difference between the two is zero. `None` if it is beyond the samples.
+    /// rolling radius difference from one turning point to the other is zero. `None` if the turning point is beyond the
+    /// samples.
     fn right_turning_point(&self, centre: f64, left: f64) -> Option<f64> {
         let end = self.lateral[self.lateral.len() - 1];
         if self.integral(left, end) <= 0.0 {

@@ -4,7 +4,7 @@ use realfft::num_complex::Complex;
 
 use super::spectrum::{SpectrumError, Transform, check_signal, mean, samples_of_window};
 
-/// Direction of an acceleration across the track.
+/// Direction of a ride acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RideDirection {
     /// Across the track.

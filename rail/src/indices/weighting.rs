@@ -46,7 +46,7 @@ impl Weighting {
     /// Factors of the transfer function.
     pub(super) fn sections(self) -> Vec<Section> {
         let [low, high] = COMFORT_BAND_HZ;
-        // (s + w3)/w3 over the quadratic at f4; the vertical weighting also has a step from f5 to f6.
+        // The weighting is (s + w3)/w3 divided by the quadratic at f4; the vertical one also has a step from f5 to f6.
         let (f3, f4, q4) = match self {
             Self::Vertical => (16.0, 16.0, 0.63),
             Self::Horizontal => (2.0, 2.0, 0.63),

@@ -11,7 +11,7 @@ thread_local! {
 
 /// True if this processor uses fused multiply-add (one rounding for a product and a sum).
 ///
-/// Contact forces are bit-identical on all processors that do, and on all processors that do not.
+/// Contact forces are bit-identical among all processors that use it, and among all processors that do not.
 ///
 /// ```
 /// let fused = dashpot_rail::fuses_multiplication();
@@ -25,8 +25,8 @@ pub fn fuses_multiplication() -> bool {
 
 /// Runs `work` on this thread with the arithmetic of a processor without fused multiply-add.
 ///
-/// Returns `None`, without running `work`, if the instruction set always has it, as on Arm. Objects built by `work`
-/// must not be stepped afterwards.
+/// Returns `None`, without running `work`, if the instruction set always includes fused multiply-add, as on Arm.
+/// Objects built by `work` must not be stepped afterwards.
 ///
 /// ```
 /// let fused = dashpot_rail::without_fused_multiplication(dashpot_rail::fuses_multiplication);

@@ -37,7 +37,7 @@ impl<const N: usize> Dual<N> {
         self.value
     }
 
-    /// The derivatives with respect to the variables.
+    /// The derivative with respect to each variable.
     pub fn derivatives(&self) -> &[f32; N] {
         &self.derivatives
     }

@@ -1,7 +1,7 @@
 //! An always-inlined `map` for arrays.
 
-/// An array `map` that is always inlined. Vector instructions are inlined only into functions compiled for them; those
-/// of the standard library are not.
+/// An array `map` that is always inlined. Vector instructions are inlined only into functions compiled for them, which
+/// those of the standard library are not.
 pub trait Each<T, const N: usize> {
     /// Applies `function` to every element.
     fn each<U: Copy>(self, function: impl FnMut(T) -> U) -> [U; N];

@@ -77,7 +77,7 @@ impl Iteration {
         None
     }
 
-    /// First row of the unreduced block that ends at `last`, above which a subdiagonal entry is negligible.
+    /// First row of the unreduced block that ends at `last`. The subdiagonal entry in front of it is negligible.
     fn start_of_block(&self, last: usize) -> usize {
         let h = &self.h;
         let mut row = last;
@@ -138,7 +138,7 @@ impl Iteration {
                 imaginary: one.im,
             };
         }
-        // Uses the real eigenvalue closer to the last entry twice.
+        // Both shifts are the real eigenvalue that is closer to the last entry.
         let is_nearer = (one.re - two[1][1]).abs() <= (other.re - two[1][1]).abs();
         let real = if is_nearer { one.re } else { other.re };
         Shifts {
@@ -257,7 +257,8 @@ fn eigenvalues_of_two([[a, b], [c, d]]: [[f64; 2]; 2]) -> [Complex<f64>; 2] {
     let found = if square < 0.0 {
         [Complex::new(d + half, root), Complex::new(d + half, -root)]
     } else {
-        // The eigenvalue farther from `d` has no cancellation; the product of both distances is `-b c`.
+        // The eigenvalue farther from `d` is computed without cancellation. The other follows from it, because the
+        // product of their distances from `d` is `-b c`.
         let far = half + root.copysign(half);
         let near = if far == 0.0 { 0.0 } else { -b * c / far };
         [Complex::from(d + far), Complex::from(d + near)]

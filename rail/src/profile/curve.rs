@@ -33,7 +33,7 @@ pub enum CurveError {
         z_m: f64,
     },
     /// The curve is longer than [`MAX_LENGTH_M`].
-    #[error("length of the profile: {length_m} m, allowed: {MAX_LENGTH_M} m")]
+    #[error("length of the profile: {length_m} m, allowed: {MAX_LENGTH_M} m or less")]
     TooLong {
         /// Chord length of the points, m.
         length_m: f64,
@@ -45,7 +45,7 @@ pub enum CurveError {
         smoothing_m: f64,
     },
     /// The smoothed curve folds back.
-    #[error("folded back near y_mm {y_mm:.2} once smoothed: use a shorter smoothing length")]
+    #[error("the smoothed profile folds back near y_mm {y_mm:.2}: use a shorter smoothing length")]
     FoldedBySmoothing {
         /// Lateral position of the fold, mm.
         y_mm: f64,

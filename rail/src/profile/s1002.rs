@@ -72,7 +72,8 @@ pub fn depth_mm(s_mm: f64) -> f64 {
     section_mm(section, s_mm)
 }
 
-/// The profile from the flange back to the field side. It starts 0.05 mm from the back, where the tangent is vertical.
+/// The profile from the back of the flange to the field side. It starts 0.05 mm from the back, because the tangent is
+/// vertical at the back itself.
 pub fn profile() -> Profile {
     let mut points = Vec::new();
     let mut s = -69.95;

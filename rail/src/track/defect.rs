@@ -73,8 +73,9 @@ pub enum Defect {
         /// Length of each rounding, m.
         rounding_m: f64,
     },
-    /// Cross level that rises linearly over `base_m`, stays constant over `plateau_m` and falls over `base_m`, half of
-    /// it on each rail. Each corner is a parabola of the length `rounding_m`. The twist is `cross_level_m / base_m`.
+    /// Cross level that rises linearly over `base_m`, stays constant over `plateau_m` and falls over `base_m`. Each
+    /// rail is displaced by half of it. Each corner is a parabola of the length `rounding_m`. The twist is
+    /// `cross_level_m / base_m`.
     Twist {
         /// First corner, m.
         start_m: f64,
@@ -169,7 +170,8 @@ impl Defect {
 
     /// Checks the bounds of all values.
     pub(super) fn check(&self, place: Place) -> Result<(), TrackError> {
-        // A rounding must not exceed its straight line, of which the roundings at both ends take half each.
+        // A rounding must not be longer than the straight line it joins: the roundings at the two ends of the line each
+        // take up to half of it.
         let rounding = |value: f64, straight_m: f64| {
             within(place, "rounding_m", value, [1e-3, straight_m.max(1e-3)])
         };

@@ -41,19 +41,17 @@ pub enum TrackError {
         allowed: [f64; 2],
     },
     /// The layout has no parts.
-    #[error("layout without parts, allowed: one or more")]
+    #[error("the layout has no parts, allowed: one or more")]
     Empty,
     /// A transition has no straight or circular part on one side.
-    #[error(
-        "{place}: a transition without neighbours, allowed: between two straight or circular parts"
-    )]
+    #[error("{place}: a transition must lie between two straight or circular parts")]
     TransitionAtEnd {
         /// Location of the transition.
         place: Place,
     },
     /// A transition joins parts of the same curvature and cant.
     #[error(
-        "{place}: a transition between parts of the same curvature and cant, allowed: where one of them changes"
+        "{place}: a transition between parts of the same curvature and cant, allowed: parts that differ in one of them"
     )]
     NeedlessTransition {
         /// Location of the transition.
@@ -61,7 +59,7 @@ pub enum TrackError {
     },
     /// The cant is discontinuous between two parts.
     #[error(
-        "{place}: cant_m starts at {after_m}, but the previous part ends at {before_m}, allowed: a transition between"
+        "{place}: cant_m starts at {after_m}, but the previous part ends at {before_m}; put a transition between them"
     )]
     CantJump {
         /// Location of the second part.
@@ -79,7 +77,7 @@ pub enum TrackError {
     },
     /// The irregularity would have too many samples.
     #[error(
-        "{place}: {samples:.0} samples, allowed: {} or fewer: a shorter track or a wider spacing",
+        "{place}: {samples:.0} samples, allowed: {} or fewer; use a shorter track or a wider spacing",
         super::MAX_SAMPLES
     )]
     TooManySamples {

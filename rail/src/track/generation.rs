@@ -75,8 +75,8 @@ impl From<u64> for Seeds {
 ///
 /// The band is divided into equal intervals `dW` of at most 1e-3 rad/m. Each interval contributes a cosine with a
 /// random phase and a random wave number `W` within the interval; its amplitude is `sqrt(2 S(W) dW)` (Shinozuka and Jan
-/// 1972). The sum is Gaussian, has the mean square of the band and is not periodic. The random numbers come from PCG64,
-/// with one seed per channel.
+/// 1972). The sum is Gaussian, has the mean square that the spectrum has in the band, and is not periodic. The random
+/// numbers come from PCG64, with one seed per channel.
 ///
 /// The sum is a function of the distance. Therefore the same spectrum, band and seeds give the same track for every
 /// length, up to the ramp at its end, with the same bits on every machine with IEEE 754 arithmetic. The spacing affects
@@ -172,7 +172,7 @@ impl Generation {
 
     /// Generates the irregularity.
     ///
-    /// A kilometre takes about 30 ms. The time is proportional to the length over the square of the shortest
+    /// A kilometre takes about 30 ms. The time is proportional to the length divided by the square of the shortest
     /// wavelength.
     ///
     /// # Errors

@@ -24,7 +24,7 @@ const ZERO: Node = Node {
     rise_m: [0.0; 4],
 };
 
-/// Deviations of a track from its layout over the distance. They are zero outside [`Irregularity::ends_m`].
+/// Deviations of a track from its layout, as functions of the distance. They are zero outside [`Irregularity::ends_m`].
 ///
 /// [`Generation::irregularity`](super::Generation::irregularity) creates them from a spectrum,
 /// [`measured::parse`](super::measured::parse) from a file. The cost of an evaluation is constant: it finds the node by

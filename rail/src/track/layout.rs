@@ -127,7 +127,7 @@ pub struct Layout {
 }
 
 impl Default for Layout {
-    /// Returns an infinite straight.
+    /// Returns straight track of infinite length.
     fn default() -> Self {
         Self {
             pieces: vec![Piece {
@@ -277,7 +277,7 @@ impl Part {
             radius_m, cant_m, ..
         } = *self
         {
-            within(place, "radius_m without its sign", radius_m.abs(), RADIUS_M)?;
+            within(place, "magnitude of radius_m", radius_m.abs(), RADIUS_M)?;
             let outer_up = [CANT_M[0], CANT_M[1]];
             let allowed = if radius_m > 0.0 {
                 outer_up

@@ -45,7 +45,7 @@ impl Density {
 /// - vertical `Av Wc^2 / ((W^2 + Wr^2) (W^2 + Wc^2))`, lateral the same with `Aa`;
 /// - gauge `Ag Wc^2 W^2 / ((W^2 + Wr^2) (W^2 + Wc^2) (W^2 + Ws^2))`;
 /// - cross level the same with `Av`, times `(2 b)^2 / b^2 = 4`, because the published density is that of the angle,
-///   which is the cross level over `2 b`.
+///   which is the cross level divided by `2 b`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Spectrum {
@@ -61,11 +61,11 @@ pub struct Spectrum {
 
 /// Parameters of a class of American track.
 struct FraClass {
-    /// `Av`, cm^2 rad/m.
+    /// Roughness constant `Av` of the vertical profile, cm^2 rad/m.
     vertical: f64,
-    /// `Aa`, cm^2 rad/m.
+    /// Roughness constant `Aa` of the alignment, cm^2 rad/m.
     lateral: f64,
-    /// `Ws`, rad/m.
+    /// Corner wave number `Ws`, rad/m.
     corner: f64,
 }
 
@@ -88,11 +88,11 @@ const FRA: [FraClass; 6] = [
     FraClass::new(0.2095, 0.0762, 0.8209),
     FraClass::new(0.0339, 0.0339, 0.4380),
 ];
-/// `Wc` of the American spectra, rad/m.
+/// Corner wave number `Wc` of the American spectra, rad/m.
 const FRA_CORNER: f64 = 0.8245;
-/// `k` of the American spectra.
+/// Factor `k` of the American spectra.
 const FRA_FACTOR: f64 = 0.25;
-/// `Wr`, `Wc` and `Ws` of the German spectra, rad/m.
+/// Corner wave numbers `Wr`, `Wc` and `Ws` of the German spectra, rad/m.
 const GERMAN_CORNERS: [f64; 3] = [0.0206, 0.8246, 0.4380];
 
 impl Spectrum {
@@ -149,7 +149,7 @@ impl Spectrum {
         Self::german(1.08e-6, 6.125e-7, 1.032e-7)
     }
 
-    /// German spectrum with `Av`, `Aa` and `Ag` in m^2 rad/m.
+    /// German spectrum with the roughness constants `Av`, `Aa` and `Ag` in m^2 rad/m.
     fn german(vertical: f64, lateral: f64, gauge: f64) -> Self {
         let [wr, wc, ws] = GERMAN_CORNERS;
         let density = |roughness: f64, corners_rad_per_m| Density {

@@ -128,7 +128,7 @@ pub enum Law {
         parameters: Box<DamperParameters>,
     },
     /// A two-sided stop: no force within a gap, linear between points, and extrapolated beyond the last point. Both
-    /// ends are at the same point. In the linear equations it is open.
+    /// ends are at the same point. In the linear equations it exerts no force.
     BumpStop {
         /// Direction of the axis.
         direction: Direction,
@@ -234,7 +234,7 @@ fn check_stop(points: &[[f64; 2]]) -> Result<(), &'static str> {
         return Err("displacements in m and forces in N, each from 0 to 1e8");
     }
     if points[0][1] != 0.0 {
-        return Err("a force of 0 at the first displacement, which is the gap");
+        return Err("a first point with the gap as its displacement and a force of 0");
     }
     let rises = |pair: &[[f64; 2]]| pair[1][0] - pair[0][0] >= 1e-6 && pair[1][1] >= pair[0][1];
     if !points.windows(2).all(rises) {

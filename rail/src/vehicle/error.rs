@@ -69,7 +69,7 @@ pub enum VehicleError {
         source: Box<dashpot_core::BuildError>,
     },
     /// The points of a stop are invalid.
-    #[error("{element}: points of a stop: allowed: {reason}")]
+    #[error("{element}: points of a stop, allowed: {reason}")]
     Stop {
         /// Name of the element.
         element: String,
@@ -82,14 +82,14 @@ pub enum VehicleError {
     /// The vehicle has no wheelsets.
     #[error("no wheelset: a running vehicle needs at least one")]
     NoWheelset,
-    /// The step is too long: the load makes the equations of a step indefinite.
+    /// The step is too long: the geometric stiffness due to the load makes the equations of a step indefinite.
     #[error("step_s = {step_s}: too long for this vehicle; use a shorter step")]
     StepTooLong {
         /// Step, s.
         step_s: f64,
     },
     /// The index of a damper is out of range.
-    #[error("damper {damper}: the vehicle has {dampers}, counted from 0")]
+    #[error("damper {damper}: the vehicle has {dampers} dampers, counted from 0")]
     NoSuchDamper {
         /// Index, from 0.
         damper: usize,
@@ -133,7 +133,7 @@ pub enum VehicleError {
     )]
     NoModes,
     /// No element holds a body in one of its coordinates.
-    #[error("{body}: not held in {coordinate}; add an element that holds it")]
+    #[error("{body}: free to move in {coordinate}; add an element that constrains it")]
     NotHeld {
         /// Name of the body.
         body: String,

@@ -36,11 +36,12 @@ pub(super) struct Attachment {
     pub body: Option<usize>,
     /// Position from the body's centre, m.
     pub from_centre: Vector3<f64>,
-    /// True in an axlebox, which does not follow the body's pitch: that is the spin of the wheelset.
+    /// True if the end is on an axlebox, which does not follow the pitch of its body: the pitch of a wheelset is its
+    /// spin.
     pub is_axlebox: bool,
 }
 
-/// Velocity amplitude of the secant that gives a damper's small-motion damping, m/s.
+/// Velocity amplitude at which the secant of a damper's characteristic gives its damping in small motion, m/s.
 const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
 /// Damping and series stiffness of a damper in small motion with its clearance taken up: the secant of its

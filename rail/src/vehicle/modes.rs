@@ -26,7 +26,7 @@ struct Share {
     moves_with_first: bool,
 }
 
-/// A body is named beside the first if its share of the energy exceeds this fraction of the first body's.
+/// A second body is named if its share of the energy exceeds this fraction of the first body's share.
 const NAMED: f64 = 0.25;
 
 impl Mode {
@@ -36,7 +36,8 @@ impl Mode {
         self.eigenvalue
     }
 
-    /// Returns the magnitude of the eigenvalue over `2 pi`, Hz: the undamped frequency of a single-mass oscillator.
+    /// Returns the magnitude of the eigenvalue divided by `2 pi`, Hz: the undamped frequency of a single-mass
+    /// oscillator.
     pub fn undamped_hz(&self) -> f64 {
         let [real, imaginary] = self.eigenvalue;
         real.hypot(imaginary) / (2.0 * std::f64::consts::PI)
@@ -134,7 +135,7 @@ pub(super) fn oscillating(linear: &Linear, bodies: &[Body]) -> Result<Vec<Mode>,
 /// get different eigenvectors.
 fn shape(matrix: &DMatrix<f64>, value: Complex<f64>, number: usize) -> DVector<Complex<f64>> {
     let size = matrix.nrows();
-    // Slightly off the eigenvalue, where the matrix would be singular.
+    // Slightly off the eigenvalue, at which the matrix would be singular.
     let shift = value * (1.0 + 1e-7);
     let shifted = DMatrix::from_fn(size, size, |i, j| {
         Complex::from(matrix[(i, j)]) - if i == j { shift } else { Complex::from(0.0) }

@@ -12,16 +12,16 @@ use crate::contact::{
 };
 use crate::creep::CreepLaw;
 
-/// A vehicle that runs on straight track at constant speed, linearised about its central position: the contact forces
-/// by their derivatives, the wheelsets with their gyroscopic moments.
+/// A vehicle that runs on straight track at constant speed, linearised about its central position. The derivatives of
+/// the contact forces and the gyroscopic moments of the wheelsets are included.
 #[derive(Debug, Clone)]
 pub struct Running {
     bodies: Vec<Body>,
     linear: Linear,
 }
 
-/// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only by
-/// its rate.
+/// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only
+/// through its rate.
 const DISPLACEMENT_FIELDS: [Option<usize>; COORDINATES.len()] =
     [Some(1), Some(2), Some(3), None, Some(4)];
 

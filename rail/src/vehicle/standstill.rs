@@ -157,7 +157,7 @@ fn index_of(bodies: &[Body], end: &End) -> Option<usize> {
 pub(super) type AttachedEnds = ([Attachment; 2], Vector3<f64>);
 
 /// Attaches the ends of all elements. Wheelsets are fixed, or they are moving bodies with indices after those of the
-/// others.
+/// other bodies.
 pub(super) fn attach(
     vehicle: &VehicleParameters,
     wheelsets_move: bool,
@@ -216,7 +216,8 @@ fn check_names(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     Ok(())
 }
 
-/// Checks that the lowest natural frequency without preload is that of held bodies.
+/// Checks that elements hold every body: without preload, the lowest natural frequency is at least
+/// [`MIN_FREQUENCY_HZ`].
 fn check_held(linear: &Linear, bodies: &[Body]) -> Result<(), VehicleError> {
     let root = linear.inertia.map(|inertia| 1.0 / inertia.sqrt());
     let scaled = linear.stiffness.component_mul(&(&root * root.transpose()));

@@ -25,7 +25,8 @@ fn a_shifted_cone_oscillates_about_its_own_equilibrium() {
 
 #[test]
 fn a_step_has_the_wavelength_of_constant_acceleration() {
-    // Constant difference c on either side: quarter wave sqrt(2 A e r / c), so tan g = pi^2 c / (16 A).
+    // With a constant difference c on either side, a quarter of the wavelength is sqrt(2 A e r / c), so tan g = pi^2 c
+    // / (16 A).
     let c = 0.4e-3;
     let step = RollingRadiusDifference::from_fn(10e-3, 20_000, |y| c * y.signum()).unwrap();
     for amplitude in [1e-3, 4e-3] {
@@ -40,7 +41,8 @@ fn a_step_has_the_wavelength_of_constant_acceleration() {
 
 #[test]
 fn a_cubic_has_the_period_of_its_oscillator() {
-    // y'' = -k y^3 from amplitude A: quarter wave 1.854074677 / (A sqrt k), from the lemniscate integral.
+    // For y'' = -k y^3 with the amplitude A, a quarter of the wavelength is 1.854074677 / (A sqrt k), from the
+    // lemniscate integral.
     let k3 = 2000.0;
     let cubic = RollingRadiusDifference::from_fn(10e-3, 4000, |y| k3 * y.powi(3)).unwrap();
     let amplitude = 5e-3;
@@ -87,7 +89,7 @@ fn the_standard_pair_has_the_known_conicity_and_wavelength() {
             "{amplitude}: {conicity} {expected}"
         );
     }
-    // The right and the left wheel are equal.
+    // The wheels are equal, so the difference is an odd function of the shift.
     for i in 0..=800 {
         let (a, b) = (rolling.difference_m()[i], rolling.difference_m()[1600 - i]);
         assert!((a + b).abs() < 1e-6, "{a} {b}");

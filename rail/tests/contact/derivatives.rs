@@ -25,8 +25,8 @@ fn field(motion: &mut Motion, index: usize) -> (&mut f64, f64) {
     }
 }
 
-/// Maximum distance of the derivatives from the interval between the one-sided differences (which differ at the edge of
-/// a cell), relative to the maximum derivative with respect to the same field.
+/// Maximum error of the derivatives, relative to the maximum derivative with respect to the same field. The error is
+/// the distance from the interval between the two one-sided differences, which differ at the edge of a cell.
 fn worst<L: CreepLaw, S: PatchSource>(
     contact: &WheelsetContact<L, S>,
     motion: &Motion,

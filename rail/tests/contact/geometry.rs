@@ -141,7 +141,7 @@ fn the_rigid_search_agrees_with_the_dense_search() {
         let found = pair.deepest(&pose, &mut scratch);
         let off = (found.interpenetration_m - depth).abs();
         worst = worst.max(off);
-        // On a steep face, a lateral error changes the height 2.7-fold.
+        // On a steep face, a lateral error changes the height by 2.7 times as much.
         assert!(
             off < 0.3e-6,
             "{pose:?}: {} for {depth}, s {} for {s}",

@@ -149,8 +149,8 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
 
 fn measured() -> String {
     let mut text = String::from(
-        "| law | curve: greatest | no spin: RMS / greatest | spin 0.5: RMS / greatest | spin 1: RMS / greatest \
-         | spin 2: RMS / greatest |\n\
+        "| law | curve: maximum | no spin: RMS / maximum | spin 0.5: RMS / maximum | spin 1: RMS / maximum \
+         | spin 2: RMS / maximum |\n\
          |---|---|---|---|---|---|\n",
     );
     for (name, law) in laws() {
@@ -164,7 +164,10 @@ fn measured() -> String {
         }
         text.push_str("|\n");
     }
-    text.push_str("\n| law, from the book | treads (3 mm, 2 mrad) | flange (6.4 mm, 6 mrad) |\n|---|---|---|\n");
+    text.push_str(
+        "\n| law, difference from the book | treads (3 mm, 2 mrad) | flange (6.4 mm, 6 mrad) |\n\
+         |---|---|---|\n",
+    );
     let book = on_a_wheelset(KalkerBook::new());
     for (name, forces) in [
         ("FASTSIM 80 x 81", on_a_wheelset(Fastsim::default())),
@@ -179,7 +182,9 @@ fn measured() -> String {
         });
         let _ = writeln!(text, "| {name} | {tread:.1} % | {flange:.1} % |");
     }
-    text.push_str("\n| read from the tables | RMS error | greatest error |\n|---|---|---|\n");
+    text.push_str(
+        "\n| quantity read from the tables | RMS error | maximum error |\n|---|---|---|\n",
+    );
     for (name, rms, worst) in table_errors() {
         let _ = writeln!(text, "| {name} | {rms:.2} | {worst:.1} |");
     }
@@ -201,7 +206,7 @@ fn the_document_states_the_measured_errors() {
     assert_eq!(
         &document[begin..end],
         block,
-        "run with DASHPOT_BLESS=1 to restate it"
+        "run with DASHPOT_BLESS=1 to update it"
     );
 }
 

@@ -177,7 +177,7 @@ fn a_wrong_kalker_table_is_rejected_with_line_and_column() {
     }
     assert_eq!(
         message(""),
-        "0 rows, allowed: three for each a_over_b, of which there are three or more"
+        "0 rows, allowed: three for each a_over_b, with three or more values of a_over_b"
     );
     for poisson_ratio in [-0.01, 0.51, f64::NAN] {
         let error = KalkerTable::new(poisson_ratio).unwrap_err();

@@ -5,8 +5,8 @@ use dashpot_rail::profile::{CurveError, Profile, s1002, uic60};
 
 #[test]
 fn s1002_sections_join() {
-    // The other joints are given to nine decimals and meet within a tenth of a nanometre.
-    // The rounding of section C's ten-digit coefficients adds up to 7e-5 mm at -26 and 2.1e-4 mm at -35.
+    // The rounding of section C's ten-digit coefficients adds up to 7e-5 mm at -26 and 2.1e-4 mm at -35. The other
+    // joints are given to nine decimals and meet within a tenth of a nanometre.
     let rounding = |joint: f64| match joint {
         -26.0 => 7e-5,
         -35.0 => 2.1e-4,
@@ -56,7 +56,8 @@ fn splines_follow_the_definitions_with_their_curvatures() {
     for i in -6900..6000 {
         let s = f64::from(i) * 0.01;
         let off = wheel.at(s * 1e-3).z_m * 1e3 - s1002::depth_mm(s);
-        // The error of linear interpolation between samples 0.1 mm apart is h^2 / 8 R, more on the steep flange back.
+        // The error of linear interpolation between samples 0.1 mm apart is h^2 / 8 R, more on the steep back of the
+        // flange.
         assert!(off.abs() < 2e-3, "{s}: {off} mm");
     }
     for sample in wheel.points() {

@@ -1,5 +1,5 @@
-//! Regression: in pure spin, as of a freely rolling centred wheel, the derivatives of the book of tables were rounding
-//! errors divided by almost zero, up to 1e30 N.
+//! Regression: in pure spin, which a freely rolling centred wheel has, the derivatives from Kalker's book of tables
+//! were rounding errors divided by almost zero, up to 1e30 N.
 
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 

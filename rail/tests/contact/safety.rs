@@ -125,7 +125,8 @@ fn power_is_taken<L: CreepLaw>(
             );
             friction_power += patch.dissipation_w;
             if patch.load_n > 0.0 {
-                // Normal force times the velocity of its point, independently in track axes.
+                // Power of the normal force: the force times the velocity of its point, computed independently in track
+                // axes.
                 let mirror = if side == 0 { -1.0 } else { 1.0 };
                 let normal = [
                     0.0,
@@ -150,7 +151,7 @@ fn power_is_taken<L: CreepLaw>(
             }
         }
     }
-    // Power of the resultants on the moving body, which must be equal.
+    // Power of the resultant force and moment on the moving wheelset, which must equal that of the patches.
     let (sr, cr) = motion.roll_rad.sin_cos();
     let (sy, cy) = motion.yaw_rad.sin_cos();
     let turn = [

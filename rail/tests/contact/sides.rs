@@ -60,7 +60,7 @@ fn rolling_a_rail_changes_its_inclination() {
     let roll = f64::atan(steeper) - 0.025_f64.atan();
     let laid = |inclination| of(Installation::default().with_inclination(inclination));
     let (upright, inclined) = (laid(0.025), laid(steeper));
-    // Middle of the head from its tangent; the rail rolls about its top.
+    // Finds the middle of the head, where the tangent has the inclination. The rail rolls about its top.
     let middle = |rail: &Profile, inclination: f64| {
         let points = rail.points();
         let i = points.partition_point(|p| p.angle_rad < -inclination.atan());

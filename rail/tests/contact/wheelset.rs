@@ -100,7 +100,8 @@ impl CreepLaw for Linear {
 
 #[test]
 fn small_creepages_give_kalker_s_forces_on_the_whole_wheelset() {
-    // Both wheels rotate 0.002 % too fast: twice G a b C11 xi, with the ellipse of the patch.
+    // If both wheels rotate faster by xi = 2e-6, the force changes by twice G a b C11 xi, with the ellipse of the
+    // patch.
     let contact = polach();
     let slow = at_height_under_load(contact, &rolling(20.0), 206e3);
     let radius = single_patch(&contact.forces(&slow, &LEVEL).wheels[1]).rolling_radius_m;
@@ -119,7 +120,7 @@ fn small_creepages_give_kalker_s_forces_on_the_whole_wheelset() {
     let expected =
         2.0 * 80.769_230_769e9 * patch.semi_axes_m[0] * patch.semi_axes_m[1] * k.c11 * 2e-6;
     let pull = more.force_n[0] - less.force_n[0];
-    // In Polach's law, spin reduces the adhesion even here.
+    // In Polach's law, the spin reduces the adhesion even at this small creepage.
     assert!((pull / expected - 1.0).abs() < 0.25, "{pull} {expected}");
     let linear = WheelsetContact::new(tables(), Linear, Friction::default()).unwrap();
     let of_linear = |ratio: f64| {

@@ -109,7 +109,7 @@ fn miniprof_files_say_what_is_wrong_where_and_what_is_allowed() {
         (
             "no X",
             good.replace("ColumnDef=X,Y", "ColumnDef=A,Y"),
-            &[":8: ColumnDef = A,Y, allowed: names of columns with X and Y"],
+            &[":8: ColumnDef = A,Y, allowed: column names that include X and Y"],
         ),
         (
             "points",
@@ -122,7 +122,7 @@ fn miniprof_files_say_what_is_wrong_where_and_what_is_allowed() {
                 .take(150)
                 .map(|line| format!("{line}\n"))
                 .collect(),
-            &["cut short: 136 points, allowed: ", "XYPoints"],
+            &["cut short: 136 points, but XYPoints states "],
         ),
         (
             "cut within a row",
@@ -184,8 +184,8 @@ fn simpack_files_say_what_is_wrong_where_and_what_is_allowed() {
             "cut short",
             good[..good.rfind("  point.end").unwrap()].to_owned(),
             &[
-                "cut short: no section point that ends",
-                "point.begin to point.end",
+                "cut short: no complete section `point`",
+                "rows y z between point.begin and point.end",
             ],
         ),
         (

@@ -5,7 +5,7 @@ use dashpot_rail::profile::{Body, Profile, s1002, uic60};
 
 use crate::common::{EXACT, RAILS, WHEELS};
 
-/// Side of the track centre of `uic60.rail`.
+/// Options for `uic60.rail`, in which `y` points to the track centre.
 const GENSYS_RAIL: Options = EXACT.with_mirror(Some(Mirror::Y));
 
 fn read_rail(name: &str, text: &str) -> (Profile, Reading) {

@@ -29,10 +29,7 @@ fn points_beyond_the_widest_point_of_a_rail_are_removed() {
     assert_eq!(whole.points(), expected.points());
     assert_eq!((reading.points, reading.overhanging), (rows.len(), 12));
     let summary = reading.to_string();
-    let part = format!(
-        "12 of {} points beyond the widest point left out",
-        rows.len()
-    );
+    let part = format!("12 of {} points removed at the ends", rows.len());
     assert!(summary.contains(&part), "{summary}");
     rows.reverse();
     assert_eq!(rail(&text(&rows)).unwrap().0.points(), expected.points());

@@ -121,8 +121,8 @@ fn a_twist_raises_the_left_rail_and_lowers_the_right_one() {
     }
 }
 
-/// Between neighbouring samples the deviation changes by the mean slope times the step. No gap remains in which it
-/// could jump.
+/// Between neighbouring samples the deviation changes by the mean slope times the step. It therefore cannot jump
+/// between them.
 #[test]
 fn deviations_are_continuous_everywhere() {
     let step_m = 1e-3;

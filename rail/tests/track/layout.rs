@@ -162,7 +162,7 @@ fn errors_of_layouts_state_location_value_and_bounds() {
         cant_m,
     };
     let cases: [(&[Part], &str); 12] = [
-        (&[], "layout without parts, allowed: one or more"),
+        (&[], "the layout has no parts, allowed: one or more"),
         (
             &[STRAIGHT, Part::Straight { length_m: -1.0 }],
             "part 2 of the layout: length_m -1, allowed: 0.1 to 1000000",
@@ -173,13 +173,10 @@ fn errors_of_layouts_state_location_value_and_bounds() {
         ),
         (
             &[STRAIGHT, circular(0.0, 0.0)],
-            "part 2 of the layout: radius_m without its sign 0, allowed: 50 to 1000000",
+            "part 2 of the layout: magnitude of radius_m 0, allowed: 50 to 1000000",
         ),
-        (&[circular(-49.0, 0.0)], "radius_m without its sign 49"),
-        (
-            &[circular(f64::INFINITY, 0.0)],
-            "radius_m without its sign inf",
-        ),
+        (&[circular(-49.0, 0.0)], "magnitude of radius_m 49"),
+        (&[circular(f64::INFINITY, 0.0)], "magnitude of radius_m inf"),
         (
             &[circular(300.0, 0.31)],
             "cant_m (left rail above right rail) 0.31, allowed: -0.1 to 0.3",
@@ -190,15 +187,15 @@ fn errors_of_layouts_state_location_value_and_bounds() {
         ),
         (
             &[STRAIGHT, RIGHT],
-            "part 2 of the layout: cant_m starts at 0.15, but the previous part ends at 0, allowed: a transition",
+            "part 2 of the layout: cant_m starts at 0.15, but the previous part ends at 0; put a transition",
         ),
         (
             &[STRAIGHT, TRANSITION],
-            "part 2 of the layout: a transition without neighbours, allowed: between two",
+            "part 2 of the layout: a transition must lie between two straight",
         ),
         (
             &[STRAIGHT, TRANSITION, TRANSITION, RIGHT],
-            "part 2 of the layout: a transition without neighbours",
+            "part 2 of the layout: a transition must lie between two straight",
         ),
         (
             &[RIGHT, TRANSITION, RIGHT],

@@ -111,12 +111,12 @@ fn errors_of_files_state_line_column_and_bounds() {
         ),
         (
             with_header("distance_m,vertical_m,lateral_m,level_m,gauge_m"),
-            ":1: column \"level_m\", allowed: distance_m, vertical, lateral, cross_level, gauge, each of the four \
-             with _m or _mm",
+            ":1: unknown column \"level_m\", allowed: distance_m, and vertical, lateral, cross_level and gauge, each \
+             with _m or _mm, separated by commas",
         ),
         (
             good.replace(',', ";"),
-            ":1: column \"distance_m;vertical_m;lateral_m;cross_level_m;gauge_m\", allowed: distance_m, vertical",
+            ":1: unknown column \"distance_m;vertical_m;lateral_m;cross_level_m;gauge_m\", allowed: distance_m, and",
         ),
         (
             with_header("distance_m,vertical_m,lateral_m,vertical_mm,gauge_m"),
@@ -149,7 +149,7 @@ fn errors_of_files_state_line_column_and_bounds() {
         ),
         (
             good.replace("\n25,", "\n24.75,"),
-            ":102: column distance_m: 0 m after the previous row, allowed: 0.01 to 5 m, rising",
+            ":102: column distance_m: 0 m after the previous row, allowed: rising distances, 0.01 to 5 m apart",
         ),
         (
             good.replace("\n25,", "\n20,"),
@@ -157,7 +157,7 @@ fn errors_of_files_state_line_column_and_bounds() {
         ),
         (
             good.replace("\n100,", "\n105,"),
-            ":402: column distance_m: 5.25 m after the previous row, allowed: 0.01 to 5 m",
+            ":402: column distance_m: 5.25 m after the previous row, allowed: rising distances, 0.01 to 5 m",
         ),
         (
             good.lines()

@@ -162,7 +162,7 @@ fn welch(values: &[f64], waves: Range<usize>) -> Vec<f64> {
 
 #[test]
 fn generated_track_has_the_spectrum_of_the_formula() {
-    // Wavelengths of 512 m divided by these numbers: 39 m to 3.01 m, in six bands.
+    // Edges of six bands, in waves per 512 m: wavelengths from 39 m to 3.01 m.
     let edges = [13, 19, 28, 44, 70, 110, 170];
     let last = edges.len() - 1;
     for Realisations { row, deviations_m } in &*REALISATIONS {

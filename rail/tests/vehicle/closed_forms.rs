@@ -104,9 +104,9 @@ fn a_body_above_its_springs_sways_as_an_inverted_pendulum() {
     let (mass, stiffness, height, y) = (30e3, 1e6, 1.2, 1.0);
     let elements = four_springs(None, "body", [5.0, y, 1.5 - height], stiffness, 0.0);
     let modes = modes(&vehicle(vec![body("body", mass, 1.5)], elements));
-    // The axes of the springs turn by half the roll, so their load m g along z has the lateral component m g roll/2. It
-    // also takes back half of the moment of the load on its displaced end: [m 0; 0 I] q'' + [k, -k h - w/2; -k h - w/2,
-    // k (y^2 + h^2)] q = 0, with w = m g and the height h above the springs.
+    // The axes of the springs turn by half the roll, so their load m g along z has the lateral component m g roll/2.
+    // This component also cancels half of the moment of the load on its displaced end: [m 0; 0 I] q'' + [k, -k h - w/2;
+    // -k h - w/2, k (y^2 + h^2)] q = 0, with w = m g and the height h above the springs.
     let k = 4.0 * stiffness;
     let inertia = 0.8 * mass;
     let (a, b) = (k / mass, k * (y * y + height * height) / inertia);
@@ -215,7 +215,8 @@ fn an_anti_roll_bar_and_a_traction_rod_add_their_stiffness() {
         );
     };
     added(&bar, 3e6 / (0.8 * 30e3));
-    // A rod along the track, 1 m beside the centre of gravity, resists yaw with its squared lever arm.
+    // A rod along the track, 1 m beside the centre of gravity: its yaw stiffness is its stiffness times the squared
+    // lever arm.
     let rod = modes_with(Some(Element::new(
         "rod",
         [

@@ -39,7 +39,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
     assert!(Standstill::new(&vehicle()).is_ok());
     let cases: [(&str, Change); 14] = [
         (
-            "left: points of a stop: allowed: displacements rising by at least 1e-6 m, and forces that do not decrease",
+            "left: points of a stop, allowed: displacements rising by at least 1e-6 m, and forces that do not decrease",
             |v| {
                 v.elements[0].law = Law::BumpStop {
                     direction: Direction::Lateral,
@@ -107,7 +107,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
             v.bodies.clear()
         }),
         (
-            "body: not held in pitch; add an element that holds it",
+            "body: free to move in pitch; add an element that constrains it",
             |v| {
                 // All springs in the middle.
                 for element in &mut v.elements {

@@ -70,7 +70,7 @@ fn a_wheelset_pushed_over_the_rail_meets_nadals_limit() {
     let mut max = 0.0_f64;
     let mut climbed = false;
     for tick in 0..60_000 {
-        // Toward the outer rail, at a quasi-static rate of 5 kN/s.
+        // Pushes toward the outer rail, at a quasi-static rate of 5 kN/s.
         let force_n = 5.0 * f64::from(tick);
         state.set_outside_force_n(0, Some(force_n)).unwrap();
         vehicle.step(&mut state, &track);

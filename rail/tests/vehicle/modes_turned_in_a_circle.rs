@@ -1,5 +1,5 @@
-//! The eigenvalue iteration had no exceptional shifts: at some speeds of an ordinary wheelset it cycled, and the modes
-//! were rejected as "too far apart".
+//! Regression: the eigenvalue iteration had no exceptional shifts. At some speeds of an ordinary wheelset it cycled,
+//! and the modes were rejected because the values were "too far apart".
 
 use dashpot_rail::vehicle::Running;
 

@@ -27,7 +27,7 @@ pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     Arc::new(contact.with_normal_damping(normal_damping_s_per_m).unwrap())
 }
 
-/// A wheelset that no element connects with the bodies above it: a vehicle needs at least one to step.
+/// A wheelset that no element connects with the bodies above it, because a vehicle needs at least one wheelset to step.
 pub fn free_wheelset() -> Wheelset {
     Wheelset::new("wheelset", 20e3, [2e3, 500.0, 2e3], 0.625)
 }

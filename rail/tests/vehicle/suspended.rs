@@ -17,7 +17,7 @@ fn suspended(elements: Vec<Element>) -> VehicleParameters {
         .with_elements(elements)
 }
 
-/// Vertical displacement of the body after each tick, released 10 mm above its equilibrium.
+/// Vertical displacement, after each tick, of a body that is released 10 mm above its equilibrium.
 fn bounce(parameters: &VehicleParameters, step_s: f64, seconds: f64) -> Vec<f64> {
     let start = [0.0, -10e-3, 0.0, 0.0, 0.0];
     let motion = free_motion(parameters, &[start], step_s, seconds);

@@ -5,9 +5,9 @@ use dashpot_rail::vehicle::{Body, Element, End, Law, Vehicle, VehicleParameters,
 
 use crate::support::{contact, four_springs, free_wheelset, run};
 
-/// A lateral spring couples a body with one that is `AHEAD_M` ahead of it. In a curve of the radius R the frame of the
-/// body ahead lies `AHEAD_M^2/(2 R)` aside of the tangent and is turned by `AHEAD_M/R`, so its point above the spring
-/// is `-AHEAD_M^2/(2 R)` aside. The three springs in series divide this offset.
+/// A lateral spring couples a body with one that is `AHEAD_M` ahead of it. In a curve of the radius R, the frame of the
+/// body ahead lies `AHEAD_M^2/(2 R)` to the side of the tangent and is turned by `AHEAD_M/R`, so its point above the
+/// spring lies `-AHEAD_M^2/(2 R)` to the side. The three springs in series divide this offset.
 #[test]
 fn a_curve_stretches_a_spring_between_bodies_by_its_versine() {
     const AHEAD_M: f64 = 6.0;
@@ -72,8 +72,8 @@ fn a_curve_stretches_a_spring_between_bodies_by_its_versine() {
     );
 }
 
-/// A slow wheelset rolls by the cross level over the distance between its contact points, and stands level again after
-/// the twist.
+/// A slow wheelset rolls by the cross level over the distance between its contact points, and is level again after the
+/// twist.
 #[test]
 fn a_wheelset_follows_a_twist_to_its_end() {
     const CROSS_LEVEL_M: f64 = 12e-3;

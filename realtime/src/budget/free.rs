@@ -8,8 +8,8 @@ use crate::timing::Distribution;
 const BATCH: u64 = 100;
 
 /// Times `tick` in two passes: first each tick alone, then batches of a hundred ticks. Each pass runs all ticks of
-/// `length`, or half its time. `overhead_ns`, the cost of two clock readings, is subtracted from all results. The run
-/// ends when a single tick takes longer than `stop_above_ns`.
+/// `length`, or half its time. `overhead_ns`, the cost of two clock readings, is subtracted from all results except the
+/// durations of the first ticks. The run ends when a single tick takes longer than `stop_above_ns`.
 pub fn free(
     clock: &impl Clock,
     overhead_ns: u64,
@@ -77,7 +77,7 @@ impl<'a, C: Clock> Pass<'a, C> {
         }
     }
 
-    /// True if ticks or time are left; the first tick always runs.
+    /// True if ticks or time are left. If the time is limited, the first tick always runs.
     fn has_ticks_left(&self) -> bool {
         match self.length {
             Length::Ticks(ticks) => self.ticks < ticks,

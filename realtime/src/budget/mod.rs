@@ -41,11 +41,11 @@ pub struct Run {
     pub stopped: Option<Stop>,
     /// Durations of the first ticks, with cold caches (ns).
     pub first_ticks_ns: Vec<u64>,
-    /// Spans by kind, without empty kinds.
+    /// Spans by kind; kinds without spans are omitted.
     pub series: Vec<Series>,
 }
 
-/// Returns a stop if the work of a tick exceeds the limit.
+/// Returns a stop if the work of a tick took longer than the limit.
 fn stop(tick: u64, step_s: f64, work_ns: f64, limit_ns: Option<u64>) -> Option<Stop> {
     let limit_ns = limit_ns.filter(|limit| work_ns > *limit as f64)?;
     Some(Stop {

@@ -1,4 +1,4 @@
-//! Applies real-time options to a thread. The system may refuse each of them.
+//! Applies real-time options to a thread. The system may refuse any of them.
 
 use crate::RealtimeError;
 use crate::options::{RealtimeOption, RealtimeOptions};
@@ -37,7 +37,7 @@ impl RealtimeOptions {
     /// Applies the options to the calling thread.
     ///
     /// # Errors
-    /// Any option is set: all of them need Linux.
+    /// At least one option is set; all options need Linux.
     pub fn apply(&self) -> Result<(), RealtimeError> {
         let options = [
             self.fifo_priority.map(RealtimeOption::FifoPriority),

@@ -8,7 +8,7 @@ pub trait Clock {
     fn sleep_until_ns(&self, deadline_ns: u64);
 }
 
-/// Monotonic clock of the system. It sleeps until absolute deadlines on Linux, and for relative times elsewhere.
+/// Monotonic clock of the system. It sleeps until an absolute deadline on Linux and for a duration on other systems.
 #[derive(Debug, Clone, Copy)]
 pub struct MonotonicClock {
     origin: std::time::Instant,
@@ -58,8 +58,8 @@ impl Clock for MonotonicClock {
     }
 }
 
-/// Measures the cost of two consecutive clock readings (ns), median of ten thousand. Every span measured with the clock
-/// includes this cost.
+/// Measures the cost of two consecutive clock readings (ns), as the median of ten thousand measurements. Every span
+/// measured with the clock includes this cost.
 pub fn overhead_ns(clock: &impl Clock) -> u64 {
     let mut spans: Vec<u64> = (0..10_000)
         .map(|_| {

@@ -33,7 +33,7 @@ pub const FIRST_TICKS: usize = 8;
 pub struct Pacer<C: Clock = MonotonicClock> {
     clock: C,
     step_ns: f64,
-    /// Time at which tick 0 is or would have been due.
+    /// Due time of tick 0, even if the run started with a later tick.
     origin_ns: Option<f64>,
     /// Tick that [`Self::release`] has started.
     open: Option<TickTiming>,
@@ -48,7 +48,7 @@ pub struct TickTiming {
     pub tick: u64,
     /// Time at which the tick was due on the clock of the pacer (ns).
     pub due_ns: u64,
-    /// Delay from due to the start of the work (ns).
+    /// Delay from the due time to the start of the work (ns).
     pub late_ns: u64,
 }
 
@@ -68,11 +68,11 @@ pub struct PacingReport {
     pub ticks: u64,
     /// Number of ticks whose work ended after the next tick was due.
     pub missed_deadlines: u64,
-    /// Time from due to the start of the work (ns).
+    /// Time from the due time of a tick to the start of its work (ns).
     pub lateness: Distribution,
     /// Duration of the work, including one clock reading (ns).
     pub work: Distribution,
-    /// Time from due to the end of the work (ns).
+    /// Time from the due time of a tick to the end of its work (ns).
     pub response: Distribution,
     /// Durations of the work of the first ticks, with cold caches (ns).
     pub first_work_ns: Vec<u64>,
@@ -101,7 +101,7 @@ impl Pacer<MonotonicClock> {
     /// thread.
     ///
     /// # Errors
-    /// The step is not within 100 us to 1 ms (10 to 1 kHz), or the system refuses an option.
+    /// The step is outside 100 us to 1 ms (10 to 1 kHz), or the system refuses an option.
     pub fn new(step_s: f64, options: &RealtimeOptions) -> Result<Self, RealtimeError> {
         let pacer = Self::with_clock(step_s, MonotonicClock::default())?;
         options.apply()?;
@@ -113,7 +113,7 @@ impl<C: Clock> Pacer<C> {
     /// Creates a pacer with a step of `step_s` (s) on the given clock.
     ///
     /// # Errors
-    /// The step is not within 100 us to 1 ms.
+    /// The step is outside 100 us to 1 ms.
     pub fn with_clock(step_s: f64, clock: C) -> Result<Self, RealtimeError> {
         let (shortest_s, longest_s) = (
             1.0 / f64::from(*RATE_RANGE_HZ.end()),
@@ -164,9 +164,9 @@ impl<C: Clock> Pacer<C> {
         }
     }
 
-    /// Ends the work of the previous tick and sleeps until `tick` is due. The work of a tick is then everything between
-    /// two releases, including the statistics. Use this instead of [`Self::wait`] and [`Self::finish`], and call
-    /// [`Self::end`] after the last tick.
+    /// Ends the work of the previous tick and sleeps until `tick` is due. With this method, the work of a tick is
+    /// everything between two releases, including the statistics. Use this instead of [`Self::wait`] and
+    /// [`Self::finish`], and call [`Self::end`] after the last tick.
     ///
     /// ```
     /// use dashpot_realtime::pacing::Pacer;

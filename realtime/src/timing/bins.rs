@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-/// Preferred numbers R10 of ISO 3: ten borders per decade, with ratios of about 1.25.
+/// Preferred numbers R10 of ISO 3: ten bin edges per decade, with ratios of about 1.25.
 const R10: [f64; 10] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0];
-/// Decades of borders: from 1 ns to 10 s.
+/// Number of decades that the edges cover: from 1 ns to 10 s.
 const DECADES: usize = 10;
 const BORDERS: usize = R10.len() * DECADES + 1;
-/// Borders of the bins (ns).
+/// Edges of the bins (ns).
 const BORDERS_NS: [f64; BORDERS] = borders_ns();
 
 const fn borders_ns() -> [f64; BORDERS] {
@@ -24,13 +24,13 @@ const fn borders_ns() -> [f64; BORDERS] {
     borders
 }
 
-/// A bin with spans of at least `from_ns` and less than `to_ns`. Borders are 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3 and
-/// 8 times the powers of ten from 1 ns to 10 s. The first bin starts at 0, and the last one has no upper border.
+/// A bin with spans of at least `from_ns` and less than `to_ns`. The edges are 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3
+/// and 8 times the powers of ten from 1 ns to 10 s. The first bin starts at 0, and the last one has no upper edge.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bin {
-    /// Lower border (ns), inclusive.
+    /// Lower edge (ns), inclusive.
     pub from_ns: f64,
-    /// Upper border (ns), exclusive; `None` for the last bin.
+    /// Upper edge (ns), exclusive; `None` for the last bin.
     pub to_ns: Option<f64>,
     /// Number of spans in the bin.
     pub count: u64,

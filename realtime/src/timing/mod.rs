@@ -15,7 +15,8 @@ pub use text::{optional_span, span};
 const UNITS_PER_NS: f64 = 1e3;
 /// Longest span that the histogram resolves (ns): ten seconds.
 const LONGEST_NS: f64 = 10e9;
-/// Minimum number of expected spans beyond a reported percentile. With fewer, it would depend on a few spans.
+/// Minimum number of expected spans beyond a reported percentile. With fewer, the percentile would depend on a few
+/// spans.
 const SPANS_BEYOND: u64 = 10;
 
 /// Distribution of time spans in constant memory, with percentiles to three significant digits.

@@ -10,7 +10,7 @@
 /// assert_eq!(span(0.0), "0.00 ns");
 /// ```
 pub fn span(span_ns: f64) -> String {
-    // Switch to the next unit where rounding to three digits would give four digits before the point.
+    // From this value on, rounding to three digits gives four digits before the point, so the next unit is used.
     const NEXT: f64 = 999.5;
     let mut value = span_ns;
     let mut unit = "ns";

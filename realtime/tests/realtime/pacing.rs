@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use dashpot_realtime::pacing::{Clock, Pacer};
 
-/// A clock that tests advance. Each sleep is 5 us too long.
+/// A clock that the tests advance. Each sleep is 5 us too long.
 struct SimulatedClock(Cell<u64>);
 
 impl Clock for SimulatedClock {
@@ -73,7 +73,7 @@ fn one_deadline_in_a_thousand_may_be_missed() {
         let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
         for tick in 0..ticks {
             pacer.release(tick);
-            // Work of one step that starts 5 us late misses only the deadline of its own tick.
+            // Work that lasts one step and starts 5 us late misses only the deadline of its own tick.
             let work = if tick < missed { 1_000_000 } else { 1000 };
             pacer.clock().0.set(pacer.clock().now_ns() + work);
         }

@@ -80,7 +80,7 @@ fn the_first_of_equal_longest_spans_is_reported() {
 #[test]
 fn bins_do_not_depend_on_the_spans() {
     let r10 = [1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0, 10.0];
-    // A span in the middle of each bin of two decades, alone and with others.
+    // Record a span in the middle of each bin of two decades, first alone, then with other spans.
     for decade in [10.0, 1e6] {
         for pair in r10.windows(2) {
             let middle = 0.5 * (pair[0] + pair[1]) * decade;
@@ -91,7 +91,7 @@ fn bins_do_not_depend_on_the_spans() {
             let border = alone[0].to_ns.unwrap();
             assert!((alone[0].from_ns / (pair[0] * decade) - 1.0).abs() < 1e-12);
             assert!((border / (pair[1] * decade) - 1.0).abs() < 1e-12);
-            // A span at a border belongs to the upper bin.
+            // A span at an edge belongs to the upper bin.
             assert_eq!(distribution([border]).bins()[0].from_ns, border);
         }
     }

@@ -8,7 +8,7 @@ use super::RecordingError;
 use crate::remedy::Remedy;
 
 impl RecordingError {
-    /// Returns the remedy for the error, which the error text does not include.
+    /// Returns the remedy for the error; the error text does not include it.
     pub fn remedy(&self) -> Option<Remedy> {
         match self {
             Self::MissingChannel {

@@ -21,8 +21,8 @@ use number::{Reading, reading};
 /// Rows read at a time.
 const ROWS: usize = 1 << 14;
 
-/// Offset of the number of rows (`cg_cycle_count`) in a channel group block: after the header, six links and the record
-/// number.
+/// Offset of the number of rows (`cg_cycle_count`) in a channel group block, where it follows the header, six links and
+/// the record number.
 const CYCLE_COUNT: u64 = 24 + 6 * 8 + 8;
 
 /// An MDF4 file with known channels.
@@ -269,7 +269,7 @@ fn damaged(path: &Path, error: &Mf4Error) -> FileError {
     )
 }
 
-/// Returns the unit. By the standard, a time master without a unit is in seconds.
+/// Returns the unit. According to the standard, a time master without a unit is in seconds.
 fn unit(channel: &Channel) -> String {
     if channel.unit.is_empty() && channel.is_master() && channel.is_time_channel() {
         "s".into()

@@ -20,7 +20,7 @@ pub(super) enum Reading {
 /// Returns the decoding method for `channel` of `group`.
 ///
 /// # Errors
-/// The library would read wrong numbers.
+/// Returns an error if the library would read wrong numbers.
 pub(super) fn reading(channel: &Channel, group: &ChannelGroup) -> Result<Reading, Unread> {
     if channel.channel_type.is_virtual() {
         return Ok(Reading::RowNumber);
@@ -45,7 +45,7 @@ pub(super) fn reading(channel: &Channel, group: &ChannelGroup) -> Result<Reading
     let end = u64::from(channel.byte_offset) + bytes;
     if end > group.data_bytes_len() as u64 {
         let held = format!(
-            "numbers up to byte {end} of records that have {}",
+            "numbers up to byte {end} of records of {} bytes",
             group.data_bytes_len()
         );
         return unread(held, "numbers within their record");
@@ -85,7 +85,9 @@ impl Reading {
                     .iter()
                     .map(|bits| channel.convert(from_half(*bits)))
                     .collect()),
-                _ => Err(Mf4Error::parse_error("floats of 16 bits are not 2 bytes")),
+                _ => Err(Mf4Error::parse_error(
+                    "a float of 16 bits does not have 2 bytes",
+                )),
             },
             Self::RowNumber => Ok((first..first + signal.len() as u64)
                 .map(|row| channel.convert(row as f64))

@@ -14,7 +14,8 @@ pub(super) struct Column {
     index: usize,
     /// Definition level of a value that is not null.
     present: i16,
-    /// True if the numbers are timestamps. They are read relative to the first, because a double has too few digits.
+    /// True if the numbers are timestamps. They are read relative to the first timestamp, because a double has too few
+    /// digits for a date with nanoseconds.
     is_instant: bool,
     origin: Option<i64>,
     reader: Option<ColumnReader>,
@@ -34,7 +35,7 @@ struct Checksums {
 }
 
 impl Column {
-    /// Creates a reader of the column with this index (from 0), before its first row group.
+    /// Creates a reader of the column with this index (from 0); [`Self::open`] opens its first row group.
     pub(super) fn new(index: usize, descriptor: &ColumnDescriptor, sum: Option<String>) -> Self {
         Self {
             index,

@@ -31,7 +31,7 @@ pub(super) struct Parquet {
     path: PathBuf,
     reader: Arc<SerializedFileReader<File>>,
     found: Vec<ChannelInfo>,
-    /// Checksums by column name; empty in files of other programs.
+    /// Checksums by column name; empty for files that another program wrote.
     sums: HashMap<String, String>,
     bytes: u64,
 }

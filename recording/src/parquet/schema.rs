@@ -30,7 +30,8 @@ pub(super) fn is_instant(column: &ColumnDescriptor) -> bool {
 }
 
 pub(super) fn is_number(column: &ColumnDescriptor) -> bool {
-    // Old writers use only converted types. Decimals are excluded because their values are scaled integers.
+    // Old programs write only Parquet's older "converted types". Decimals are excluded because their values are scaled
+    // integers.
     let has_other_type = ![
         ConvertedType::NONE,
         ConvertedType::INT_8,

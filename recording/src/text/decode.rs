@@ -24,7 +24,7 @@ pub(super) fn decoded(stream: Stream, encoding: Option<&'static Encoding>) -> Bo
     }
 }
 
-/// Detects UTF-16 by its byte order mark, or because all first characters are Latin.
+/// Detects UTF-16 by its byte order mark or, without one, by first characters that are all Latin-1 if read as UTF-16.
 fn utf_16(head: &[u8]) -> Option<&'static Encoding> {
     if let Some((encoding, _)) = Encoding::for_bom(head) {
         return Some(encoding).filter(|encoding| [UTF_16LE, UTF_16BE].contains(encoding));

@@ -11,7 +11,8 @@ use crate::unit::Quantity;
 /// True if the first row is a header, which means that at least one of its cells is not a number.
 ///
 /// # Errors
-/// The cells count up from 0 or 1. This could be a row, or the names that pandas gives to columns without names.
+/// Returns an error if the cells count up from 0 or 1: they could be numbers, or the names that pandas gives to unnamed
+/// columns.
 pub(super) fn is_header(cells: &[String]) -> Result<bool, RecordingError> {
     if cells.iter().any(|cell| !is_number(cell.as_bytes())) {
         return Ok(true);

@@ -63,7 +63,7 @@ impl Text {
     /// Finds the columns of a text; errors name it `path`.
     ///
     /// # Errors
-    /// The text is empty, or its first line could be a header or a row of numbers.
+    /// Returns an error if the text is empty, or if its first line could be either a header or a row of numbers.
     pub(super) fn open(
         path: &Path,
         stream: Stream,
@@ -156,7 +156,8 @@ impl RecordingFile for Text {
 
     fn rows(&mut self, indices: &[usize], lenient: bool) -> Result<Box<dyn Source>, FileError> {
         let lines = self.lines.take().ok_or_else(|| {
-            let reason = io::Error::other("the text has already been read");
+            let reason =
+                io::Error::other("the rows of this text have already been read; open it again");
             FileError::read(&self.path, reason)
         })?;
         Ok(Box::new(TextRows::new(self, lines, indices, lenient)))

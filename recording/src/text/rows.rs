@@ -21,7 +21,7 @@ pub(super) struct TextRows {
     numbers: Vec<Numbers>,
     lenient: bool,
     record: ByteRecord,
-    /// Line of the record that was read with the header, until it is returned.
+    /// Line of the record that was read with the header; `None` once that record has been returned.
     pending_line: Option<u64>,
     /// Line of the current record if it was read with the header.
     line_read_before: Option<u64>,

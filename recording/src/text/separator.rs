@@ -8,8 +8,8 @@ use crate::text_options::Separator;
 /// Number of rows to inspect.
 const ROWS: usize = 8;
 
-/// Detects the separator of a text that starts with `head`, which must consist of whole lines. It returns the
-/// separator with the largest share of numbers, among those that split all rows into the same number of cells.
+/// Detects the separator of a text that starts with `head`, which must consist of whole lines. Among the separators
+/// that split all rows into the same number of cells, it returns the one that yields the largest share of numbers.
 pub(super) fn separator(head: &[u8]) -> Separator {
     let mut best: Option<(f64, Separator)> = None;
     for separator in Separator::ALL {

@@ -1,8 +1,8 @@
 //! Writes rows as MDF4: one group with the time as its master channel.
 //!
-//! The library writes only data that fit into memory. So it writes a file with one row, whose data are then replaced by
-//! all rows, and the row count is set in the two fields that contain it. Because the count precedes the rows, they are
-//! kept in a temporary file until it is known.
+//! The library can write only data that fit into memory. It therefore writes a file with one row; this module then
+//! replaces that row by all rows, and sets the row count in the two fields that contain it. Because the count precedes
+//! the rows, a temporary file keeps the rows until the count is known.
 
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Seek, Write};
@@ -26,7 +26,7 @@ const LENGTH: usize = 8;
 /// Size of the header of a data block, which precedes the rows.
 const DATA_HEADER: usize = 24;
 
-/// Offset of the number of rows in a channel group block: after the header, six links and the record number.
+/// Offset of the number of rows in a channel group block, where it follows the header, six links and the record number.
 const CYCLE_COUNT: usize = 24 + 6 * 8 + 8;
 
 /// An MDF4 file being written.

@@ -59,7 +59,7 @@ impl FileFormat {
     /// Returns the format for the extension of `path`: `.parquet`, `.mf4`, otherwise CSV. Standard output is CSV.
     ///
     /// # Errors
-    /// This build cannot write the format; the error is the message.
+    /// Returns an error message if this build cannot write the format.
     pub fn from_path(path: &Path) -> Result<Self, String> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
@@ -89,7 +89,7 @@ impl<'a> RowWriter<'a> {
     /// Starts a file with the given format and columns. The first column is the time; errors name the file `path`.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn new(
         path: &'a Path,
         file: &'a mut dyn Write,
@@ -116,7 +116,7 @@ impl<'a> RowWriter<'a> {
     /// precision and therefore shorter.
     ///
     /// # Errors
-    /// The row cannot be written.
+    /// Returns an error if the row cannot be written.
     pub fn row(&mut self, values: &[f64], text: impl Serialize) -> Result<(), FileError> {
         // Only binary formats use `values`.
         #[cfg(not(any(feature = "parquet", feature = "mdf")))]
@@ -135,7 +135,7 @@ impl<'a> RowWriter<'a> {
     /// Finishes the file.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn finish(self) -> Result<(), FileError> {
         match self {
             Self::Text(path, mut rows) => rows

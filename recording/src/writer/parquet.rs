@@ -120,7 +120,7 @@ fn start(
     let units = serde_json::Value::Object(units).to_string();
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
-        // Repeated numbers are rare.
+        // Numbers rarely repeat, so a dictionary would save nothing.
         .set_dictionary_enabled(false)
         .set_key_value_metadata(Some(vec![KeyValue::new(UNITS.into(), units)]));
     SerializedFileWriter::new(bytes, Arc::new(schema), Arc::new(properties.build()))

@@ -51,7 +51,7 @@ fn decimal_commas_in_comma_separated_cells_are_reported() {
     assert!(error.ends_with("is not a finite number"), "{error}");
 }
 
-/// With LF or CRLF, comments and blank lines, with or without an end of the last line.
+/// Covers LF and CRLF, comments, blank lines, and a last line with and without a line end.
 #[test]
 fn line_numbers_match_those_of_an_editor() {
     for ends in ["\n", "\r\n"] {
@@ -74,7 +74,7 @@ fn line_numbers_match_those_of_an_editor() {
     }
 }
 
-/// Stray separators and zero bytes do not make a file an unsupported format.
+/// Stray separators and zero bytes do not lead to the error for unsupported formats.
 #[test]
 fn a_missing_column_is_reported() {
     assert!(error_of(b"\"\"\n0\n").contains("no header says which column is the time"));

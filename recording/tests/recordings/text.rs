@@ -233,7 +233,7 @@ fn chosen_options_replace_detected_properties() {
     let rows = measured(b"0,1,2\n1,2,3\n", &chosen);
     assert_eq!(rows, Ok(vec![[0.0, 1.0, 2.0], [1.0, 2.0, 3.0]]));
     chosen.text.header = Some(true);
-    // pandas gives columns without names numbers from 0 as names.
+    // pandas names unnamed columns 0, 1, 2 and so on.
     let error = error_of("0,1,2\n1,2,3\n", &chosen);
     let expected = "time: `1` is the name of column #2 and the number of another; write #2 or #1";
     assert!(error.contains(expected), "{error}");

@@ -1,7 +1,9 @@
 //! Root of an increasing function between two bounds.
 
-/// Returns the point of `[low, high]` where the increasing `function` crosses zero, to rounding, or the nearer bound if
-/// it does not. Regula falsi, Illinois variant, with bisection after three trials that have not halved the bracket.
+/// Returns the point of `[low, high]` at which the increasing `function` crosses zero, accurate to rounding, or the
+/// nearer bound if it does not cross zero.
+///
+/// The method is regula falsi (Illinois variant), with a bisection after three trials that have not halved the bracket.
 pub(super) fn increasing_root(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = (low, high);
     let (mut fa, mut fb) = (function(a), function(b));

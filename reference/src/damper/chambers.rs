@@ -1,12 +1,12 @@
 //! Compression with the pressures of both chambers.
 //!
-//! Pressures are gauge (Pa), flows (m^3/s), velocities (m/s), positive in compression. The working
-//! pressure is `F/A_comp` with the seal friction subtracted from the force.
+//! Pressures are gauge (Pa). Flows (m^3/s) and velocities (m/s) are positive in compression. The working
+//! pressure is `F/A_comp` after the seal friction has been subtracted from the force.
 
 use super::bracket::increasing_root;
 use super::paths::{Areas, Foot, PistonPaths};
 
-/// Compression with both chamber pressures, `P_1` piston side and `P_2` rod side:
+/// Compression with both chamber pressures, `P_1` on the piston side and `P_2` on the rod side:
 /// `A_ext v = Q_piston(P_1 - P_2)`, `A_rod v = Q_foot(P_1)`, `F = P_1 A_comp - P_2 A_ext`;
 /// at `P_2 = p_vap` only the sum of the two balances holds.
 #[derive(Clone, Debug)]
@@ -56,8 +56,8 @@ impl TwoChambers {
             / self.areas.compression
     }
 
-    /// Pressure above the opening of the foot valve and pressure drop over the piston at a working pressure; `None` if
-    /// the rod side boils.
+    /// Splits a working pressure into the excess over the foot valve's opening pressure and the pressure drop over the
+    /// piston; `None` if the rod side boils.
     fn split(&self, closed: f64, above: f64) -> Option<(f64, f64)> {
         let Areas {
             extension,
@@ -69,7 +69,7 @@ impl TwoChambers {
         if excess < 0.0 {
             return None;
         }
-        // Both flows are smooth functions of the square root of the excess where the foot valve opens.
+        // Where the foot valve opens, both flows are smooth functions of the square root of the excess.
         let drop = |root: f64| piston + ((excess - rod * root * root) / extension).max(0.0);
         let root = increasing_root(0.0, (excess / rod).sqrt(), |root| {
             self.imbalance(drop(root), foot, root * root)

@@ -5,7 +5,7 @@ use crate::error::ReferenceError;
 use crate::esdirk::{Equations, Esdirk, StepEnd, Tolerances};
 use crate::linear::Matrix;
 
-/// Tolerance per step, relative to the states and to the scales of a segment.
+/// Tolerance per step, relative to the states and to a segment's scales.
 const TOLERANCE: f64 = 1e-12;
 
 /// First step of the first segment, relative to its time scale.
@@ -20,7 +20,7 @@ const BOUND: usize = 0;
 /// Default integrator of the reference.
 pub(super) struct EsdirkIntegrator {
     solver: Esdirk,
-    /// Last step length by the error control, not shortened by the end of a segment.
+    /// Last step length that the error control chose, before the end of a segment shortened it.
     natural_step: f64,
 }
 

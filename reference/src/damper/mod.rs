@@ -1,9 +1,9 @@
-//! Reference solution of the damper: the physics in the documentation of the parameters, written from the laws and
-//! integrated by an adaptive stiff solver with a tolerance of 1e-12 per step.
+//! Reference solution of the damper: it implements the laws in the documentation of the parameters and integrates them
+//! with an adaptive stiff solver at a tolerance of 1e-12 per step.
 //!
-//! It shares only the parameters with the fixed step. Chamber pressure and piston position are states; contact at the
-//! clearance, opening valves, release and yielding are events. Displacement is positive in extension; force is positive
-//! if it resists extension.
+//! It shares nothing with the fixed step except the parameters. Chamber pressure and piston position are states;
+//! contact at the clearance, opening valves, release and yielding are events. Displacement is positive in extension;
+//! force is positive if it resists extension.
 
 mod bracket;
 mod chambers;
@@ -28,7 +28,7 @@ pub use self::segment::{Arrival, Integrator, STATES, Segment};
 use self::side::Side;
 use crate::error::ReferenceError;
 
-/// Linear pieces of a motion between two checks for cancellation.
+/// Number of linear pieces of a motion between two checks for cancellation.
 const PIECES_PER_CHECK: usize = 64;
 
 /// Reference solver of one damper.
@@ -72,7 +72,7 @@ impl Reference {
         self.forces_unless(times_s, displacements_m, &|| false)
     }
 
-    /// Returns the forces as [`Self::forces`] does, unless `is_cancelled` returns true before.
+    /// Returns the forces as [`Self::forces`] does, unless `is_cancelled` returns true first.
     ///
     /// # Errors
     /// The errors of [`Self::forces`], and [`ReferenceError::Cancelled`] after a cancellation.
@@ -86,7 +86,7 @@ impl Reference {
         self.forces_by(&mut solver, times_s, displacements_m, is_cancelled)
     }
 
-    /// Returns the forces as [`Self::forces`] does, by another solver of the segments.
+    /// Returns the forces as [`Self::forces`] does, but uses another solver for the segments.
     ///
     /// # Errors
     /// The errors of [`Self::forces`].
@@ -138,9 +138,10 @@ impl Reference {
         self.statistics
     }
 
-    /// Returns the force (N) at a constant velocity (m/s) after the springs have settled, both signed: seal friction
-    /// plus `A P` with `v(P)` the velocity, limited to the force at which the damper yields. Returns 0 at velocity 0,
-    /// although any force up to the one that starts the piston is possible there.
+    /// Returns the force (N) at a constant velocity (m/s) after the springs have settled; both are signed.
+    ///
+    /// The force is the seal friction plus `A P`, where `v(P)` is the velocity, up to the force at which the damper
+    /// yields. At velocity 0 the result is 0, although any force up to the one that starts the piston is possible.
     pub fn static_force(&self, velocity_m_per_s: f64) -> f64 {
         if velocity_m_per_s == 0.0 {
             return 0.0;
@@ -183,8 +184,8 @@ fn run(
     Ok((forces, motion.statistics))
 }
 
-/// Scales of a motion: its effective velocity, and the smaller of the forces that this velocity and the effective
-/// displacement of the springs cause. `None` if nothing moves.
+/// Scales of a motion: its RMS velocity and a typical force of each side. This force is the smaller of two: the force
+/// at the RMS velocity, and the force that stretches the springs by the RMS displacement. `None` if nothing moves.
 fn scales(sides: &[Side; 2], times: &[f64], x: &[f64]) -> Option<Scales> {
     let duration = times[times.len() - 1] - times[0];
     let (mut velocity, mut amplitude) = (0.0, 0.0);

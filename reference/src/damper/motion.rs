@@ -1,4 +1,4 @@
-//! The chain through its modes over a piecewise linear motion of the seats.
+//! Steps the chain (clearance, springs and piston in series) through its modes over a piecewise linear motion.
 //!
 //! While the damper crosses its clearance, is held by a piston at rest, or yields, the force follows from the geometry;
 //! only flow through the valves is integrated. Within one linear piece the pressure coordinate changes in one
@@ -10,11 +10,11 @@ use super::segment::{Integrator, Scales, Segment};
 use super::side::Side;
 use crate::error::ReferenceError;
 
-/// Seat velocity, relative to the typical velocity, below which the seats count as at rest: both the equilibrium force
-/// and the neglected stretch are then below any tolerance.
+/// Seat velocity, relative to the typical velocity, below which the seats count as at rest: the equilibrium force and
+/// the neglected stretch are then below any tolerance.
 const REST: f64 = 1e-8;
 
-/// Maximum number of mode changes within one linear piece; each side has at most two, plus one per kink.
+/// Maximum number of mode changes within one linear piece; each side causes at most two, plus one per kink.
 const MAX_CHANGES: usize = 1000;
 
 /// Mode of the chain.
@@ -53,7 +53,7 @@ pub struct Statistics {
     pub closure_m: f64,
 }
 
-/// The chain in motion.
+/// State of the chain while it follows a motion.
 pub(super) struct Motion {
     pub(super) sides: Rc<[Side; 2]>,
     pub(super) scales: Scales,
@@ -165,7 +165,7 @@ impl Motion {
         }
     }
 
-    /// Integrates flow from a coordinate at the displacement `x` of the seats until the next event.
+    /// Integrates flow until the next event, from the coordinate `start` at the displacement `x` of the seats.
     fn flow(
         &mut self,
         side: usize,
@@ -234,7 +234,7 @@ impl Motion {
                 },
             )
         } else if speed > 0.0 {
-            // The tolerance around an equilibrium just above zero contains zero.
+            // An equilibrium just above zero can be closer to zero than the tolerance, so the solver can reach zero.
             stay(laws.coordinate_at(speed))
         } else {
             (spent, released(x + velocity * spent))

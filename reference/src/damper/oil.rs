@@ -60,8 +60,8 @@ fn air_volume_ratio(column: &OilColumn, pressure: f64) -> f64 {
         .powf(1.0 / column.polytropic_exponent)
 }
 
-/// Kinematic viscosity (m^2/s) at the working temperature, ASTM D341:
-/// `log10 log10 (nu + 0.7)` linear in `log10 T`, nu in mm^2/s, T in K, through 40 and 100 degC.
+/// Kinematic viscosity (m^2/s) at the working temperature, ASTM D341: `log10 log10 (nu + 0.7)` is linear in `log10 T`
+/// through the points at 40 and 100 degC, with nu in mm^2/s and T in K.
 fn walther(oil: &Oil) -> f64 {
     let double_log = |nu: f64| (nu * 1e6 + 0.7).log10().log10();
     let (cold, hot) = (kelvin(40.0).log10(), kelvin(100.0).log10());
@@ -149,8 +149,8 @@ mod tests {
         }
     }
 
-    /// Tangent modulus `E` of oil with air at the absolute pressure p, in its usual form with the air ratio relative to
-    /// the volume of the oil.
+    /// Tangent modulus `E` of oil with air at the absolute pressure p, in its usual form, in which the air ratio is
+    /// relative to the volume of the oil.
     #[test]
     fn column_compliance_is_the_tangent_modulus() {
         let column = oil(45.0).column.expect("a column");

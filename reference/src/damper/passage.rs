@@ -12,7 +12,7 @@ use super::paths::{Areas, Foot, PistonPaths};
 pub(super) enum Passage {
     /// Extension: from the rod side to the piston side.
     Extension { piston: PistonPaths, area: f64 },
-    /// Compression with one pressure for piston and foot valve.
+    /// Compression in which the same pressure acts on the piston valves and the foot valve.
     Lumped {
         piston: PistonPaths,
         foot: Box<FootLumped>,
@@ -21,7 +21,7 @@ pub(super) enum Passage {
     TwoChamber(Box<TwoChambers>),
 }
 
-/// Foot valve and piston area for compression with one pressure.
+/// Foot valve and piston area of [`Passage::Lumped`].
 #[derive(Clone, Debug)]
 pub(super) struct FootLumped {
     foot: Foot,

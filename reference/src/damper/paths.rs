@@ -1,4 +1,4 @@
-//! Flow paths of the physical damper: flows through piston and foot valve under pressure.
+//! Flow paths of the physical damper: flow through the piston and the foot valve as a function of pressure.
 //!
 //! Pressures are gauge (Pa); flows (m^3/s) and velocities (m/s) are positive in the working direction.
 
@@ -61,7 +61,7 @@ impl Opening {
         }
     }
 
-    /// Flow under `excess` pressure above opening and pressure drop `drop`.
+    /// Flow at a pressure `excess` above the opening pressure and a pressure drop `drop`.
     fn flow(&self, excess: f64, drop: f64, density: f64) -> f64 {
         self.gradient * excess.max(0.0) * (2.0 * drop.max(0.0) / density).sqrt()
     }
@@ -105,7 +105,7 @@ impl PistonPaths {
         }
     }
 
-    /// Flow under the pressure drop `drop`; `upstream` is the gauge pressure ahead of the piston.
+    /// Flow at the pressure drop `drop`; `upstream` is the gauge pressure upstream of the piston.
     pub(super) fn flow(&self, drop: f64, upstream: f64) -> f64 {
         let density = self.fluid.density(upstream);
         let mut flow = self.shims.flow(drop - self.shims.opens_at, drop, density);
@@ -183,7 +183,7 @@ impl Foot {
         [self.shims.opens_at, self.back_pressure]
     }
 
-    /// Flow at the chamber pressure `base + above`; the sum is split so that a small excess keeps its digits.
+    /// Flow at the chamber pressure `base + above`; the sum is split so that a small excess keeps its precision.
     pub(super) fn flow(&self, base: f64, above: f64, density: f64) -> f64 {
         self.shims.flow(
             (base - self.shims.opens_at) + above,

@@ -1,8 +1,8 @@
-//! A smooth problem for the stiff solver: one direction, one velocity of the seats, one range between valve openings.
+//! A smooth problem for the stiff solver: one direction, one seat velocity, one range between valve openings.
 //!
 //! The states are the coordinate of the chamber pressure, the time since the start and the piston travel since the
-//! start, each divided by its scale. The independent variable is a clock that slows as the pressure approaches zero;
-//! this removes the singularity of the square root in the flow laws.
+//! start, each divided by its scale. The independent variable is a transformed time, the clock: it slows down as the
+//! pressure approaches zero, which removes the singularity of the square root in the flow laws.
 
 use std::rc::Rc;
 
@@ -36,11 +36,11 @@ pub struct Segment {
     pub(super) speed: f64,
     /// Coordinate at the start.
     pub(super) start: f64,
-    /// Next coordinate in the direction of motion at which a valve opens, the pressure is zero or the damper yields.
+    /// Next coordinate in the direction of change at which a valve opens, the pressure is zero or the damper yields.
     pub(super) bound: f64,
     /// Remaining time of the piece (s).
     pub(super) duration: f64,
-    /// Coordinate below which the clock slows.
+    /// Coordinate below which the clock slows down.
     pub(super) knee: f64,
 }
 
@@ -50,7 +50,7 @@ impl Segment {
         [self.start / self.scales.coordinate[self.side], 0.0, 0.0]
     }
 
-    /// Derivative of the scaled state along the scaled clock.
+    /// Derivative of the scaled state with respect to the scaled clock.
     pub fn rates(&self, state: &[f64; STATES]) -> [f64; STATES] {
         let scale = self.scales.coordinate[self.side];
         let [coordinate, time, travel] =
@@ -62,8 +62,9 @@ impl Segment {
         ]
     }
 
-    /// Derivative of [`Self::rates`] with respect to the first state, the only one that they depend on. Central
-    /// differences, accurate enough for a Newton iteration.
+    /// Derivative of [`Self::rates`] with respect to the first state, the only one on which they depend.
+    ///
+    /// Central differences are accurate enough for a Newton iteration.
     pub fn slopes(&self, state: &[f64; STATES]) -> [f64; STATES] {
         let floor = self.knee / self.scales.coordinate[self.side];
         let step = 1e-6 * state[0].abs().max(floor).max(1e-9);
@@ -79,7 +80,7 @@ impl Segment {
         [distance, self.scaled_duration() - state[1]]
     }
 
-    /// Remaining time over its scale, a lower bound of the change of the clock.
+    /// Remaining time over its scale, a lower bound for the time on the clock.
     pub fn scaled_duration(&self) -> f64 {
         self.duration / self.scales.time
     }

@@ -176,7 +176,7 @@ impl Side {
         }
     }
 
-    /// Piston velocity (m/s) at a coordinate; an odd function, smooth also for trial stages below 0.
+    /// Piston velocity (m/s) at a coordinate; an odd function, so it is smooth even for trial stages below 0.
     pub(crate) fn velocity(&self, y: f64) -> f64 {
         match &self.law {
             Law::Reduced { damping } => y / damping,
@@ -228,11 +228,11 @@ impl Side {
         })
     }
 
-    /// Rates of coordinate, time and piston position along the clock of [`super::segment`] while the seats separate at
-    /// `speed` (m/s); `knee` is the coordinate of the equilibrium at `speed`.
+    /// Derivatives of the coordinate, the time and the piston position with respect to the clock of [`super::segment`].
     ///
-    /// `d delta/dt = speed - v`. As `d delta/ds` vanishes with `s`, the clock `dt/d tau = s/sqrt(s^2 + knee^2)` cancels
-    /// this zero, and `s` passes 0 at a finite rate.
+    /// The seats separate at `speed` (m/s); `knee` is the coordinate of the equilibrium at `speed`. The stretch `delta`
+    /// of the springs follows `d delta/dt = speed - v`. As `d delta/ds` vanishes with `s`, the clock
+    /// `dt/d tau = s/sqrt(s^2 + knee^2)` cancels this zero, and `s` passes 0 at a finite rate.
     pub(crate) fn rates(&self, y: f64, speed: f64, knee: f64) -> [f64; 3] {
         match &self.law {
             Law::Reduced { .. } => {
@@ -246,7 +246,7 @@ impl Side {
                         .as_ref()
                         .map_or(0.0, |column| column.compliance(closed + y * y));
                 if speed == 0.0 {
-                    // v/s at 0 is its limit, evaluated close to 0.
+                    // At 0, v/s is replaced by its limit, which is evaluated close to 0.
                     let magnitude = y.abs().max(1e-100);
                     let slope = self.velocity(magnitude) / magnitude;
                     [-slope / (2.0 * compliance), 1.0, self.velocity(y)]
@@ -265,7 +265,7 @@ impl Side {
     }
 }
 
-/// Rubber and seat in series (N/m).
+/// Stiffness of rubber and seat in series (N/m).
 fn series_stiffness(mount: &Mount) -> f64 {
     mount
         .seat_stiffness_n_per_m

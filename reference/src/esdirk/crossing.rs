@@ -3,7 +3,7 @@
 /// Width of the final interval, relative to the magnitude of its times.
 const RELATIVE_WIDTH: f64 = 100.0 * f64::EPSILON;
 
-/// Event functions at both ends of an interval of time.
+/// Event functions at both ends of a time interval.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bracket {
     pub(super) low: Vec<f64>,
@@ -32,10 +32,11 @@ impl Bracket {
         std::mem::swap(&mut self.low, &mut self.high);
     }
 
-    /// Finds the first event between two times. Its time is the upper end of an interval as narrow as rounding allows.
+    /// Finds the first event between two times.
     ///
-    /// `evaluate` writes the functions at a time. The search uses secants (Illinois variant) on the function that
-    /// crosses first by linear interpolation, as CVODE does (Hindmarsh et al. 2005).
+    /// The search narrows an interval around the event down to rounding and returns its upper end. `evaluate` writes
+    /// the values of the functions at a time. The search uses secants (Illinois variant) on the function that linear
+    /// interpolation predicts to cross first, as CVODE does (Hindmarsh et al. 2005).
     pub(super) fn locate(
         &mut self,
         (mut start, mut end): (f64, f64),
@@ -87,7 +88,7 @@ fn inside(point: f64, start: f64, end: f64, width: f64) -> f64 {
     }
 }
 
-/// Index of the function that crosses first by linear interpolation.
+/// Index of the function that crosses first according to linear interpolation.
 fn first_crossing(low: &[f64], high: &[f64]) -> Option<usize> {
     let mut first = None;
     let mut largest_share = 0.0;
@@ -117,7 +118,7 @@ mod tests {
 
     #[test]
     fn the_first_of_two_events_is_found() {
-        // By linear interpolation the second function would cross first.
+        // According to linear interpolation, the second function would cross first.
         let crossing = located(|t| [2.0 - t * t, (1.5 - t) * t.powi(8)]).expect("an event");
         assert_eq!(crossing.index, 0);
         let past = crossing.time - 2f64.sqrt();

@@ -10,7 +10,7 @@ pub(crate) trait Equations {
     /// Writes the derivative of the rates with respect to the state. An approximation costs iterations, not accuracy.
     fn jacobian(&mut self, time: f64, state: &[f64], jacobian: &mut Matrix);
 
-    /// Writes the event functions. An event is a function that falls to zero or below.
+    /// Writes the event functions. An event occurs when a function falls to zero or below.
     fn events(&mut self, time: f64, state: &[f64], values: &mut [f64]);
 }
 
@@ -46,9 +46,9 @@ pub(crate) struct StepTooSmall {
 pub(crate) struct Counts {
     /// Accepted steps.
     pub(crate) steps: usize,
-    /// Steps rejected for their error.
+    /// Steps rejected because of their error.
     pub(crate) rejected: usize,
-    /// Factorisations of the iteration's matrix.
+    /// Factorisations of the iteration matrix.
     pub(crate) factorisations: usize,
 }
 
@@ -59,12 +59,12 @@ pub(crate) struct Tolerances {
     pub(crate) relative: f64,
     /// Absolute tolerance of each state, added to the relative one.
     pub(crate) absolute: Vec<f64>,
-    /// Minimum step length; an error below it.
+    /// Minimum step length; a shorter step is an error.
     pub(crate) min_length: f64,
 }
 
 impl Tolerances {
-    /// Mean square of a vector over the tolerances at a state.
+    /// Mean square of a vector divided by the tolerances at a state.
     pub(super) fn mean_square(&self, vector: &[f64], state: &[f64]) -> f64 {
         let squares = vector.iter().zip(state.iter().zip(&self.absolute));
         let sum: f64 = squares

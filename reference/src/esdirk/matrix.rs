@@ -1,4 +1,4 @@
-//! The matrix `I - gamma h J` of the simplified Newton iteration, with factors that are kept over several steps.
+//! The iteration matrix `I - gamma h J` of simplified Newton, with factors that are kept over several steps.
 
 use super::interface::Equations;
 use super::tableau::GAMMA;
@@ -14,7 +14,7 @@ const MAX_LENGTH_DRIFT: f64 = 0.3;
 /// Relative change of the step length below which divergence is attributed to an old Jacobian.
 const JACOBIAN_LENGTH_DRIFT: f64 = 0.2;
 
-/// Reason why the matrix of the iteration may be out of date.
+/// Reason why the iteration matrix may be out of date.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Cause {
     Restart,
@@ -50,7 +50,7 @@ impl IterationMatrix {
         self.factors.solve(right_side);
     }
 
-    /// Counts a step.
+    /// Increases both ages by one step.
     pub(super) fn age(&mut self) {
         self.jacobian_age += 1;
         self.factors_age += 1;

@@ -1,8 +1,8 @@
 //! Adaptive solver of stiff differential equations `dx/dt = f(t, x)` with events: ESDIRK 3/4 with simplified Newton
 //! iterations, cubic Hermite interpolation and located events.
 //!
-//! A step is accepted if the root mean square of its error estimate over the tolerances is below 1. The estimate is
-//! filtered by the matrix of the iteration, so that stiff components do not dominate it (Shampine 1984).
+//! A step is accepted if the root mean square of its error estimate, divided by the tolerances, is below 1. The
+//! iteration matrix filters the estimate, so that stiff components do not dominate it (Shampine 1984).
 
 mod crossing;
 mod dense;
@@ -20,13 +20,13 @@ use self::tableau::{COEFFICIENTS, ERROR_WEIGHTS, GAMMA, ORDER, STAGES, TIMES};
 /// Safety factor of a new step length.
 const SAFETY: f64 = 0.9;
 
-/// Smallest and largest change of the step length after a step.
+/// Smallest and largest factor by which the step length changes after a step.
 const LENGTH_CHANGE: [f64; 2] = [0.5, 2.0];
 
-/// Range of proposed changes of the step length that are not made, so that the factors stay valid.
+/// The step length stays the same if its proposed change is in this range, so that the matrix factors stay valid.
 const UNCHANGED: [f64; 2] = [0.9, 2.0];
 
-/// Change of the step length if an iteration diverges with a new Jacobian.
+/// Factor by which the step length changes if an iteration diverges with a new Jacobian.
 const CHANGE_AFTER_DIVERGENCE: f64 = 0.3;
 
 /// Fraction by which a step may be lengthened to reach a stop time, so that no tiny step remains.
@@ -38,11 +38,11 @@ pub(crate) struct Esdirk {
     time: f64,
     state: Vec<f64>,
     rates: Vec<f64>,
-    /// Length of the next step by the error control.
+    /// Length that the error control proposes for the next step.
     wanted: f64,
     start_time: f64,
     start: Vec<f64>,
-    /// Derivatives at the stages times the step length; the first and last stage are the ends of the step.
+    /// Derivatives at the stages, times the step length; the first and last stages are at the ends of the step.
     increments: [Vec<f64>; STAGES],
     known: Vec<f64>,
     stage: Vec<f64>,
@@ -89,7 +89,7 @@ impl Esdirk {
         &self.state
     }
 
-    /// Length of the next step by the error control, not shortened by a stop time.
+    /// Length that the error control proposes for the next step, before a stop time shortens it.
     pub(crate) fn wanted_length(&self) -> f64 {
         self.wanted
     }
@@ -114,7 +114,7 @@ impl Esdirk {
         self.update_matrix(equations, length, Cause::Restart);
     }
 
-    /// Takes one step, up to `stop_time` at most. After an event, only [`Self::restart`] continues the solution.
+    /// Takes one step, which ends at `stop_time` at the latest. After an event, continue with [`Self::restart`].
     pub(crate) fn step(
         &mut self,
         equations: &mut impl Equations,
@@ -241,7 +241,7 @@ impl Esdirk {
         true
     }
 
-    /// Mean square of the estimated error over the tolerances.
+    /// Mean square of the estimated error, divided by the tolerances.
     fn error(&mut self) -> f64 {
         self.residual.fill(0.0);
         for (increment, weight) in self.increments.iter().zip(ERROR_WEIGHTS) {
@@ -251,7 +251,7 @@ impl Esdirk {
         self.tolerances.mean_square(&self.residual, &self.state)
     }
 
-    /// Change of the step length by the mean square error of a step; smaller where the iterations were many.
+    /// Factor by which the step length changes after a step with this mean square error; smaller after many iterations.
     fn change(&self, error: f64) -> f64 {
         let (max, used) = (
             f64::from(MAX_ITERATIONS),
@@ -269,7 +269,7 @@ impl Esdirk {
         }
     }
 
-    /// Completes an accepted step; the last stage is its end.
+    /// Completes an accepted step, which ends at the last stage.
     fn accept(&mut self, length: f64, change: f64, is_shortened: bool) {
         self.start_time = self.time;
         self.time += length;
@@ -289,7 +289,7 @@ impl Esdirk {
         self.counts.steps += 1;
     }
 
-    /// Updates the matrix of the iteration if due.
+    /// Updates the iteration matrix if an update is due.
     fn update_matrix(&mut self, equations: &mut impl Equations, length: f64, cause: Cause) {
         let at = (self.time, self.state.as_slice());
         if self.matrix.update(equations, at, length, cause) {

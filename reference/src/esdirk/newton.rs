@@ -10,13 +10,13 @@ const ERROR_RATIO: f64 = 0.2;
 /// Rate of convergence above which an iteration counts as divergent.
 const MAX_RATE: f64 = 0.9;
 
-/// Ratio of error to last change that is assumed with new factors, before a rate is known.
+/// With new factors, the iteration assumes this ratio of error to last change until it knows a rate.
 const NEW_FACTORS: f64 = 20.0;
 
-/// Ratio of error to last change that is assumed with a new step length, before a rate is known.
+/// With a new step length, the iteration assumes this ratio of error to last change until it knows a rate.
 const NEW_LENGTH: f64 = 100.0;
 
-/// Exponent by which the assumed ratio shrinks from one stage to the next.
+/// Exponent that reduces the assumed ratio from one stage to the next.
 const TRUST: f64 = 0.8;
 
 /// Smallest assumed ratio of error to last change.
@@ -68,7 +68,7 @@ impl Convergence {
         self.iterations
     }
 
-    /// Judges an iteration by its change relative to the tolerance of a step. NaN is divergent.
+    /// Judges an iteration by its change, relative to the tolerance of a step. NaN counts as divergent.
     pub(super) fn judge(&mut self, change: f64) -> Verdict {
         self.iterations += 1;
         if self.iterations == 1 {

@@ -5,7 +5,7 @@
 /// Number of stages.
 pub(super) const STAGES: usize = 4;
 
-/// Order of the solution that is continued.
+/// Order of the solution from which the next step starts.
 pub(super) const ORDER: i32 = 3;
 
 /// Diagonal coefficient of the implicit stages: a root of `6 x^3 - 18 x^2 + 9 x - 1`.
@@ -26,7 +26,7 @@ pub(super) const COEFFICIENTS: [[f64; STAGES - 1]; STAGES] = [
 /// Times of the stages, as fractions of the step.
 pub(super) const TIMES: [f64; STAGES] = [0.0, 2.0 * GAMMA, 0.468_238_744_851_844_4, 1.0];
 
-/// Weights of the stages in the error estimate: the solution minus that of the embedded method.
+/// Weights of the stages in the error estimate: the solution minus the solution of the embedded method.
 pub(super) const ERROR_WEIGHTS: [f64; STAGES] = [
     -0.054_625_497_240_413_94,
     -0.494_208_893_625_994_96,
@@ -38,7 +38,7 @@ pub(super) const ERROR_WEIGHTS: [f64; STAGES] = [
 mod tests {
     use super::*;
 
-    /// The coefficients with the diagonal.
+    /// All coefficients, including the diagonal.
     fn whole() -> [[f64; STAGES]; STAGES] {
         std::array::from_fn(|i| {
             std::array::from_fn(|j| match (i, j) {

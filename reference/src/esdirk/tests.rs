@@ -1,4 +1,4 @@
-//! The solver against equations with known solutions.
+//! Tests of the solver on equations with known solutions.
 
 use super::*;
 use crate::linear::Matrix;
@@ -69,7 +69,7 @@ fn a_stiff_solution_follows_the_tolerance() {
             let end = run(&mut solver, &mut equations, 2.0);
             assert_eq!(solver.time(), 2.0);
             let error = (end[0] - 2f64.cos()).abs().max((end[1] - 2f64.sin()).abs());
-            // The tolerance bounds the estimated error of each step; the order is reduced if the equation is stiff.
+            // The tolerance bounds the estimated error of each step; a stiff equation reduces the order.
             let counts = solver.counts();
             let allowed = 50.0 * tolerance * counts.steps as f64;
             assert!(error < allowed, "{rate} {tolerance}: {error:e}, {counts:?}");
@@ -77,7 +77,7 @@ fn a_stiff_solution_follows_the_tolerance() {
     }
 }
 
-/// Without error control, half the step length makes an eighth of the error.
+/// Without error control, halving the step length divides the error by eight.
 #[test]
 fn the_order_is_three() {
     let error = |steps: u32| {
@@ -131,7 +131,7 @@ fn an_event_is_located_to_the_tolerance() {
     }
 }
 
-/// The solution of `dx/dt = x^2` is infinite at time 1.
+/// The solution of `dx/dt = x^2` becomes infinite at time 1.
 #[test]
 fn a_solution_that_ends_is_an_error() {
     let mut equations = Problem {

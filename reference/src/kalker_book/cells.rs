@@ -1,4 +1,4 @@
-//! Coordinates of the book's cells, and their creepages.
+//! Coordinates of the cells of the book of tables, and their creepages.
 
 use dashpot_rail::creep::KalkerCoefficients;
 use dashpot_rail::creep::kalker_book::Layout;
@@ -13,21 +13,21 @@ fn middle(index: usize, cells: usize) -> f64 {
     (index as f64 + 0.5) / cells as f64
 }
 
-/// The coordinate "direction" at the middle of a cell, -1 to 1.
+/// Coordinate `direction` at the middle of a cell, from -1 to 1.
 pub(super) fn direction_coordinate(cell: usize) -> f64 {
     2.0 * middle(cell, Layout::CELLS[2]) - 1.0
 }
 
-/// Magnitude of the book's creepages at the middle of a cell of size.
+/// Magnitude of the book's creepages at the middle of a cell on the `size` axis.
 pub(super) fn magnitude(cell: usize) -> f64 {
     let size = middle(cell, Layout::CELLS[0]);
     size / (1.0 - size)
 }
 
-/// Direction at the middle of a cell of spin and a cell of direction.
+/// Direction at the middle of a cell on the `spin` axis and a cell on the `direction` axis.
 pub(super) fn direction(spin: usize, direction: usize) -> Direction {
     let coordinate = middle(spin, Layout::CELLS[1]);
-    // The inverse of h (9 - h^2) / 8.
+    // Newton's method solves h (9 - h^2) / 8 = coordinate.
     let mut h = coordinate;
     for _ in 0..50 {
         h -= (h * (9.0 - h * h) / 8.0 - coordinate) / ((9.0 - 3.0 * h * h) / 8.0);
@@ -37,12 +37,12 @@ pub(super) fn direction(spin: usize, direction: usize) -> Direction {
     [cos_spin * cos, cos_spin * sin, sin_spin]
 }
 
-/// `(a + b)/2` over `sqrt(a b)`, the arm of large spin.
+/// `(a + b)/2` over `sqrt(a b)`, the lever arm of spin if spin is large.
 pub(super) fn spin_arm(a_over_b: f64) -> f64 {
     0.5 * (a_over_b.sqrt() + 1.0 / a_over_b.sqrt())
 }
 
-/// `(a^2 + b^2)/2` over `a b`, the divisor of the book's moments over `sqrt(a b)`.
+/// `(a^2 + b^2)/2` over `a b`, by which the book divides the scaled moments.
 pub(super) fn moment_arm(a_over_b: f64) -> f64 {
     0.5 * (a_over_b + 1.0 / a_over_b)
 }

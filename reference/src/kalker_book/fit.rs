@@ -1,6 +1,6 @@
 //! Quadratic B-splines through values at the middles of equal cells.
 
-/// End condition: the coefficient beyond the end is `factor` times the one before it, plus `offset`.
+/// End condition of a spline: the coefficient beyond the end is `factor` times the one before it, plus `offset`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct End {
     factor: f64,
@@ -35,7 +35,7 @@ impl End {
 
 /// Coefficients of the spline through `values` at the middles of the cells, including one beyond each end.
 pub(super) fn fit(values: &[f64], [first, last]: [End; 2]) -> Vec<f64> {
-    // At the middle of a cell the three splines are 1/8, 6/8 and 1/8, so the system is tridiagonal.
+    // At the middle of a cell the three splines have the values 1/8, 6/8 and 1/8, so the system is tridiagonal.
     let count = values.len();
     let mut pivots = Vec::with_capacity(count);
     let mut rights = Vec::with_capacity(count);

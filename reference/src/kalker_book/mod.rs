@@ -20,7 +20,7 @@ use crate::rolling_contact::{RollingContact, ScaledForces, TOLERANCE, Tractions,
 /// Poisson's ratio of the tables, that of steel.
 pub const POISSON_RATIO: f64 = 0.28;
 
-/// Revision of the method; increment it after a change of solver, mesh, coordinates or fit.
+/// Revision of the method; increment it after a change to the solver, the mesh, the coordinates or the fit.
 pub const REVISION: u32 = 2;
 
 const SIZES: usize = Layout::CELLS[0];
@@ -33,8 +33,8 @@ const LAYER: usize = (SPINS + 2) * (DIRECTIONS + 2);
 /// Number of directions per ratio: one per cell, then pure spin.
 const LINES: usize = SPINS * DIRECTIONS + 1;
 
-/// Forces along one direction of creepage: their slope at size zero, their values at the middles of all cells of size
-/// except the first, and full sliding.
+/// Forces along one direction of creepage: their slope at size zero, their values at the middles of all `size` cells
+/// except the first, and their values in full sliding.
 type Line = [ScaledForces; SIZES + 1];
 
 /// Computes all coefficients in the order of [`Layout`] on all processors; the result does not depend on their number.
@@ -89,7 +89,7 @@ pub fn coefficients(
     Ok(lines.chunks(LINES).flat_map(spline).collect())
 }
 
-/// Text of the file that describes tables with these bytes.
+/// Text of the file that describes how the tables with these bytes were computed.
 pub fn provenance(bytes: &[u8]) -> String {
     let meshes: Vec<String> = (0..Layout::RATIOS)
         .map(|index| {
@@ -162,19 +162,20 @@ fn spline(lines: &[Line]) -> Vec<[f32; 3]> {
         .collect()
 }
 
-/// Coefficients over size from the values of all levels at one index of a layer.
+/// Coefficients along the `size` axis, from the values of all levels at one index of a layer.
 fn over_size(levels: &[f64]) -> Vec<f64> {
-    // The spline is zero with a given slope at size zero: the coefficients on both sides are opposite.
+    // At size zero the spline must be zero and have a given slope, so the coefficients on both sides are opposite.
     let first = 0.5 * levels[0] / SIZES as f64;
     let ends = [End::coefficient(first), End::value(levels[SIZES])];
     let rest = fit(&levels[1..SIZES], ends);
     std::iter::once(-first).chain(rest).collect()
 }
 
-/// Coefficients of one force over spin and direction at one level of size, ordered by spin, then direction.
+/// Coefficients of one force along `spin` and `direction` at one `size`, ordered by spin, then by direction.
 fn layer(lines: &[Line], level: usize, force: usize) -> Vec<f64> {
     let square = |cell: usize| 1.0 + direction_coordinate(cell).powi(2);
-    // The longitudinal force is odd in x, which is zero at both ends. For an even f = N / (1 + v^2), N' = N at v = 1.
+    // The longitudinal force is odd in x, and x is zero at both ends, so this force is zero there. The other forces are
+    // even: f = N / (1 + v^2) has zero slope at v = 1 if N' = N there.
     let half = 1.0 / DIRECTIONS as f64;
     let end = End::multiple(if force == 0 {
         -1.0
@@ -191,7 +192,7 @@ fn layer(lines: &[Line], level: usize, force: usize) -> Vec<f64> {
         .map(|spin| along(&|cell| lines[spin * DIRECTIONS + cell][level][force]))
         .collect();
     let pole = along(&|_| lines[LINES - 1][level][force]);
-    // Negative spin is the mirror image. The spline runs from pole to pole; one half of it is kept.
+    // Negative spin gives the mirror image. The spline runs from pole to pole; only one half of it is kept.
     let mirror = if force == 0 { 1.0 } else { -1.0 };
     let columns: Vec<Vec<f64>> = (0..DIRECTIONS + 2)
         .map(|direction| {

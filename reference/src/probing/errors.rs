@@ -12,9 +12,10 @@ pub struct MotionErrors {
     pub largest_n: f64,
     /// Tick of the largest error.
     pub tick: usize,
-    /// Root mean square error over root mean square force, but not less than [`MIN_RMS_FORCE_RATIO`] of the force limit
-    /// (1). For a motion in parts, the largest NRMSE of any part: no motion that joins and repeats these parts exceeds
-    /// it.
+    /// RMS error over RMS force (1); the divisor is at least [`MIN_RMS_FORCE_RATIO`] of the force limit.
+    ///
+    /// For a motion in parts, this is the largest NRMSE of any part: no motion that joins and repeats these parts
+    /// exceeds it.
     pub nrmse: f64,
     /// Largest force of the reference in extension and in compression (N).
     pub reference_peak_n: [f64; 2],
@@ -23,7 +24,7 @@ pub struct MotionErrors {
 }
 
 impl MotionErrors {
-    /// Errors of `forces` (N), one per tick, against the reference at the compared ticks.
+    /// Compares `forces` (N), one per tick, with the reference at the compared ticks.
     pub(super) fn new(motion: &Motion, forces: &[f64], reference: &[f64], limit_n: f64) -> Self {
         let mut found = Self::default();
         let mut part = Part::default();
@@ -32,7 +33,7 @@ impl MotionErrors {
         for (&tick, &expected) in motion.compared.iter().zip(reference) {
             let actual = forces.get(tick).copied().unwrap_or(f64::NAN);
             let error = (actual - expected).abs();
-            // NaN is larger than any number.
+            // NaN counts as larger than any number.
             if error.is_nan() || error > found.largest_n {
                 (found.largest_n, found.tick) = (error, tick);
             }
@@ -41,7 +42,7 @@ impl MotionErrors {
             if actual * expected <= 0.0 {
                 found.wrong_sign_n = found.wrong_sign_n.max(actual.abs());
             }
-            // A compared tick of a rest also represents the skipped ticks before it.
+            // Within a rest, a compared tick also represents the skipped ticks before it.
             let weight = (tick - before).max(1) as f64;
             part.squares += weight * error * error;
             part.force_squares += weight * expected * expected;
@@ -56,7 +57,7 @@ impl MotionErrors {
         found
     }
 
-    /// Raises the NRMSE to that of a part.
+    /// Raises the NRMSE to the NRMSE of a part if that is larger.
     fn add(&mut self, part: &Part, limit_n: f64) {
         let rms = |sum: f64| (sum / f64::max(part.ticks, 1.0)).sqrt();
         let min_rms = MIN_RMS_FORCE_RATIO * limit_n;

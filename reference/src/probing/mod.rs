@@ -1,8 +1,8 @@
-//! Largest errors of a fixed step with one damper over a fixed set of motions.
+//! Largest errors of the fixed step with one damper over a fixed set of motions.
 //!
-//! The set is scaled by the damper to include its worst cases: motions pass its clearance, its friction and the corners
-//! of its law at speeds from those of its smallest forces up to the top speed. The caller supplies the forces of the
-//! fixed step, because this crate knows parameters, not the step.
+//! The set is scaled to the damper so that it includes the worst cases: motions pass the damper's clearance, friction
+//! and the corners of its law, at speeds from those that cause its smallest forces up to the top speed. The caller
+//! supplies the forces of the fixed step, because this crate knows only the parameters, not the step.
 
 mod errors;
 mod motion;
@@ -19,20 +19,21 @@ use self::set::Scale;
 use crate::damper::Reference;
 use crate::error::ReferenceError;
 
-/// Default top speed of the motions (m/s); a lower limit of the damper's input rate reduces it.
+/// Default top speed of the motions (m/s); a lower input rate limit of the damper reduces it.
 pub const TOP_SPEED_M_PER_S: f64 = 0.6;
 
-/// Safety factor from [`Probing::largest_errors`] to the promised errors, valid for every motion of the class defined
-/// in docs/numerics.md. The search for the worst motion (`cargo xtask search`) stays below it.
+/// Safety factor between [`Probing::largest_errors`] and the promised errors. The promise holds for every motion of the
+/// class defined in docs/numerics.md. The errors that the search for the worst motion (`cargo xtask search`) finds stay
+/// below it.
 pub const PROMISED_FACTOR: f64 = 3.0;
 
 /// Smallest promised error at a tick as a fraction of the force limit (1), in double and in single precision.
 pub const MIN_ERROR_RATIO: [f64; 2] = [1e-6, 1e-5];
 
-/// Computes the forces of a fixed step (N) at each displacement (m), from rest at the first one.
+/// Computes the force (N) of a fixed step at each displacement (m), from rest at the first one.
 pub type Stepper<'a> = &'a (dyn Fn(&[f64]) -> Vec<f64> + Sync);
 
-/// One damper at one step size.
+/// Probes one damper at one step size.
 pub struct Probing<'a> {
     parameters: &'a DamperParameters,
     step_s: f64,
@@ -46,7 +47,7 @@ pub struct Worst {
     pub value: f64,
     /// Kind of the motion.
     pub kind: Kind,
-    /// Largest or effective speed of the motion (m/s).
+    /// Largest or RMS speed of the motion (m/s).
     pub speed_m_per_s: f64,
 }
 
@@ -72,7 +73,7 @@ impl<'a> Probing<'a> {
         }
     }
 
-    /// Sets another top speed (m/s), reduced if necessary to stay below the damper's limit of the input rate.
+    /// Sets another top speed (m/s); it is reduced if the damper's input rate limit is lower.
     pub fn with_top_speed(self, speed_m_per_s: f64) -> Self {
         Self {
             top_m_per_s: speed_m_per_s.min(highest_speed(self.parameters)),

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Number of ticks at the start of a rest that are all compared; the gaps grow afterwards.
+/// Number of ticks at the start of a rest that are all compared; after them, the gaps between compared ticks grow.
 const CLOSE_TICKS: usize = 16;
 
 /// Kind of a probing motion.
@@ -17,11 +17,11 @@ pub enum Kind {
     Crossing,
     /// Sudden changes of speed after a few ticks, including reversals.
     ChangingSpeed,
-    /// Random, up to 20 Hz.
+    /// Random motion up to 20 Hz.
     Ride,
     /// Linearly rising and falling speed, out and back.
     Ramp,
-    /// A rest of a minute under force.
+    /// A one-minute rest under force.
     Hold,
     /// Supplied by the caller.
     Other,
@@ -55,13 +55,13 @@ impl fmt::Display for Kind {
 pub struct Motion {
     /// Kind of the motion.
     pub kind: Kind,
-    /// Largest or effective speed (m/s).
+    /// Largest or RMS speed (m/s).
     pub speed_m_per_s: f64,
     /// Displacement at each tick (m).
     pub displacements_m: Vec<f64>,
-    /// Ticks at which forces are compared, increasing from 0; the motion is linear between two of them.
+    /// Ticks at which forces are compared, increasing from 0; the motion is linear between successive ones.
     pub(super) compared: Vec<usize>,
-    /// Ticks at which parts end, increasing. The NRMSE of the motion is the largest of its parts.
+    /// Ticks at which parts end, increasing. The NRMSE of the motion is the largest NRMSE of its parts.
     pub(super) part_ends: Vec<usize>,
 }
 
@@ -82,7 +82,7 @@ impl Motion {
     }
 }
 
-/// Ticks to compare: all, except within a long rest, where a growing gap keeps their number small.
+/// Ticks to compare: all, except that the gaps between them grow within a long rest.
 fn compared(displacements_m: &[f64]) -> Vec<usize> {
     let mut compared = Vec::new();
     let (mut rested, mut next) = (0, 0);
@@ -138,7 +138,7 @@ impl Path {
         }
     }
 
-    /// Ends a part. Its NRMSE counts separately, because a motion may repeat it any number of times.
+    /// Ends a part of the motion. Each part has its own NRMSE, because a motion may repeat it any number of times.
     pub(super) fn end_part(&mut self) {
         self.part_ends.push(self.displacements_m.len() - 1);
     }

@@ -8,11 +8,11 @@ use crate::damper::side::Side;
 
 /// Number of halvings of the top speed.
 const OCTAVES: i32 = 11;
-/// Fractions of the range from the closed force to the force limit; the set includes the steady speeds at these forces.
+/// Forces whose steady speeds the set includes, as fractions of the range from the closed force to the force limit.
 const FORCE_SHARES: [f64; 6] = [0.003, 0.03, 0.15, 0.4, 0.8, 1.0];
-/// Ticks between two turns of a saw, as fractions of the settling time of the force.
+/// Times between two turns of a saw, as fractions of the settling time of the force.
 const SAW_SHARES: [f64; 3] = [1.0, 0.35, 0.12];
-/// Maximum settling time in ticks; faster motions of the set reach forces that take longer.
+/// Maximum settling time in ticks. Forces that would take longer to settle are reached by faster motions of the set.
 const MAX_SETTLING_TICKS: usize = 150;
 /// Maximum ticks of a passage through the clearance.
 const MAX_CROSSING_TICKS: usize = 20_000;
@@ -32,7 +32,7 @@ pub(super) struct Scale<'a> {
 }
 
 impl Scale<'_> {
-    /// Builds the set.
+    /// Builds the set of motions.
     pub(super) fn motions(&self) -> Vec<Motion> {
         let speeds = self.speeds();
         let mut motions: Vec<Motion> = Vec::new();
@@ -114,7 +114,7 @@ impl Scale<'_> {
         path.go(speed, across / 2);
         for piece in 0..8 {
             let speed = speed * (1.0 - 0.017 * f64::from(piece));
-            // Stops after the force has settled, and earlier.
+            // Some stops come after the force has settled, others earlier.
             let share = [1.0, 0.6, 0.35, 0.2][piece as usize % 4];
             let ticks = across + (share * settling as f64) as usize + 2;
             path.go(if piece % 2 == 0 { speed } else { -speed }, ticks);
@@ -168,7 +168,7 @@ impl Scale<'_> {
         path.end(Kind::ChangingSpeed, top)
     }
 
-    /// Random motion up to 20 Hz with an effective speed (m/s).
+    /// Random motion up to 20 Hz with an RMS speed (m/s).
     fn ride(&self, speed: f64, seed: u64) -> Motion {
         let mut numbers = Numbers(seed);
         let lines: Vec<[f64; 3]> = (0..30)
@@ -187,7 +187,7 @@ impl Scale<'_> {
             };
             scale * lines.iter().map(line).sum::<f64>()
         };
-        // The ride is slowed if lines in phase exceed the top speed.
+        // The ride is slowed down if its harmonics add up to more than the top speed.
         let largest = (1..=ticks)
             .map(|tick| (at(tick) - at(tick - 1)).abs() / self.step_s)
             .fold(0.0, f64::max);

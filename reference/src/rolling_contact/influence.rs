@@ -1,14 +1,17 @@
-//! Slip of two equal elastic half-spaces by uniform tractions on the rectangles of a strip along the rolling direction.
+//! Slip of two equal elastic half-spaces under uniform tractions on the rectangles of a strip along the rolling
+//! direction.
 
 use std::f64::consts::PI;
 
 use super::mesh::Element;
 
-/// `[-du_x/dx by px, -du_y/dx by py, -du_x/dx by py]`, where the last one is also `-du_y/dx by px`; shear modulus 1.
+/// Slips per unit traction: `-du_x/dx` due to `px`, `-du_y/dx` due to `py`, and `-du_x/dx` due to `py`, which equals
+/// `-du_y/dx` due to `px`. The shear modulus is 1.
 pub(super) type Slip = [f64; 3];
 
-/// Slip at each element of the strip `to` by a unit traction on each element of the strip `from`, ordered by elements
-/// of `to`, then of `from`. The slip is the mean from an element's middle to the middle of the next element ahead.
+/// Slip at each element of the strip `to` that a unit traction on each element of the strip `from` causes, ordered by
+/// elements of `to`, then of `from`. The slip is the mean from an element's middle to the middle of the next element
+/// ahead.
 ///
 /// Tractions on the wheel and their opposites on the rail displace the two surfaces relative to each other by
 /// (Cerruti; Johnson 1985, 3.75)
@@ -58,7 +61,7 @@ pub(super) fn slip_by_strip(to: &[Element], from: &[Element], poisson_ratio: f64
 
 /// Integrals over both coordinates of `X^2/R^3`, `Y^2/R^3` and `X Y/R^3`.
 fn integrals([x, y]: [f64; 2]) -> [f64; 3] {
-    // y asinh(x/|y|), which is zero at y = 0.
+    // y asinh(x/|y|) is zero at y = 0.
     let product = |x: f64, y: f64| {
         if y == 0.0 {
             0.0

@@ -1,4 +1,4 @@
-//! The contact ellipse in strips along the rolling direction, each in equal elements.
+//! Divides the contact ellipse into strips along the rolling direction, and each strip into equal elements.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -6,11 +6,11 @@ use std::f64::consts::{FRAC_1_PI, PI};
 /// the next element ahead.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Element {
-    /// Position of the middle along.
+    /// Position of the middle in the rolling direction.
     pub(super) x: f64,
-    /// Position of the middle across, equal to that of the strip.
+    /// Position of the middle in the lateral direction, equal to that of the strip.
     pub(super) y: f64,
-    /// Position of the middle of the path along, the leading edge of the rectangle.
+    /// Position of the path's middle in the rolling direction: the leading edge of the rectangle.
     pub(super) slip_x: f64,
     /// Width of the strip and the rectangle.
     pub(super) width: f64,
@@ -27,13 +27,13 @@ impl Element {
     }
 }
 
-/// Distance from the trailing edge of the contact to the middle of the last rectangle, in elements; at the leading edge
-/// it is half an element more.
+/// Distance from the trailing edge of the contact to the middle of the last rectangle, in elements; at the leading
+/// edge, the distance is half an element longer.
 ///
 /// A quarter is exact for line loads and slip at points in plane strain (the vortex lattice of wing theory, James
-/// 1972). Loads and slip spread over an element multiply the equations' spectrum by `A(t) = 4 sin^2(t/2) sum_n (-1)^n
-/// sgn(t + 2 pi n)/(t + 2 pi n)^2`, which moves either end of the solution by `sum_(n > 0) n a_n = 0.0753` elements,
-/// where `a_n` are the Fourier coefficients of `ln A` (Wiener and Hopf).
+/// 1972). Here loads and slip are spread over an element. This multiplies the equations' spectrum by
+/// `A(t) = 4 sin^2(t/2) sum_n (-1)^n sgn(t + 2 pi n)/(t + 2 pi n)^2`, which moves either end of the solution by
+/// `sum_(n > 0) n a_n = 0.0753` elements, where `a_n` are the Fourier coefficients of `ln A` (Wiener and Hopf).
 const END: f64 = 0.25 + 0.0753;
 
 /// Elements of an ellipse with `a b = 1`, strip by strip from the leading to the trailing edge; Hertz pressure for a
@@ -45,7 +45,7 @@ pub(super) fn elements(a_over_b: f64, along: usize, strips: usize) -> Vec<Elemen
     for strip in 0..strips {
         let (from, to) = (edge(strip), edge(strip + 1));
         let width = to - from;
-        // The strip has the area of the ellipse between its edges.
+        // The strip has the same area as the part of the ellipse between its edges.
         let half = 0.5 * PI * (disc(to / b) - disc(from / b)) / width;
         let size = 2.0 * half / (along as f64 - 0.5 + 2.0 * END);
         let cubic = |y: f64| y - y.powi(3) / (3.0 * b * b);

@@ -28,14 +28,14 @@ pub type ScaledCreepage = [f64; 3];
 /// Longitudinal and lateral force over `mu N`, spin moment over `mu N sqrt(a b)`.
 pub type ScaledForces = [f64; 3];
 
-/// Change of all tractions in a sweep, over `mu N`, below which the iteration has converged.
+/// The iteration has converged if a sweep changes all tractions together by less than this fraction of `mu N`.
 pub const TOLERANCE: f64 = 1e-5;
 
 /// Relaxation factor of a sweep. The slip depends on the tractions ahead and behind through a kernel without definite
 /// sign, so full steps diverge.
 const RELAXATION: f64 = 0.3;
 
-/// Maximum number of sweeps; 30 to 200 are usual.
+/// Maximum number of sweeps; the solution usually takes 30 to 200.
 const MAX_SWEEPS: usize = 1000;
 
 /// Rolling contacts with one ratio of semi-axes and one Poisson's ratio, on one mesh.
@@ -51,7 +51,8 @@ const MAX_SWEEPS: usize = 1000;
 /// ```
 pub struct RollingContact {
     elements: Vec<Element>,
-    /// Slip at each element by the traction of each element: along by along, across by across, along by across.
+    /// Slip at each element that the traction of each element causes: longitudinal slip by longitudinal traction,
+    /// lateral by lateral, longitudinal by lateral.
     slip: [Vec<f64>; 3],
 }
 
@@ -60,14 +61,16 @@ impl RollingContact {
     /// accurate to about half a percent of `mu N`.
     ///
     /// # Errors
-    /// The ratio is not positive, or Poisson's ratio not within 0 to 0.5.
+    /// The ratio is not positive, or Poisson's ratio is not within 0 to 0.5.
     pub fn new(a_over_b: f64, poisson_ratio: f64) -> Result<Self, ReferenceError> {
         let [along, strips] = Self::usual_mesh(a_over_b);
         Self::with_mesh(a_over_b, poisson_ratio, along, strips)
     }
 
-    /// Elements along and number of strips of [`Self::new`]. A strip must not be much wider than the contact is long,
-    /// or the pole of spin jumps from strip to strip; an element of a long contact is longer than its strip is wide.
+    /// Number of elements per strip, and number of strips, that [`Self::new`] uses.
+    ///
+    /// A strip must not be much wider than the contact is long, or the pole of spin jumps from strip to strip; an
+    /// element of a long contact is longer than its strip is wide.
     pub fn usual_mesh(a_over_b: f64) -> [usize; 2] {
         let min_strips = 12.0 * (0.5 * a_over_b).max(1.0).powf(0.22);
         let strips = (10.0 / a_over_b).clamp(min_strips, 40.0).ceil();
@@ -190,7 +193,7 @@ impl RollingContact {
                 xi - phi * element.y + elastic[0] - own[0] * old[0],
                 eta + phi * element.slip_x + elastic[1] - own[1] * old[1],
             ];
-            // Sliding is evaluated at the position of the traction.
+            // Sliding is evaluated where the traction acts.
             let shift = [0.0, phi * (element.x - element.slip_x)];
             let solved = traction(others, own, shift, element.pressure);
             let step = [0, 1].map(|k| RELAXATION * (solved[k] - old[k]));
@@ -229,10 +232,10 @@ pub struct Tractions {
     across: Vec<f64>,
 }
 
-/// Slip along and across by all tractions.
+/// Longitudinal and lateral slip that all tractions cause.
 #[inline]
 fn slip_of(xx: &[f64], yy: &[f64], xy: &[f64], tractions: &Tractions) -> [f64; 2] {
-    // Several partial sums, so that the compiler uses vector instructions.
+    // With several partial sums, the compiler uses vector instructions.
     const LANES: usize = 4;
     let mut sums = [[0.0; LANES]; 2];
     let mut add = |from: usize, lanes: usize| {

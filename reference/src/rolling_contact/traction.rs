@@ -15,7 +15,7 @@ pub(super) fn traction(others: [f64; 2], own: [f64; 2], shift: [f64; 2], limit: 
     if sticking[0].hypot(sticking[1]) <= limit {
         return sticking;
     }
-    // 1/|p| is nearly linear in the resistance: Newton on it converges in a few steps.
+    // 1/|p| is nearly linear in the resistance, so Newton's method on it converges in a few steps.
     let mut resistance = 0.0;
     for _ in 0..30 {
         let p = at(resistance);

@@ -18,11 +18,11 @@ pub(super) struct Pose {
 /// Attachment of an element's end.
 #[derive(Clone, Debug)]
 pub(super) struct Attachment {
-    /// Index of the body, where wheelsets follow the bodies; `None` on the track.
+    /// Index of the body, counting the wheelsets after the bodies; `None` on the track.
     pub(super) body: Option<usize>,
     /// Position relative to the body's centre (m).
     pub(super) arm: Vector,
-    /// True in an axlebox, which does not rotate with its wheelset.
+    /// True if the end is on an axlebox, which does not rotate with its wheelset.
     pub(super) is_axlebox: bool,
 }
 
@@ -76,7 +76,7 @@ impl Attachment {
         [motion[2], pitch, motion[4]]
     }
 
-    /// Force, and moments about the body's centre, by `force` and `moment` at the attachment.
+    /// Force, and moments about the body's centre, caused by `force` and `moment` at the attachment.
     pub(super) fn load(&self, force: &Vector, moment: &Vector) -> Coordinates {
         let [x, y, z] = self.arm;
         let pitching = moment[1] - x * force[2];

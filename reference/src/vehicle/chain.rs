@@ -100,8 +100,9 @@ impl Chain {
     }
 
     /// Derivatives of the force (N/m) and of the piston velocity (1/s) with respect to the displacement from the
-    /// piston, and of the piston velocity with respect to the velocity of the ends (1). Central differences, accurate
-    /// enough for an iteration.
+    /// piston, and of the piston velocity with respect to the velocity of the ends (1).
+    ///
+    /// Central differences are accurate enough for an iteration.
     pub(super) fn slopes(&self, range: usize, from_piston: f64) -> [f64; 3] {
         match range.abs_diff(CLEARANCE) {
             0 => [0.0; 3],
@@ -115,7 +116,7 @@ impl Chain {
         }
     }
 
-    /// Distances to both ends of a range, positive inside. Yielding ends by the velocity, not by the displacement.
+    /// Distances to both ends of a range, positive inside. The velocity, not the displacement, ends yielding.
     pub(super) fn margins(&self, range: usize, from_piston: f64, velocity: f64) -> [f64; 2] {
         let (direction, sign) = self.working(range);
         if range.abs_diff(CLEARANCE) == 3 {
@@ -125,7 +126,7 @@ impl Chain {
         self.ranges.margins(range, from_piston)
     }
 
-    /// New range, and displacement from the piston, of a damper that was in `range`.
+    /// Returns the new range, and the displacement from the piston, of a damper that was in `range`.
     pub(super) fn settled(&self, range: usize, from_piston: f64, velocity: f64) -> (usize, f64) {
         let yields = |range: usize| {
             let (direction, sign) = self.working(range);
@@ -160,7 +161,7 @@ impl Direction {
         }
     }
 
-    /// Force and piston velocity of flow at a stretch: an odd continuation below the range, a linear one above it.
+    /// Force and piston velocity in flow at a stretch, continued as an odd function below the range and linearly above.
     fn flow(&self, stretch: f64) -> [f64; 2] {
         let closed = self.side.closed_stretch;
         let beyond = stretch - self.yield_stretch;

@@ -22,7 +22,7 @@ pub(super) enum Action {
     },
     /// Spring about x.
     Bar { stiffness: f64 },
-    /// Force along an axis by the damper or stop with this index.
+    /// Force along an axis from the damper or stop with this index.
     Nonlinear { axis: usize, number: usize },
 }
 
@@ -174,7 +174,7 @@ impl Coupling {
         }
     }
 
-    /// Loads on the first and second body by `force` and `moment` on the second end and their opposites on the first.
+    /// Loads on the first and second body from `force` and `moment` on the second end and their opposites on the first.
     pub(super) fn loads(&self, [force, moment]: &[Vector; 2]) -> [Coordinates; 2] {
         let opposite = |vector: &Vector| vector.map(|component| -component);
         [
@@ -183,7 +183,7 @@ impl Coupling {
         ]
     }
 
-    /// Loads on both bodies by a force of 1 N on the second end along the axis of a damper or stop.
+    /// Loads on both bodies from a force of 1 N on the second end along the axis of a damper or stop.
     pub(super) fn loads_along(&self) -> [Coordinates; 2] {
         let mut force = [0.0; 3];
         if let Action::Nonlinear { axis, .. } = self.action {
@@ -192,13 +192,16 @@ impl Coupling {
         self.loads(&[force, [0.0; 3]])
     }
 
-    /// Additional loads by the standing force as the bodies rotate.
+    /// Additional loads from the standing force as the bodies rotate.
     ///
-    /// The potential is `U = -F . R^T (u2 - u1)`: the ends are displaced by `u = u_c + omega x r + omega x (omega x
-    /// r)/2`, and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of the force `m x F`
-    /// on the second end and its opposite on the first; half of the moment `F x (u2 - u1)` on each body; and, from
-    /// `omega x (omega x r)/2`, the moment `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second body and
-    /// its opposite, with the first body's `r`, on the first.
+    /// The potential is `U = -F . R^T (u2 - u1)`. In it, the ends are displaced by `u = u_c + omega x r + omega x
+    /// (omega x r)/2`, and the axes rotate by the mean `m` of both rotations. To first order `-dU` consists of three
+    /// terms:
+    ///
+    /// - the force `m x F` on the second end and its opposite on the first;
+    /// - half of the moment `F x (u2 - u1)` on each body;
+    /// - from `omega x (omega x r)/2`, the moment `(F (r . omega) + r (F . omega))/2 - (F . r) omega` on the second
+    ///   body; on the first body the opposite of this moment with its own `r` and `omega`.
     pub(super) fn turned_loads(&self, poses: &[Pose; 2], motion: &Motion) -> [Coordinates; 2] {
         let f = &self.standing_force;
         let turns: [Vector; 2] =

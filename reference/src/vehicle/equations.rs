@@ -164,7 +164,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         extensions
     }
 
-    /// Motion of a wheelset's contact, and displacements of its rails.
+    /// Returns the motion of a wheelset's contact, and the displacements of its rails.
     pub(super) fn contact_motion(
         &self,
         situation: &Situation<'_>,
@@ -289,7 +289,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 y - roll * z,
                 z + roll * y + rolling.standing.load,
                 about_x - rolling.momentum * v[4],
-                // About the axle, which has yawed and rolled.
+                // Moment about the axle, which has yawed and rolled.
                 about_y - motion.yaw_rad * about_x + motion.roll_rad * about_z,
                 about_z + rolling.momentum * v[2],
             ];

@@ -5,7 +5,7 @@ use dashpot_rail::vehicle::GRAVITY_M_PER_S2;
 
 use super::attachment::Coordinates;
 
-/// Distance between the middles of both rails, the base of the cant (m).
+/// Distance between the centres of the rails, over which the cant is measured (m).
 const RAILS_APART_M: f64 = 1.5;
 
 /// Abscissae from -1 to 1 and weights of Gaussian quadrature, exact for the cubic integrals over a transition.
@@ -47,8 +47,8 @@ pub(super) struct Following {
     pub(super) offset_rate: Coordinates,
     /// Absolute velocity of the body's own frame: `e` in `dq/dt = v - e`.
     pub(super) frame_velocity: Coordinates,
-    /// Lateral and vertical acceleration by gravity and centrifugal force (m/s^2), minus the acceleration on straight
-    /// track.
+    /// Lateral and vertical acceleration due to gravity and centrifugal force (m/s^2), minus the acceleration on
+    /// straight track.
     pub(super) acceleration: [f64; 2],
 }
 
@@ -81,12 +81,12 @@ impl<'a> Path<'a> {
         path
     }
 
-    /// Distance along the track of a point `x` ahead of the middle (m).
+    /// Distance along the track of the point `x` ahead of the middle (m).
     fn distance(&self, time: f64, x: f64) -> f64 {
         self.start + self.speed * time + x
     }
 
-    /// Distance along the track of a body (m).
+    /// Distance of a body along the track (m).
     pub(super) fn distance_of(&self, body: usize, time: f64) -> f64 {
         self.distance(time, self.runners[body + 1].x)
     }
@@ -229,7 +229,7 @@ fn ends(defect: &Defect) -> Vec<f64> {
             let corners = [start_m, start_m + base_m, behind, behind + base_m];
             rounded(&corners, rounding_m)
         }
-        // Without its ends, the solver's error control alone limits the step.
+        // The ends of other defects are not known here; only the solver's error control limits the step.
         _ => Vec::new(),
     }
 }

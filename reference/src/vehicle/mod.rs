@@ -72,11 +72,11 @@ pub struct VehicleSample {
 pub struct Statistics {
     /// Accepted steps of the solver.
     pub steps: usize,
-    /// Steps rejected for their error.
+    /// Steps rejected because of their error.
     pub rejected: usize,
     /// Evaluations of the equations.
     pub evaluations: usize,
-    /// Factorisations of the matrix of the Newton iteration.
+    /// Factorisations of the iteration matrix of Newton's method.
     pub factorisations: usize,
     /// Changes of the range of a damper or stop.
     pub events: usize,
@@ -95,7 +95,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         speed_m_per_s: f64,
         start_m: f64,
     ) -> Result<Self, ReferenceError> {
-        // Only checks names and values; the solution is not used.
+        // This only checks names and values; the solution is not used.
         Standstill::new(vehicle)?;
         VehicleError::check(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         VehicleError::check(&vehicle.name, "start_m", start_m, [-1e7, 1e7])?;
@@ -178,8 +178,8 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         })
     }
 
-    /// Runs the vehicle from time 0 and returns it at each of the increasing times (s). `tolerance` is relative, per
-    /// step.
+    /// Runs the vehicle from time 0 and returns a sample at each of the increasing times (s). `tolerance` is relative
+    /// and holds per step.
     ///
     /// # Errors
     /// Times that are negative or do not increase, or a tolerance that is not within 1e-12 to 0.01 or cannot be

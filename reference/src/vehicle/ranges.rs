@@ -4,7 +4,7 @@
 /// of 1e9 N/m it corresponds to 10 mN.
 pub(super) const OVERLAP_M: f64 = 1e-11;
 
-/// Increasing edges. Range `i` is below edge `i`; the last range is above all edges.
+/// Edges of a law, in increasing order. Range `i` is below edge `i`; the last range is above all edges.
 #[derive(Clone, Debug)]
 pub(super) struct Ranges {
     pub(super) edges: Vec<f64>,
@@ -23,7 +23,7 @@ impl Ranges {
         [below, above]
     }
 
-    /// New range of a motion at `x` that was in `range`.
+    /// Returns the new range of a motion at `x` that was in `range`.
     pub(super) fn settled(&self, range: usize, x: f64) -> usize {
         let mut settled = range;
         while settled < self.edges.len() && self.margins(settled, x)[1] < 0.5 * OVERLAP_M {

@@ -9,8 +9,9 @@ use super::coupling::Coupling;
 use super::equations::{Equations, N, Ranged, Situation};
 use crate::linear::Matrix;
 
-/// Field of a contact's motion for each coordinate of a wheelset, and field with sign for each velocity.
+/// Index of the field of a contact's motion that corresponds to each coordinate of a wheelset.
 const BY_COORDINATE: [Option<usize>; N] = [Some(1), Some(2), Some(3), None, Some(4)];
+/// Index of the field of a contact's motion that corresponds to each velocity of a wheelset, and the sign.
 const BY_VELOCITY: [(usize, f64); N] = [(5, 1.0), (6, 1.0), (7, 1.0), (8, -1.0), (9, 1.0)];
 
 impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
@@ -98,7 +99,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             let per_newton = coupling.loads_along();
             let range = situation.ranges[number];
             let displacement = extensions[number].displacement;
-            // The loads of a unit force equal the displacements by unit coordinates (virtual work).
+            // By virtual work, the loads from a unit force equal the displacements due to unit coordinates.
             let (slope, damper) = match &self.ranged[number] {
                 Ranged::Stop(stop) => (stop.slope(range), None),
                 Ranged::Damper(damper, chain) => {
@@ -152,7 +153,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 let by = |field: usize| -> f64 {
                     let derivative = |wheel: &dashpot_rail::contact::WheelDerivatives| match k {
                         0 | 1 => wheel.force[k + 1][field],
-                        // About the axle, which has yawed and rolled.
+                        // Moment about the axle, which has yawed and rolled.
                         3 => {
                             wheel.moment[1][field] - motion.yaw_rad * wheel.moment[0][field]
                                 + motion.roll_rad * wheel.moment[2][field]

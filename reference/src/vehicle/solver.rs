@@ -57,12 +57,13 @@ impl<L: CreepLaw, S: PatchSource> Problem<'_, '_, L, S> {
 }
 
 impl<L: CreepLaw, S: PatchSource> esdirk::Equations for Problem<'_, '_, L, S> {
-    /// Rates at a state. Within [`LINEAR_RATIO`] of the tolerance from the last evaluated state, they are extrapolated
-    /// from there by the Jacobian.
+    /// Writes the rates at a state; close to the last evaluated state, they are extrapolated with the Jacobian.
+    ///
+    /// A state is close if its distance is below [`LINEAR_RATIO`] times the tolerance.
     ///
     /// The contact tables are rounded to `f32`, so forces jump by about 1e-7 of their magnitude at the borders of
-    /// their cells; one border is at the track's centre. An iteration that converges to a border would otherwise jump
-    /// between both sides forever.
+    /// their cells; one border is at the track's centre. Without the extrapolation, an iteration that converges to a
+    /// border would jump between the two sides forever.
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
         let (last_time, last_state, last_rates) = &self.last;
         if *last_time == time
@@ -106,7 +107,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         SCALES[usize::from(is_velocity)]
     }
 
-    /// Root mean square distance of two states over the tolerance.
+    /// Root mean square distance of two states, divided by the tolerance.
     fn distance(&self, from: &[f64], to: &[f64], tolerance: f64) -> f64 {
         let over = |(k, (from, to)): (usize, (&f64, &f64))| {
             let allowed = tolerance * (from.abs() + self.scale(k));
@@ -162,7 +163,7 @@ pub(super) fn run<'a, L: CreepLaw, S: PatchSource>(
             continue;
         }
         problem.situation.enter(0.5 * (now + edge));
-        // Restarts at each event until the edge is reached.
+        // The solver restarts at each event until the edge is reached.
         let mut is_at_edge = false;
         while !is_at_edge {
             statistics.events += equations.settle(&mut problem.situation, now, &mut state);

@@ -11,7 +11,7 @@ use crate::linear::{Factors, Matrix};
 /// Coordinates of a body.
 const N: usize = 5;
 
-/// Half the range of heights that is searched for a wheelset (m).
+/// A wheelset's rest position is searched for within this distance above and below 0 (m).
 const DEEPEST_M: f64 = 2e-3;
 
 /// Equilibrium of a wheelset on the rails.
@@ -57,7 +57,7 @@ pub(super) fn load_elements(
         }
         all
     };
-    // Column by column, minus the loads by unit displacements.
+    // Each column contains the loads that a unit displacement causes, with opposite signs.
     let mut stiffness = Matrix::zeros(size);
     for column in 0..size {
         let mut unit = vec![0.0; size];

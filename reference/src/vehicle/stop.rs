@@ -6,7 +6,7 @@ use super::ranges::Ranges;
 #[derive(Clone, Debug)]
 pub(super) struct Stop {
     pub(super) ranges: Ranges,
-    /// A displacement, the force there and the slope of the line of each range (m, N, N/m).
+    /// Line of each range: a displacement (m), the force there (N) and the slope (N/m).
     lines: Vec<[f64; 3]>,
 }
 

@@ -1,4 +1,4 @@
-//! Y/Q of a wheel on its flange: the real-time law compared with the exact solver on the same patches.
+//! Y/Q of a wheel on its flange: compares the real-time law with the exact solver on the same patches.
 
 use std::sync::OnceLock;
 
@@ -53,7 +53,8 @@ pub fn climbing() -> &'static [[[f64; 4]; YAWS_MRAD.len()]; FRICTIONS.len()] {
 fn quotients(coefficient: f64, yaw_mrad: f64) -> [f64; 4] {
     let friction = friction(coefficient);
     let book = WheelsetContact::new(geometry(), KalkerBook::new(), friction).unwrap();
-    // Shifted until the flange carries the wheel. All laws use the height found with the book, and so the same patches.
+    // The wheel is shifted until its flange carries it. All laws use the height found with the book, so they have the
+    // same patches.
     let (motion, book_wheel) = (50..90)
         .map(|tenths| Motion {
             speed_m_per_s: 20.0,
@@ -96,7 +97,7 @@ fn a_climbing_wheel_has_the_quotient_of_exact_theory() {
     for (friction, by_yaw) in FRICTIONS.iter().zip(climbing()) {
         for (yaw, [exact, book, ..]) in YAWS_MRAD.iter().zip(by_yaw) {
             assert!(*exact > 0.8, "not on the flange: {exact}");
-            // Patches here are 11 to 23 times as long as wide.
+            // The patches here are 11 to 23 times as long as they are wide.
             assert!(
                 (book / exact - 1.0).abs() < 0.03,
                 "mu {friction}, {yaw} mrad: {book} for {exact}"

@@ -13,8 +13,8 @@ const END: &str = "<!-- exact: end -->";
 
 fn measured() -> String {
     let mut text = format!(
-        "\nPlace of contact from 0.5 to 6 mm: {:.2} mm RMS from exact theory.\n\n\
-         | shift, mm | place, mm: exact | here | angle, mrad: exact | here | steering, kN: exact | here | lateral, \
+        "\nContact position at shifts of 0.5 to 6 mm: {:.2} mm RMS from exact theory.\n\n\
+         | shift, mm | position, mm: exact | here | angle, mrad: exact | here | steering, kN: exact | here | lateral, \
          kN: exact | here |\n\
          |---|---|---|---|---|---|---|---|---|\n",
         position_error_mm()
@@ -46,7 +46,7 @@ fn measured() -> String {
             1e-3 * found.lateral_n
         );
     }
-    text.push_str("\n| Y/Q on the flange, from exact theory: greatest |");
+    text.push_str("\n| Y/Q on the flange: largest deviation from exact theory |");
     for friction in FRICTIONS {
         let _ = write!(text, " friction {friction} |");
     }
@@ -65,7 +65,7 @@ fn measured() -> String {
     }
     let _ = writeln!(
         text,
-        "\nYaw from {} to {} mrad, the wheel against the face of its flange under 100 kN, both by the same patches.",
+        "\nThe yaw is {} to {} mrad; the wheel runs on its flange under 100 kN. All laws use the same patches.",
         YAWS_MRAD[0],
         YAWS_MRAD[YAWS_MRAD.len() - 1]
     );
@@ -97,6 +97,6 @@ fn the_document_shows_the_measured_values() {
     assert_eq!(
         &document[begin..end],
         block,
-        "run with DASHPOT_BLESS=1 to restate it"
+        "run with DASHPOT_BLESS=1 to update it"
     );
 }

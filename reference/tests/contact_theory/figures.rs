@@ -19,7 +19,7 @@ const COLOURS: [RGBColor; 5] = [
     RGBColor(198, 40, 40),
     RGBColor(46, 125, 50),
 ];
-/// Enlargement of the drawing, because the backend rounds to whole units; curves stay smooth.
+/// Enlargement of the drawing: the backend rounds to whole units, and curves stay smooth at a larger scale.
 const FINE: u32 = 4;
 
 /// One curve: its name, its colour, whether its points are marked, its points.
@@ -119,7 +119,7 @@ fn over_the_yaw() -> Vec<Panel> {
         .collect()
 }
 
-/// Lateral force over lateral creepage with spin, the case in which the laws differ most.
+/// Lateral force as a function of lateral creepage with spin, the case in which the laws differ most.
 fn over_the_creepage() -> Vec<Panel> {
     let contact = LoadedContact {
         load_n: 100e3,
@@ -201,7 +201,7 @@ fn exact_and_found(exact: Vec<(f64, f64)>, found: Vec<(f64, f64)>) -> Vec<Curve>
     ]
 }
 
-/// The panels side by side, two in a row.
+/// Draws the panels side by side, two in a row.
 fn draw(panels: &[Panel]) -> String {
     let (columns, rows) = (2, panels.len().div_ceil(2));
     let (width, height) = (980, 330 * rows as u32);

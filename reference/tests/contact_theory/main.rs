@@ -1,4 +1,4 @@
-//! The contact of a wheel compared with exact theory, in figures and a table of docs/contact.md.
+//! Compares the contact of a wheel with exact theory, in the figures and tables of docs/contact.md.
 //!
 //! `DASHPOT_BLESS=1 cargo test -p dashpot-reference --test contact_theory` updates them.
 

@@ -1,5 +1,5 @@
-//! One wheel under 100 kN over its lateral shift: position, angle and forces of the contact compared with an
-//! independent half-space solver.
+//! Compares the contact of one wheel under 100 kN, at a range of lateral shifts, with an independent half-space solver:
+//! position, angle and forces.
 
 use std::sync::{Arc, OnceLock};
 
@@ -13,7 +13,7 @@ const EXACT: &str = include_str!("../../../rail/data/contact_exact_100kn.csv");
 
 pub const LOAD_N: f64 = 100e3;
 
-/// One lateral shift of the wheelset, with the right wheel by exact theory and by this project.
+/// The right wheel at one lateral shift of the wheelset, from exact theory and from this project.
 #[derive(Clone, Copy)]
 pub struct Shift {
     pub lateral_mm: f64,
@@ -21,7 +21,7 @@ pub struct Shift {
     pub found: Wheel,
 }
 
-/// Contact of one wheel; forces on the rail.
+/// Contact of one wheel; the forces act on the rail.
 #[derive(Clone, Copy)]
 pub struct Wheel {
     pub place_mm: f64,
@@ -30,7 +30,7 @@ pub struct Wheel {
     pub lateral_n: f64,
 }
 
-/// Wheel and rail of the data.
+/// Wheel and rail for which the exact data were computed.
 pub fn geometry() -> Arc<ContactGeometry> {
     static GEOMETRY: OnceLock<Arc<ContactGeometry>> = OnceLock::new();
     let geometry = GEOMETRY.get_or_init(|| {
@@ -101,7 +101,7 @@ fn wheel<S: PatchSource>(contact: &WheelsetContact<KalkerBook, S>, lateral_mm: f
         ..Motion::default()
     };
     let (motion, forces) = loaded(contact, &motion);
-    // Position and angle of several patches are means weighted by load.
+    // The position and angle of several patches are means, weighted by load.
     let load: f64 = forces.loaded_patches().map(|patch| patch.load_n).sum();
     let mean = |value: &dyn Fn(&dashpot_rail::contact::PatchForces) -> f64| {
         let patches = forces.loaded_patches();
@@ -118,8 +118,9 @@ fn wheel<S: PatchSource>(contact: &WheelsetContact<KalkerBook, S>, lateral_mm: f
     }
 }
 
-/// Steering force for each shift, exact and computed (N): longitudinal force of the left wheel minus that of the right
-/// one, from the right wheel shifted in both directions.
+/// Steering force for each shift, exact and computed (N): longitudinal force of the left wheel minus that of the right.
+///
+/// Both come from the right wheel: shifted the other way, it replaces the left wheel.
 pub fn steering() -> Vec<(f64, [f64; 2])> {
     let shifts = shifts();
     let at = |lateral_mm: f64| {

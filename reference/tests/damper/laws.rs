@@ -1,4 +1,4 @@
-//! The reference against closed forms and printed values.
+//! Compares the reference with closed forms and printed values.
 
 use std::f64::consts::PI;
 
@@ -23,7 +23,7 @@ fn forces(parameters: &DamperParameters, (times, x): &motions::Motion) -> Vec<f6
         .expect("forces")
 }
 
-/// Force after 1 s at constant velocity [N].
+/// Force after 1 s at constant velocity (N).
 fn settled(parameters: &DamperParameters, velocity: f64) -> f64 {
     let motion = motions::sampled(100.0, 1.0, |t| velocity * t);
     *forces(parameters, &motion).last().expect("samples")
@@ -48,8 +48,8 @@ fn paper_forces_at_constant_velocity() {
     }
 }
 
-/// All in-service terms against values of the same laws computed independently in another language, by bisection of
-/// flow against velocity.
+/// Compares all in-service terms with values of the same laws that were computed independently in another language, by
+/// bisection until the flow matches the velocity.
 #[test]
 fn in_service_forces_at_constant_velocity() {
     for (two_chamber, velocity, force) in [
@@ -108,7 +108,7 @@ fn two_chambers_balance() {
     }
 }
 
-/// A saw at constant speed alternates between both static forces.
+/// A saw at constant speed alternates between the two static forces.
 #[test]
 fn saw_settles_on_each_leg() {
     let velocity = 0.05;
@@ -125,8 +125,8 @@ fn saw_settles_on_each_leg() {
     }
 }
 
-/// Spring and damper in series: stiffness `K (w tau)^2/(1 + (w tau)^2)` in phase with the
-/// displacement, `C/(1 + (w tau)^2)` with the velocity.
+/// Spring and damper in series: stiffness `K (w tau)^2/(1 + (w tau)^2)` in phase with the displacement and damping
+/// `C/(1 + (w tau)^2)` in phase with the velocity.
 #[test]
 fn maxwell_element_under_harmonic_motion() {
     let (damping, stiffness) = (120e3, 8e6);
@@ -135,7 +135,7 @@ fn maxwell_element_under_harmonic_motion() {
     for frequency in [1.0, 10.0, 50.0] {
         let (omega, per_cycle, amplitude) = (2.0 * PI * frequency, 5000, 1e-3);
         let rate = per_cycle as f64 * frequency;
-        // The first transient has decayed to 1e-9.
+        // After these cycles the initial transient has decayed to 1e-9.
         let cycles = (20.7 * tau * frequency).ceil() + 1.0;
         let (times, x) =
             motions::sampled(rate, cycles / frequency, |t| amplitude * (omega * t).sin());
@@ -149,8 +149,8 @@ fn maxwell_element_under_harmonic_motion() {
         let ratio = (omega * tau).powi(2);
         let in_phase = stiffness * ratio / (1.0 + ratio);
         let dynamic = damping / (1.0 + ratio);
-        // Linear interpolation at w dt = 2 pi/5000 weakens the harmonic by (w dt)^2/12 and aliases as much from beyond
-        // the sampling rate, where the element is a spring.
+        // Linear interpolation at w dt = 2 pi/5000 weakens the harmonic by (w dt)^2/12. Aliases from beyond the
+        // sampling rate, where the element is a spring, add an error of the same size.
         let allowed = stiffness * (2.0 * PI / per_cycle as f64).powi(2) / 6.0;
         let (k, c) = (scale * sine, scale * cosine / omega);
         assert!((k - in_phase).abs() < allowed, "{frequency} Hz: {k} N/m");
@@ -161,7 +161,7 @@ fn maxwell_element_under_harmonic_motion() {
     }
 }
 
-/// Spring and damper in series on a piecewise linear motion: the force is exponential between corners.
+/// Spring and damper in series under a piecewise linear motion: the force is exponential between corners.
 #[test]
 fn maxwell_element_between_corners() {
     let (damping, stiffness) = (90e3, 7e6);
@@ -193,7 +193,7 @@ fn reduced_element_saturates_and_fades() {
     }
 }
 
-/// At the force limit of a physical damper the force is constant while the seats separate faster than the valves allow.
+/// At the force limit of a physical damper, the force is constant if the seats separate faster than the valves allow.
 #[test]
 fn physical_damper_yields_at_the_limit() {
     let mut parameters = dampers::paper();
@@ -235,7 +235,7 @@ fn orifice_decays_to_exact_rest() {
 #[test]
 fn seal_friction_holds_the_piston() {
     let parameters = dampers::in_service(false);
-    // 0.5 mm to the seat, then springs of 8 and 40 MN/m in series up to 140 N.
+    // The seat is 0.5 mm away; beyond it, springs of 8 and 40 MN/m in series act up to 140 N.
     let stiffness = 1.0 / (1.0 / 8e6 + 1.0 / 40e6);
     let peak = 0.5e-3 + 140.0 / stiffness;
     let motion = motions::sampled(1e3, 1.0, |t| peak * (2.0 * PI * t).sin());

@@ -1,4 +1,4 @@
-//! The reference against closed forms, printed values and a second solver.
+//! Compares the reference with closed forms, printed values and a second solver.
 
 mod agreement;
 mod common;

@@ -1,4 +1,4 @@
-//! Difficult motions: noise, jumps, nearly at rest, with stiff and soft springs. The second solver must agree, and the
+//! Difficult motions (noise, jumps, near rest) with stiff and soft springs: the second solver must agree, and the
 //! damper must not generate energy.
 
 use dashpot_core::DamperParameters;

@@ -1,4 +1,4 @@
-//! The shipped tables of `KalkerBook` against the solver that computed them.
+//! Compares the shipped tables of `KalkerBook` with the solver that computed them.
 
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 use dashpot_reference::kalker_book::provenance;
@@ -34,7 +34,7 @@ fn case(n: u32, [min, max]: [f64; 2]) -> (LoadedContact, Creepage, f64) {
     (contact, creepage, poisson_ratio)
 }
 
-/// RMS and largest error of the book over cases with `a/b` between limits: of the force over `mu N`, and of the moment
+/// RMS and largest error of the book over cases with `a/b` between limits, for the force over `mu N` and for the moment
 /// over `mu N sqrt(a b)`.
 fn errors(cases: impl Iterator<Item = u32>, limits: [f64; 2]) -> [[f64; 2]; 2] {
     let book = KalkerBook::new();
@@ -79,8 +79,8 @@ fn the_book_is_exact_theory_of_slender_contacts() {
     for limits in [[0.04, 0.1], [10.0, 25.0]] {
         let [force, moment] = errors(1..=40, limits);
         println!("a/b {limits:?}: force {force:.4?}, moment {moment:.4?}");
-        // The worst cases slide nearly everywhere, with the pole of spin near an end of the ellipse. Moments have an
-        // arm of up to 5 `sqrt(a b)`, the longer semi-axis.
+        // In the worst cases nearly the whole contact slides, and the pole of spin is near an end of the ellipse.
+        // Moments have an arm of up to 5 `sqrt(a b)`, the longer semi-axis.
         assert!(force[0] < 0.01 && force[1] < 0.03, "{force:?}");
         assert!(moment[0] < 0.03 && moment[1] < 0.15, "{moment:?}");
     }

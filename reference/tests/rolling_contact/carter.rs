@@ -1,4 +1,4 @@
-//! A narrow ellipse against Carter's closed form of two cylinders (Carter 1926), strip by strip.
+//! Compares a narrow ellipse, strip by strip, with Carter's closed form for two cylinders (Carter 1926).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -11,7 +11,7 @@ const POISSON_RATIO: f64 = 0.28;
 fn carter(creepage: f64, flexibility: f64) -> f64 {
     let peak = 1.5 / PI;
     let count = 4000;
-    // With y = b sin q, the load of a strip is 3/4 cos^2 q times its width cos q dq.
+    // With y = b sin q, the load of a strip is 3/4 cos^2 q times its width, cos q dq.
     (0..count)
         .map(|index| {
             let angle = -FRAC_PI_2 + (f64::from(index) + 0.5) * PI / f64::from(count);

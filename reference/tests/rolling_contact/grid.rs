@@ -1,4 +1,4 @@
-//! Comparison with a solver independent of this project.
+//! Compares our solver with one that is independent of this project.
 
 use dashpot_rail::creep::{Creepage, KalkerTable, LoadedContact};
 use dashpot_reference::rolling_contact::RollingContact;
@@ -44,10 +44,10 @@ fn every_case_of_an_independent_solver() {
     }
     let rms = |squares: f64| (squares / rows.len() as f64).sqrt();
     let (force, moment) = ([rms(force[0]), force[1]], [rms(moment[0]), moment[1]]);
-    println!("RMS and greatest, of friction: force {force:.4?}, moment {moment:.4?}");
+    println!("RMS and largest error, of friction: force {force:.4?}, moment {moment:.4?}");
     assert!(force[0] < 0.01 && moment[0] < 0.01, "{force:?} {moment:?}");
-    // The largest deviation is 1.7 %, and 2 % with five times the elements. The mesh of the grid's solver explains it:
-    // Carter's closed form and Kalker's coefficients agree with ours within 1 %.
+    // The largest deviation is 1.7 %, or 2 % with five times as many elements. The mesh of the grid's solver explains
+    // it: Carter's closed form and Kalker's coefficients agree with ours within 1 %.
     assert!(
         force[1] < 0.018 && moment[1] < 0.018,
         "{force:?} {moment:?}"

@@ -54,6 +54,6 @@ fn a_small_creepage_sticks() {
     let [force, ..] = contact
         .solve_from([1e-2, 0.0, 0.0], &mut tractions)
         .unwrap();
-    // Only the trailing edge slides, where linear theory has an unbounded traction.
+    // Only the trailing edge slides; linear theory has an unbounded traction there.
     assert!(force.abs() < 0.05 && contact.max_utilisation(&tractions) <= 1.0 + 1e-9);
 }

@@ -1,4 +1,4 @@
-//! Exact theory of rolling contact against tables, closed forms and another solver, and the book of tables against
+//! Compares exact theory of rolling contact with tables, closed forms and another solver, and the book of tables with
 //! exact theory.
 
 mod book;

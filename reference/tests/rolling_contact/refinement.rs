@@ -28,7 +28,7 @@ fn a_finer_mesh_changes_less() {
         let usual = forces(a_over_b, creepage, RollingContact::usual_mesh(a_over_b));
         let usual_error = distance(usual, finest);
         println!("a/b {a_over_b} {creepage:?}: {errors:.4?}, usual {usual_error:.4}");
-        // At least of first order.
+        // The convergence is at least of first order.
         assert!(errors[2] < 0.5 * errors[0], "{errors:?}");
         assert!(usual_error < 0.006, "{usual_error}");
     }
@@ -48,7 +48,8 @@ fn a_long_contact_has_the_forces_of_a_finer_mesh() {
         let finer = forces(a_over_b, creepage, [along * 3 / 2, strips * 3 / 2]);
         println!("a/b {a_over_b} {creepage:?}: {usual:.4?} {finer:.4?}");
         let off = (usual[0] - finer[0]).hypot(usual[1] - finer[1]);
-        // Second order in the strips: the error of the usual mesh is 1.8 times this difference, thus within 1 %.
+        // The convergence is of second order in the strips: the error of the usual mesh is 1.8 times this difference,
+        // so it is within 1 %.
         assert!(off < 0.005, "{a_over_b}: {off}");
     }
 }

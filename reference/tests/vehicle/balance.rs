@@ -56,7 +56,7 @@ fn number(vehicle: &VehicleParameters, end: &End) -> usize {
         .unwrap()
 }
 
-/// Returns the energy of motion, of springs and of their rotating static forces, and the power lost to dashpots and
+/// Returns the energy of the motion, the springs and their rotating static forces, and the power lost to dashpots and
 /// rails.
 fn energy(vehicle: &VehicleParameters, sample: &VehicleSample) -> (f64, f64) {
     let inertia = |mass: f64, [x, y, z]: Vector| [mass, mass, x, y, z];
@@ -143,7 +143,7 @@ fn energy_is_conserved_or_dissipated() {
     assert!(given > 0.2 * stored, "{given} of {stored}");
 }
 
-/// In a steady curve the rails provide the centripetal force minus the share of gravity, and its moment.
+/// In a steady curve the rails provide the centripetal force, minus the share that gravity provides, and its moment.
 #[test]
 fn the_rails_balance_a_curve() {
     let (speed, radius, cant) = (22.0, 400.0, 0.08);
@@ -181,8 +181,7 @@ fn the_rails_balance_a_curve() {
     let expected = mass * (GRAVITY_M_PER_S2 * angle.cos() + centripetal * angle.sin());
     assert!((load / expected - 1.0).abs() < 1e-4, "{load} {expected}");
 
-    // About the middle of the track on the top of the rails at the body; the rails at the axles are offset by the
-    // versine.
+    // Moments are about the track's centre at rail level at the body; the rails at the axles are offset by the versine.
     let versine = 4.0f64.powi(2) / (2.0 * radius);
     let mut moment = 0.0;
     for ((mass, height, off), q) in [

@@ -1,4 +1,4 @@
-//! A body on springs that is excited by a curve without a transition.
+//! A curve without a transition excites a body on springs.
 
 use dashpot_rail::track::Part;
 use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleParameters};
@@ -41,7 +41,7 @@ fn free_oscillations_after_an_abrupt_curve() {
     let [kx, ky, kz] = SPRINGS.map(|stiffness| 4.0 * stiffness);
     let [m, ix, iz] = [30e3, 40e3, 900e3];
     let yaw_rate = ((kx * Y * Y + ky * X * X) / iz).sqrt();
-    // [ky/m a; b kz y^2/ix], by its eigenvalues.
+    // The eigenvalues of [ky/m a; b kz y^2/ix].
     let (own, other) = (ky / m, kz * Y * Y / ix);
     let coupling = -0.5 * m * GRAVITY_M_PER_S2;
     let (mean, half) = (0.5 * (own + other), 0.5 * (own - other));
@@ -53,7 +53,7 @@ fn free_oscillations_after_an_abrupt_curve() {
         let yaw = -SPEED / RADIUS / yaw_rate * (yaw_rate * t).sin();
         let part = |square: f64| (1.0 - (square.sqrt() * t).cos()) / square;
         let (slow, fast) = (part(mean - root), part(mean + root));
-        // Shares of both modes in the lateral motion, and their roll.
+        // The shares of both modes in the lateral motion, and the roll of each mode.
         let share = 0.5 * (1.0 - half / root);
         let lateral = step * (share * slow + (1.0 - share) * fast);
         let roll = step * coupling / ix * (fast - slow) / (2.0 * root);

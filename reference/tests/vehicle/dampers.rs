@@ -1,4 +1,4 @@
-//! Dampers in a vehicle against the reference damper on the same motion.
+//! Compares dampers in a vehicle with the reference damper on the same motion.
 
 use dashpot_core::DamperParameters;
 use dashpot_rail::vehicle::{Direction, Element, End, Law};
@@ -8,7 +8,7 @@ use dashpot_reference::vehicle::VehicleReference;
 use crate::common::{contact, dip, straight, times, wagon};
 use crate::damper_parameters as presets;
 
-/// Largest deviation over the largest force, of a run in which the damper's range changes `changes` times.
+/// Largest deviation over the largest force in a run in which the damper's range changes `changes` times.
 fn deviation(parameters: DamperParameters, changes: usize) -> f64 {
     let mut vehicle = wagon([0.0, 0.0, 5e3]);
     let at = [4.0, 1.2, 0.5];

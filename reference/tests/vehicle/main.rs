@@ -1,4 +1,4 @@
-//! The reference solution of a vehicle against closed forms, balances, the reference damper and other tolerances.
+//! Compares the reference solution of a vehicle with closed forms, balances, the reference damper and other tolerances.
 
 mod balance;
 mod closed_forms;

@@ -27,8 +27,8 @@ impl Colour {
         let parts = self.0.map(|part| f64::from(part) / 255.0);
         let max = parts.into_iter().fold(0.0, f64::max);
         let min = parts.into_iter().fold(1.0, f64::min);
-        // HSL: lightness is the mean of the largest and smallest part, chroma their difference. The lightness limits
-        // the chroma.
+        // In HSL, the lightness is the mean of the largest and the smallest component, and the chroma is their
+        // difference. The lightness limits the chroma.
         let lightness = 0.5 * (max + min);
         let inverted = 0.95 - 0.72 * lightness;
         let max_chroma = |lightness: f64| 1.0 - (2.0 * lightness - 1.0).abs();

@@ -17,8 +17,8 @@ pub struct Figure {
     pub panels: Vec<Panel>,
     /// Height of a panel on a desktop screen (pixels).
     pub height: u32,
-    /// Name of a group of figures with the same abscissa, which share the cursor across the page; `None` for this
-    /// figure only.
+    /// Name of a group of figures with the same abscissa, which share the cursor across the page; `None` to share it
+    /// only within this figure.
     pub shares: Option<&'static str>,
 }
 
@@ -87,7 +87,7 @@ impl Figure {
             columns,
             curves,
         };
-        // Escaped so that the data cannot contain an end tag.
+        // Escape `<` so that the data cannot contain an end tag.
         let data = serde_json::to_string(&plot).map_err(failed)?;
         let data = data.replace('<', "\\u003c");
         let axes = format!("{} over {}", panel.y_label, panel.x_label);
@@ -107,8 +107,8 @@ impl Figure {
     }
 }
 
-/// Legend: key, name and value under the cursor of each named curve. A single curve without a name shows its value
-/// only.
+/// Returns the legend: for each named curve, its key, its name and its value at the cursor. A single curve without a
+/// name shows its value only.
 fn legend(curves: &[Curve]) -> Markup {
     let is_single = curves.iter().filter(|curve| curve.has_values()).count() == 1;
     html! {

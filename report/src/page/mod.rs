@@ -1,5 +1,5 @@
 //! Self-contained HTML pages in one style, for light and dark screens, phones and desktops. A script in the page draws
-//! the plots, with zoom and shared cursor, from numbers in the page.
+//! the plots from numbers in the page, with zoom and a shared cursor.
 
 mod colour;
 mod figure;
@@ -12,14 +12,14 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::DrawError;
 
-/// Scripts: the plotting library (uplot/README.md), then the code that uses it.
+/// Scripts of a page: the plotting library (uplot/README.md), then the code that uses it.
 const SCRIPTS: [&str; 2] = [
     include_str!("uplot/uPlot.iife.min.js"),
     include_str!("plots.js"),
 ];
 /// Licence of the plotting library, which must accompany it.
 const LICENCE: &str = include_str!("uplot/LICENSE");
-/// Styles: the library's, then the page's own.
+/// Style sheets of a page: that of the library, then our own.
 const STYLES: [&str; 2] = [
     include_str!("uplot/uPlot.min.css"),
     include_str!("page.css"),
@@ -55,7 +55,7 @@ pub fn document(title: &str, body: &Markup) -> String {
     page.into_string() + "\n"
 }
 
-/// Row of key figures, each with a value and its meaning.
+/// Returns a row of key figures, each with a value and its meaning.
 pub fn tiles(tiles: &[(Markup, String)]) -> Markup {
     html! {
         div.tiles {
@@ -74,7 +74,7 @@ pub fn figure(figure: &Figure, caption: &Markup) -> Result<Markup, DrawError> {
     figure.html(caption)
 }
 
-/// Footer with program version, platform and `text`.
+/// Returns the footer, with program version, platform and `text`.
 pub fn footer(text: &Markup) -> Markup {
     html! {
         footer {
@@ -84,7 +84,7 @@ pub fn footer(text: &Markup) -> Markup {
     }
 }
 
-/// Note about a development build; empty for a release build.
+/// Returns a note if this is a development build; empty for a release build.
 pub fn built() -> &'static str {
     if cfg!(debug_assertions) {
         "; development build, a release build is faster"

@@ -5,7 +5,7 @@
   const DARK = matchMedia("(prefers-color-scheme: dark)");
   const NARROW = matchMedia("(max-width: 760px)");
 
-  // Panels that share a cursor, by the name of their figures' group, or by the figure.
+  // Panels that share a cursor: the key is the group name of their figures, or the figure itself.
   const groups = new Map();
   let printing = false;
 
@@ -23,7 +23,7 @@
     return minus(value.toFixed(digits));
   }
 
-  // Formats the numbers on an axis with as many digits as their spacing needs.
+  // Formats the labels of an axis with as many decimals as their spacing needs.
   function labels(u, splits, axis, space, distance) {
     let digits = 0;
     while (digits < 9 && Math.abs(distance * 10 ** digits - Math.round(distance * 10 ** digits)) > 1e-6) digits++;
@@ -38,7 +38,7 @@
     return splits.filter(value => value >= min && value <= max);
   }
 
-  // Labels of a logarithmic axis: only those tick marks that have room for one.
+  // Labels of a logarithmic axis: only the tick marks that have room for a label.
   function written(u, splits, axis, space) {
     const [one, ten] = [1, 10].map(value => u.valToPos(value, u.axes[axis].scale));
     const room = Math.abs(ten - one) / space;
@@ -46,7 +46,7 @@
     return splits.map(value => (shown.test(value.toExponential()) ? value : null));
   }
 
-  // Outline and filled area of a curve on the canvas.
+  // Returns the outline and the filled area of a curve on the canvas.
   function paths(u, curve) {
     const [xs, lows, highs] = curve.columns;
     const x = index => u.valToPos(xs[index], "x", true);
@@ -136,7 +136,7 @@
     return part;
   }
 
-  // The cursor of histories is an abscissa; that of loops is a fraction of the loop, the same for every loop.
+  // The cursor of histories is an abscissa. The cursor of loops is a fraction of the loop, the same for every loop.
   function point(panel, cursor) {
     panel.cursor = cursor;
     panel.shown = panel.curves.map(({ columns, stroke }) => {
@@ -157,7 +157,7 @@
     head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}`.trim() : "";
   }
 
-  // Panels that share the cursor: loops of the figure, or histories over the same quantity.
+  // Returns the other panels that share the cursor: loops of the group, or histories over the same quantity.
   function peers({ group, isLoop, x, u }) {
     return group.filter(other => other.u !== u && other.isLoop === isLoop && (isLoop || other.x.label === x.label));
   }
@@ -172,7 +172,7 @@
     }
   }
 
-  // Histories show the same range, as far as they have data.
+  // Histories zoom to the same range, where they have data.
   function shareZoom(panel) {
     if (panel.isLoop) return;
     const { min, max } = panel.u.scales.x;
@@ -186,7 +186,7 @@
   }
 
   function options(panel, plot) {
-    // Only changes by the mouse are shared, not changes received from another panel.
+    // Share only changes made by the mouse, not changes received from another panel.
     const moved = (u, over, handle) => event => { panel.isMoved = true; handle(event); panel.isMoved = false; };
     const whole = u => () => ["x", "y"].forEach(name => u.setScale(name, { min: null, max: null }));
     return {

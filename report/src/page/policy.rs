@@ -25,7 +25,7 @@ fn hashes(texts: &[&str]) -> String {
 mod tests {
     use super::*;
 
-    /// Example of the specification, section 2.3.3.
+    /// The example in section 2.3.3 of the specification.
     #[test]
     fn a_script_is_allowed_by_its_hash() {
         let policy = content_policy(&["doSomething();"], &[]);

@@ -28,7 +28,7 @@ pub(super) struct Series {
 pub(super) struct Columns(Vec<String>);
 
 impl Columns {
-    /// Returns the index of the column with these numbers, adding it if necessary.
+    /// Returns the index of the column with these values; adds the column if it does not exist.
     fn index_of(&mut self, values: impl Iterator<Item = f64>) -> usize {
         let bytes = values.flat_map(|value| (value as f32).to_le_bytes());
         let text = BASE64_STANDARD.encode(bytes.collect::<Vec<u8>>());

@@ -44,7 +44,7 @@ pub struct Curve {
     pub colour: RGBColor,
     /// Line width in quarters of a pixel.
     pub width: u32,
-    /// Style of drawing.
+    /// How the curve is drawn.
     pub stroke: Stroke,
     /// Points in drawing order.
     pub points: Vec<Point>,
@@ -54,7 +54,7 @@ pub struct Curve {
 type Chart<'a, 'b, X, Y> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>;
 
 impl Curve {
-    /// Solid line of the usual width; an empty name leaves it out of the legend.
+    /// Creates a solid line of the usual width; an empty name leaves it out of the legend.
     pub fn new(
         name: impl Into<String>,
         colour: RGBColor,
@@ -64,7 +64,8 @@ impl Curve {
         Self::with_stroke(Stroke::Line, name, colour, points)
     }
 
-    /// Filled area between two ordinates, from points `(x, low, high)`; for the spread of many runs.
+    /// Creates a filled area between two ordinates from points `(x, low, high)`, for example for the spread of many
+    /// runs.
     pub fn band(
         name: impl Into<String>,
         colour: RGBColor,
@@ -73,7 +74,7 @@ impl Curve {
         Self::with_stroke(Stroke::Band, name, colour, points)
     }
 
-    /// Error bars, from points `(x, low, high)`.
+    /// Creates error bars from points `(x, low, high)`.
     pub fn bars(
         name: impl Into<String>,
         colour: RGBColor,
@@ -124,7 +125,7 @@ impl Curve {
         }
     }
 
-    /// Marks on the horizontal axis at `abscissas`.
+    /// Creates marks on the horizontal axis at `abscissas`.
     pub fn marks(colour: RGBColor, abscissas: impl IntoIterator<Item = f64>) -> Self {
         Self {
             stroke: Stroke::Marks,

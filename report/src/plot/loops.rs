@@ -26,7 +26,8 @@ pub fn panels(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Vec<Panel> {
     ]
 }
 
-/// Returns a settled cycle as one closed curve for each panel, displacement first.
+/// Returns two closed curves of a settled cycle: force over displacement and force over velocity, for the two
+/// [`panels`].
 pub fn of_cycle(name: &str, colour: RGBColor, cycle: &Cycle) -> (Curve, Curve) {
     let forces = cycle.forces_n.iter().map(|force| force * 1e-3);
     let close = |abscissas: Vec<f64>| {

@@ -11,7 +11,7 @@ use super::sheet::Layout;
 use super::style::{Area, FINE, INK, axes, draw, failed, letters};
 use crate::DrawError;
 
-/// Number of cells, radial and circumferential.
+/// Number of cells in radial and circumferential direction.
 const CELLS: (u32, u32) = (30, 120);
 /// Number of shades from zero to the maximum.
 const SHADES: usize = 6;
@@ -24,7 +24,7 @@ pub struct DiscMap<'a> {
     pub value_label: [String; 2],
     /// Inner and outer radius of the disc (mm).
     pub radii_mm: [f64; 2],
-    /// Value, not negative, at a radius (mm) and an angle (rad).
+    /// Value at a radius (mm) and an angle (rad); zero or positive.
     pub value: Box<dyn Fn(f64, f64) -> f64 + 'a>,
 }
 
@@ -88,7 +88,7 @@ fn draw_map(area: &Area<'_>, map: &DiscMap<'_>) -> Result<(), DrawError> {
 
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
-/// Draws the scale in the hole: name and unit, then one line per shade, highest first.
+/// Draws the scale in the hole: name and unit, then one line per shade, the highest values first.
 fn draw_scale(
     chart: &mut Chart<'_, '_>,
     map: &DiscMap<'_>,
@@ -117,7 +117,7 @@ fn draw_scale(
     Ok(())
 }
 
-/// Number of decimals of a step with two significant digits.
+/// Returns the number of decimals that a step with at most two significant digits needs.
 fn digits(step: f64) -> usize {
     let digits = (-step.log10().floor()).clamp(0.0, 12.0);
     let last = step * 10_f64.powf(digits);

@@ -11,8 +11,8 @@ use dashpot_testbench::response::Response;
 /// spring.
 const MIN_LOSS_ANGLE_DEG: f64 = 0.1;
 
-/// Returns empty panels for dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m). `scale` applies to
-/// stiffness and damping.
+/// Returns empty panels for dynamic stiffness (MN/m), loss angle (degrees) and damping (kN s/m). `scale` is the
+/// vertical scale of stiffness and damping; the loss angle is always linear.
 pub fn panels(scale: Scale) -> [Panel; 3] {
     let axes = |y: &str, scale| Panel {
         x_scale: Scale::Decades,

@@ -30,13 +30,14 @@ pub struct Panel {
     pub y_label: String,
     /// Position of the legend on a sheet, if any; on a page the legend is above the curves.
     pub legend: Option<SeriesLabelPosition>,
-    /// True to leave margins at the sides, as for loops; false to fill the width.
+    /// True to leave margins on the left and right, as for loops; false to fill the width.
     pub sides: bool,
     /// Scale of the horizontal axis.
     pub x_scale: Scale,
     /// Scale of the vertical axis.
     pub scale: Scale,
-    /// True if a linear vertical axis shows only the range of its values; false to include zero.
+    /// True if a linear vertical axis covers only the range of its values; false to start it at zero if no value is
+    /// negative.
     pub keeps_to_values: bool,
     /// Curves, from back to front.
     pub curves: Vec<Curve>,
@@ -98,7 +99,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// One row of panels, each `width` by `height` pixels.
+    /// Creates a layout with one row of panels, each `width` by `height` pixels.
     pub fn row(panels: usize, width: u32, height: u32) -> Self {
         Self {
             width: width * panels as u32,
@@ -165,7 +166,7 @@ fn draw_panel(area: &Area<'_>, panel: &Panel) -> Result<(), DrawError> {
     Ok(())
 }
 
-/// Returns the range itself, or a default around it if it is empty or has no length.
+/// Returns the range, widened if it is a single value; a default range if it has no values.
 fn non_empty(range: Range<f64>, scale: Scale) -> Range<f64> {
     let is_single_value = range.start == range.end;
     match scale {
@@ -182,13 +183,13 @@ fn widened(range: Range<f64>) -> Range<f64> {
     range.start / DECADE_MARGIN..range.end * DECADE_MARGIN
 }
 
-/// Extends a range that starts just above zero down to zero.
+/// Moves the start of a range to zero if it is just above zero.
 fn from_zero(range: Range<f64>) -> Range<f64> {
     let is_near_zero = (0.0..0.05 * range.end).contains(&range.start);
     if is_near_zero { 0.0..range.end } else { range }
 }
 
-/// Number of decimals that makes the labels of an axis differ.
+/// Returns the number of decimals at which the labels of an axis differ.
 fn digits(range: &Range<f64>, scale: Scale) -> Digits {
     if scale == Scale::Decades {
         return Digits::OfDecade;

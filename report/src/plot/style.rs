@@ -8,20 +8,21 @@ use plotters::prelude::*;
 
 use crate::DrawError;
 
-/// Drawing units per pixel. The backend rounds to whole units, so plots are drawn larger to keep curves smooth.
+/// Drawing units per pixel. The backend rounds coordinates to whole units, so plots are drawn at this scale to keep
+/// curves smooth.
 pub const FINE: u32 = 4;
 const FONT: &str = "sans-serif";
 /// Colour of text and axes.
 pub const INK: RGBColor = RGBColor(38, 50, 56);
-/// Blue curves.
+/// Colour of blue curves.
 pub const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
-/// Red curves.
+/// Colour of red curves.
 pub const RED_LINE: RGBColor = RGBColor(198, 40, 40);
-/// Green curves.
+/// Colour of green curves.
 pub const GREEN_LINE: RGBColor = RGBColor(46, 125, 50);
-/// Amber curves and limits.
+/// Colour of amber curves and of limits.
 pub const AMBER_LINE: RGBColor = RGBColor(239, 138, 0);
-/// Grey curves in the background.
+/// Colour of grey curves in the background.
 pub const PALE: RGBColor = RGBColor(160, 168, 176);
 /// Usual line width, in drawing units.
 pub const LINE: u32 = 2 * FINE;
@@ -55,17 +56,17 @@ pub fn draw(
     Ok(text.replacen(&drawn, &format!("width=\"{width}\" height=\"{height}\""), 1))
 }
 
-/// Text style with a font size in pixels.
+/// Returns a text style with a font size in pixels.
 pub fn letters(size: u32, colour: &'static RGBColor) -> TextStyle<'static> {
     TextStyle::from((FONT, size * FINE).into_font()).color(colour)
 }
 
-/// Number of decimals of the labels on an axis.
+/// Number of decimals in the labels of an axis.
 #[derive(Clone, Copy)]
 pub enum Digits {
-    /// Equal for all numbers.
+    /// The same number of decimals for all labels.
     Fixed(usize),
-    /// As many as needed for the number's power of ten.
+    /// As many decimals as the power of ten of each label needs: 2 for 0.01, none from 1 on.
     OfDecade,
 }
 
@@ -75,7 +76,7 @@ impl From<usize> for Digits {
     }
 }
 
-/// Formats a number on an axis; zero has no sign.
+/// Formats the label of an axis; zero has no sign.
 pub fn label(value: f64, digits: impl Into<Digits>) -> String {
     let digits = match digits.into() {
         Digits::Fixed(digits) => digits,
@@ -88,7 +89,7 @@ pub fn label(value: f64, digits: impl Into<Digits>) -> String {
     }
 }
 
-/// Draws axes in the common style; `$digits` is the number of decimals on (x, y).
+/// Draws axes in the common style; `$digits` is a pair: the number of decimals on x and on y.
 #[macro_export]
 macro_rules! axes {
     ($area:expr, $title:expr, $x:expr, $y:expr, $x_label:expr, $y_label:expr, $digits:expr) => {{
@@ -118,7 +119,7 @@ macro_rules! axes {
             .set_all_tick_mark_size(5 * FINE)
             .x_label_formatter(&|x| $crate::plot::style::label(*x, $digits.0))
             .y_label_formatter(&|y| $crate::plot::style::label(*y, $digits.1))
-            // A label takes about 40 pixels.
+            // A label is about 40 pixels wide.
             .x_labels((($area.dim_in_pixel().0 / (40 * FINE)) as usize).min(11))
             .y_labels(8)
             .draw()
@@ -129,14 +130,14 @@ macro_rules! axes {
 
 pub use axes;
 
-/// Range from the minimum to the maximum of `values`.
+/// Returns the range from the minimum to the maximum of `values`.
 pub fn span(values: impl Iterator<Item = f64>) -> Range<f64> {
     values.fold(f64::MAX..f64::MIN, |range, value| {
         range.start.min(value)..range.end.max(value)
     })
 }
 
-/// Range of `values`, widened by 5 % at both ends.
+/// Returns the range of `values`, widened by 5 % at both ends.
 pub fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
     let Range { start, end } = span(values);
     let margin = 0.05 * (end - start).max(1e-6);

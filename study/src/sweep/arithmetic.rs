@@ -1,8 +1,8 @@
-//! Floating-point arithmetic of a processor, on which the bits of a row depend.
+//! Floating-point arithmetic of a processor; the bits of a row depend on it.
 
 use std::fmt;
 
-/// Rounding of a multiplication followed by an addition.
+/// How a processor rounds a multiplication followed by an addition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arithmetic {
     /// One rounding: fused multiply-add.

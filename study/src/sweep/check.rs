@@ -12,7 +12,7 @@ use super::study::Study;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
-    /// The rows were computed with the other arithmetic.
+    /// The rows were computed with an arithmetic that this processor does not have.
     #[error(
         "the rows were computed with {found} arithmetic, but this processor has {here} arithmetic, so their bits differ"
     )]
@@ -26,7 +26,7 @@ pub enum CheckError {
     #[error(transparent)]
     Run(#[from] RunError),
     /// A cell of a row differs from the result of the new run.
-    #[error("case {case}: column {column}: `{found}`, run again: `{computed}`")]
+    #[error("case {case}: column {column}: `{found}`, but a new run gives `{computed}`")]
     Differs {
         /// Number of the case.
         case: u64,
@@ -58,7 +58,8 @@ pub fn choose(rows: &Rows, count: usize, seed: u64) -> Vec<u64> {
 /// Runs `cases` again and compares each with its row, bit for bit.
 ///
 /// # Errors
-/// A row that differs, rows of another arithmetic, an invalid case, or an interruption.
+/// Returns an error for a row that differs, for rows of another arithmetic, for an invalid case, or after an
+/// interruption.
 pub fn check(
     study: &Study,
     rows: &Rows,
@@ -85,7 +86,7 @@ pub fn check(
     }
 }
 
-/// Compares a new row with the kept one. Cells contain enough digits to distinguish all numbers.
+/// Compares a new row with the stored one. Cells contain enough digits to distinguish all numbers.
 fn compare(study: &Study, rows: &Rows, computed: &Row) -> Result<(), CheckError> {
     let (Some(kept), Some(case)) = (rows.get(&computed.case), study.case(computed.case)) else {
         return Ok(());

@@ -1,4 +1,4 @@
-//! Digests of the cases of a study, which keep rows of different studies apart, and of a row, which reveals altered
+//! Digests: that of the cases of a study distinguishes rows of different studies, and that of a row reveals altered
 //! cells.
 
 use std::fmt::Debug;
@@ -10,8 +10,8 @@ use dashpot_files::input;
 use dashpot_files::track::IrregularityParameters;
 use dashpot_files::{FileError, study::StudyFileError};
 
-/// Computes the digest of the cells of a row before the digest itself: the first 16 hexadecimal digits of the SHA-256
-/// over the length and text of each cell.
+/// Computes the digest of the cells of a row, without the cell of the digest itself: the first 16 hexadecimal digits of
+/// the SHA-256 of the length and the text of each cell.
 ///
 /// ```
 /// use dashpot_study::sweep::digest_of_cells;
@@ -41,7 +41,7 @@ impl Digest {
     /// Adds a case: its values, vehicle and track, independent of file names.
     ///
     /// # Errors
-    /// The file of a measured irregularity cannot be read.
+    /// Returns an error if the file of a measured irregularity cannot be read.
     pub fn add_case(&mut self, case: &Case) -> Result<(), StudyFileError> {
         let Case {
             name: _,

@@ -19,10 +19,10 @@ pub struct History {
 }
 
 impl Study {
-    /// Builds the case of a sweep with a value of its first axis; the other axes are at their first value.
+    /// Builds the case of a sweep with the given value of its first axis; the other axes have their first value.
     ///
     /// # Errors
-    /// See [`Self::case_at`].
+    /// Same errors as [`Self::case_at`].
     pub fn case_with(
         &self,
         sweep: &Sweep,
@@ -39,7 +39,7 @@ impl Study {
     /// Checks that the vehicle of a sweep has signals with these names.
     ///
     /// # Errors
-    /// Unknown signal, with the nearest name, or invalid case.
+    /// Returns an error for an unknown signal, with the nearest name, or for an invalid case.
     pub fn check_signals(
         &self,
         sweep: &Sweep,
@@ -64,10 +64,11 @@ impl Study {
     }
 }
 
-/// Runs a case and records signals by their names. An unknown signal stays empty; [`Study::check_signals`] reports it.
+/// Runs a case and records signals by their names. The history of an unknown signal is empty; [`Study::check_signals`]
+/// reports such a signal.
 ///
 /// # Errors
-/// See [`Shared::run`].
+/// Same errors as [`Shared::run`].
 pub fn record(case: &Case, names: &[String], shared: &Shared) -> Result<History, VehicleRunError> {
     let mut run = shared.run(case)?;
     let all = signals::all(run.vehicle());

@@ -22,11 +22,12 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the rows of the file at `path` and of an interrupted run. With `restart`, starts without rows and renames
-    /// an existing file to `.old`.
+    /// Opens the rows of the file at `path` and of an interrupted run. With `restart`, it starts without rows and
+    /// renames an existing file to `.old`.
     ///
     /// # Errors
-    /// A file cannot be read or written or contains rows of another study or shard, or another process is adding rows.
+    /// Returns an error if a file cannot be read or written, if it contains rows of another study or shard, or if
+    /// another process is adding rows.
     pub fn open(
         study: &Study,
         path: &Path,
@@ -91,7 +92,7 @@ impl Journal {
     /// Adds a row.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn add(&mut self, study: &Study, row: Row) -> Result<(), FileError> {
         let record = rows::record(study, &row);
         self.line(record.map_err(|error| cannot_write(&self.partial, error))?)?;
@@ -102,7 +103,7 @@ impl Journal {
     /// Replaces the file of rows by all rows in the order of the cases, and returns them.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn finish(self, study: &Study) -> Result<Rows, FileError> {
         rows::write(study, &self.rows, &self.path)?;
         // The rows must be on the disk before the partial file is removed.
@@ -116,7 +117,7 @@ impl Journal {
     /// Removes the rows of these cases, which must be in ascending order.
     ///
     /// # Errors
-    /// The file cannot be written.
+    /// Returns an error if the file cannot be written.
     pub fn remove(&mut self, study: &Study, cases: &[u64]) -> Result<(), FileError> {
         self.rows
             .retain(|case, _| cases.binary_search(case).is_err());

@@ -41,7 +41,7 @@ pub struct Duplicate {
 /// Reads the rows of all files, which together must contain each case of the study once.
 ///
 /// # Errors
-/// Rows of another study, or missing or duplicate cases.
+/// Returns an error for rows of another study, or for missing or duplicate cases.
 pub fn merge(study: &Study, files: &[PathBuf]) -> Result<Rows, MergeError> {
     let mut rows = Rows::new();
     let mut files_of_case: BTreeMap<u64, Vec<PathBuf>> = BTreeMap::new();
@@ -92,7 +92,7 @@ impl fmt::Display for Gaps {
                 Ranges(missing)
             )?;
         }
-        // Cases duplicated in the same files are reported together.
+        // Cases that occur in the same files are reported together.
         let mut cases_of_files: BTreeMap<&[PathBuf], Vec<u64>> = BTreeMap::new();
         for Duplicate { case, files } in duplicates {
             cases_of_files.entry(files).or_default().push(*case);
@@ -106,7 +106,7 @@ impl fmt::Display for Gaps {
                 .map(|file| file.display().to_string())
                 .collect();
             let files = files.join(" and ");
-            write!(f, "double, in {files}: {}", Ranges(&numbers))?;
+            write!(f, "duplicates in {files}: {}", Ranges(&numbers))?;
         }
         Ok(())
     }

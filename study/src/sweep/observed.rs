@@ -113,7 +113,7 @@ pub const OBSERVED: [Observed; 24] = [
     },
     Observed {
         name: "derailment_rms",
-        meaning: "Y/Q of the leading wheelset, rms, larger of both wheels",
+        meaning: "Y/Q of the leading wheelset, rms, larger of its two wheels",
         extract: |run| {
             max(leading(run)?
                 .wheels
@@ -128,7 +128,7 @@ pub const OBSERVED: [Observed; 24] = [
     },
     Observed {
         name: "derailment_over_nadal",
-        meaning: "Y/Q over Nadal's limit, mean over 2 m, maximum of all wheels",
+        meaning: "Y/Q divided by Nadal's limit, mean over 2 m, maximum of all wheels",
         extract: |run| max(wheels(run).map(|wheel| wheel.derailment_over_nadal)),
     },
     Observed {
@@ -153,7 +153,7 @@ pub const OBSERVED: [Observed; 24] = [
     },
     Observed {
         name: "lateral_force_over_limit",
-        meaning: "lateral force over Prud'homme's limit, mean over 2 m, maximum of all wheelsets",
+        meaning: "lateral force divided by Prud'homme's limit, mean over 2 m, maximum of all wheelsets",
         extract: |run| max(wheelsets(run).filter_map(|wheelset| wheelset.lateral_force_over_limit)),
     },
     Observed {
@@ -168,7 +168,7 @@ pub const OBSERVED: [Observed; 24] = [
     },
     Observed {
         name: "wheel_load_over_static",
-        meaning: "wheel load over that at standstill, maximum of all wheels; values over 10 are outside the \
+        meaning: "wheel load divided by that at standstill, maximum of all wheels; values over 10 are outside the \
                   validity of the model",
         extract: |run| run.wheel_load_over_static,
     },
@@ -184,7 +184,7 @@ pub const OBSERVED: [Observed; 24] = [
     },
     Observed {
         name: "last_lateral_m",
-        meaning: "greatest lateral displacement of a wheelset in the last 3 s, m",
+        meaning: "maximum lateral displacement of a wheelset in the last 3 s, m",
         extract: |run| Some(run.last_lateral_m),
     },
 ];

@@ -9,8 +9,8 @@ const FUSED: &str = "71834a405a4c2785";
 /// Digest of the same runs without fused multiply-add.
 const SEPARATE: &str = "a78fe964214d5a97";
 
-/// Returns the digest of the model's behaviour with an arithmetic. It distinguishes rows computed by models of
-/// different behaviour.
+/// Returns the digest of the model's behaviour with an arithmetic. Rows of models that behave differently have
+/// different digests.
 ///
 /// ```
 /// use dashpot_study::sweep::{Arithmetic, physics};

@@ -14,7 +14,7 @@ pub struct Row {
     pub ending: String,
     /// Arithmetic of the processor. The bits of a row depend only on the case and on this.
     pub arithmetic: Arithmetic,
-    /// Observed indices; each is `None` if the run did not complete or was too short.
+    /// Observed indices; an index is `None` if the run did not complete or was too short.
     pub observed: Vec<Option<f64>>,
 }
 
@@ -46,7 +46,7 @@ pub enum RowError {
         column: String,
         /// Content of the cell.
         found: String,
-        /// Content in rows of this program.
+        /// Content that this program writes.
         expected: String,
         /// Reason why such rows cannot be mixed.
         reason: &'static str,
@@ -57,9 +57,9 @@ pub enum RowError {
          altered or damaged"
     )]
     Altered {
-        /// Digest in the row.
+        /// Digest that the row contains.
         found: String,
-        /// Digest of the cells.
+        /// Digest computed from the cells.
         computed: String,
     },
 }
@@ -71,10 +71,10 @@ impl RowError {
     }
 }
 
-/// Name of the column with the digest of the other cells.
+/// Name of the column that contains the digest of the other cells.
 pub const ROW_DIGEST: &str = "row_digest";
 
-/// Version in rows of this program.
+/// Version that this program writes into rows.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl Study {
@@ -117,7 +117,7 @@ impl Study {
     /// Parses a record as a row.
     ///
     /// # Errors
-    /// Invalid record, or one of another study or version.
+    /// Returns an error for an invalid record, or for a record of another study or version.
     pub fn row<'a>(&self, record: impl Iterator<Item = &'a str>) -> Result<Row, RowError> {
         let columns = self.columns();
         let cells: Vec<&str> = record.collect();

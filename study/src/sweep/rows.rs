@@ -18,7 +18,7 @@ pub enum RowsError {
     /// The file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Invalid line: damaged, altered, or with a case that another line has too.
+    /// Invalid line: it is damaged or altered, or its case is also on another line.
     #[error("{source}")]
     Damaged {
         /// Line number, from 1.
@@ -46,7 +46,8 @@ pub struct NumberedRow {
 /// Reads the rows of a study from the file at `path`.
 ///
 /// # Errors
-/// The file cannot be read, or a header or row does not belong to this study, with line and column.
+/// Returns an error if the file cannot be read, or, with line and column, if the header or a row does not belong to
+/// this study.
 pub fn read(study: &Study, path: &Path) -> Result<Vec<NumberedRow>, RowsError> {
     parse(study, &input::name(path), &input::read(path)?)
 }
@@ -106,7 +107,7 @@ pub(super) fn parse(
 /// Reads the rows of a study by case number.
 ///
 /// # Errors
-/// See [`read`]; also if a case occurs twice.
+/// Same errors as [`read`]; also an error if a case occurs twice.
 pub fn read_once(study: &Study, path: &Path) -> Result<Rows, RowsError> {
     index_by_case(path, read(study, path)?)
 }
@@ -148,7 +149,7 @@ pub(super) fn index_by_case(path: &Path, read: Vec<NumberedRow>) -> Result<Rows,
 /// Writes rows under a header, in the order of the cases.
 ///
 /// # Errors
-/// The file cannot be written.
+/// Returns an error if the file cannot be written.
 pub fn write(study: &Study, rows: &Rows, path: &Path) -> Result<(), FileError> {
     write_whole(path, |file| {
         let failed = |error: csv::Error| cannot_write_rows(path, error);

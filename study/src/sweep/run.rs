@@ -16,10 +16,10 @@ const LAST_S: f64 = 3.0;
 /// Ticks between checks for cancellation.
 const TICKS_PER_CHECK: u64 = 1024;
 
-/// Runs a case to its end, or until `is_cancelled` returns true. Only a completed run has an observation.
+/// Runs a case to its end, or until `is_cancelled` returns true. The observation is `None` if the run did not complete.
 ///
 /// # Errors
-/// See [`Shared::run`].
+/// Same errors as [`Shared::run`].
 pub fn observe(
     case: &Case,
     shared: &Shared,
@@ -98,10 +98,10 @@ impl RunError {
 /// Runs the cases with these numbers on a pool of `threads` threads, and passes each row to `on_row` as soon as it is
 /// complete. Cases interrupted by `is_cancelled` have no row.
 ///
-/// A row depends on its case only, so neither the order nor the number of threads changes it.
+/// A row depends only on its case; the order of the cases and the number of threads do not change it.
 ///
 /// # Errors
-/// Invalid case, or an error returned by `on_row`. No further case is started then.
+/// Returns an error for an invalid case, or the error of `on_row`. After an error, no further case starts.
 pub fn run<E: From<RunError>>(
     study: &Study,
     numbers: &[u64],
@@ -119,10 +119,10 @@ pub fn run<E: From<RunError>>(
     )
 }
 
-/// Like [`run`], but reuses contacts and tracks from `shared`.
+/// Same as [`run`], but reuses contacts and tracks from `shared`.
 ///
 /// # Errors
-/// See [`run`].
+/// Same errors as [`run`].
 pub fn run_with<E: From<RunError>>(
     study: &Study,
     shared: &Shared,

@@ -33,7 +33,7 @@ impl Shared {
     /// Places the vehicle of a case at its start.
     ///
     /// # Errors
-    /// See [`Run::new`].
+    /// Same errors as [`Run::new`].
     pub fn run(&self, case: &Case) -> Result<Run, VehicleRunError> {
         let setup = ContactSetup::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
         let contact = self.contacts.get(MAX_CONTACTS, setup, |setup| {
@@ -52,7 +52,7 @@ impl Shared {
 /// Values built from keys; keeps the most recently used ones.
 struct Cache<K, V>(Mutex<Vec<Entry<K, V>>>);
 
-/// Value of a key. The first thread that needs it builds it while others wait.
+/// Value of a key. The first thread that needs the value builds it; other threads wait meanwhile.
 struct Entry<K, V> {
     key: K,
     slot: Arc<Mutex<Option<V>>>,
@@ -65,8 +65,8 @@ impl<K, V> Default for Cache<K, V> {
 }
 
 impl<K: PartialEq + Clone, V: Clone> Cache<K, V> {
-    /// Returns the value of `key`; builds it if necessary, and drops the least recently used of more than
-    /// `max_entries`.
+    /// Returns the value of `key`, which it builds if necessary. If there are more than `max_entries` values, it drops
+    /// the least recently used one.
     fn get<E>(
         &self,
         max_entries: usize,

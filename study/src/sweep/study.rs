@@ -10,7 +10,7 @@ use dashpot_vehicle_run::check_ride;
 /// Maximum number of cases in a study.
 const MAX_CASES: u64 = 10_000_000;
 
-/// Study with all values checked, and its list of cases.
+/// Study whose values have all been checked, and its list of cases.
 #[derive(Debug, Clone)]
 pub struct Study {
     /// Contents of the study file.
@@ -51,8 +51,8 @@ impl Study {
     /// Checks every value of each axis once, with the other axes at their first value.
     ///
     /// # Errors
-    /// Unknown index, runs too short for an observed index, invalid value or case (with file and line), or too many
-    /// cases.
+    /// Returns an error for an unknown index, for runs too short for an observed index, for an invalid value or case
+    /// (with file and line), or for too many cases.
     ///
     /// ```
     /// use dashpot_files::study::StudyParameters;
@@ -109,7 +109,10 @@ impl Study {
             check(&parameters, sweep, ride_index, &mut digest)?;
             let end = starts[starts.len() - 1].saturating_add(sweep.cases());
             if end > MAX_CASES {
-                let message = format!("more than {MAX_CASES} cases up to sweep {}", sweep.name);
+                let message = format!(
+                    "more than {MAX_CASES} cases in the sweeps up to {}",
+                    sweep.name
+                );
                 return Err(invalid(sweep.line, message));
             }
             starts.push(end);
@@ -132,7 +135,7 @@ impl Study {
     /// True if the files named by the study have not changed since it was loaded.
     ///
     /// # Errors
-    /// See [`Self::new`].
+    /// Same errors as [`Self::new`].
     pub fn is_unchanged(&self) -> Result<bool, StudyFileError> {
         Ok(Self::new(self.parameters.clone())?.digest == self.digest)
     }
@@ -180,7 +183,7 @@ impl Study {
     /// Builds the vehicle case of a numbered case.
     ///
     /// # Errors
-    /// See [`Self::case_at`].
+    /// Same errors as [`Self::case_at`].
     pub fn build(&self, case: &StudyCase<'_>) -> Result<Case, StudyFileError> {
         self.case_at(case.sweep, &case.values(), case.seed)
     }
@@ -188,7 +191,7 @@ impl Study {
     /// Builds the vehicle case of a sweep with one value per axis and a seed.
     ///
     /// # Errors
-    /// Invalid value or case, with file and line.
+    /// Returns an error, with file and line, for an invalid value or case.
     pub fn case_at(
         &self,
         sweep: &Sweep,
@@ -212,7 +215,7 @@ impl Shard {
 }
 
 impl StudyCase<'_> {
-    /// Returns the value of each axis of its sweep.
+    /// Returns the value of each axis of the sweep.
     pub fn values(&self) -> Vec<&Value> {
         self.sweep.values(self.point)
     }
@@ -261,7 +264,7 @@ fn build(file: &str, sweep: &Sweep, values: &[&Value]) -> Result<Case, StudyFile
         })
 }
 
-/// Builds cases that together contain every value of a sweep, and adds them to the digest.
+/// Checks a sweep by building cases that together contain each of its values; adds these cases to the digest.
 fn check(
     study: &StudyParameters,
     sweep: &Sweep,

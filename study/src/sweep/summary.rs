@@ -14,8 +14,8 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Estimates the mean relative change in percent from each value to that of the same seed. Pairs with a missing
-    /// value are skipped.
+    /// Estimates the mean relative change (%) from each value in `from` to the value of the same seed in `to`. Pairs
+    /// with a missing value are skipped.
     ///
     /// ```
     /// use dashpot_study::sweep::Estimate;

@@ -30,7 +30,7 @@ pub struct Deviations<T> {
     pub index: T,
 }
 
-/// Largest deviation and the quantity that has it.
+/// Largest deviation, and the quantity with this deviation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Worst {
     /// Deviation.
@@ -133,7 +133,7 @@ impl Trace {
         self.inner_step_s
     }
 
-    /// Computes the largest deviations of this run from `reference`, over the duration of the shorter run.
+    /// Computes the largest deviations of this run from `reference` within the duration of the shorter run.
     pub fn deviations(&self, reference: &Self) -> Deviations<Worst> {
         let mut found = Deviations {
             acceleration: Vec::new(),

@@ -1,4 +1,4 @@
-//! Effect of dampers outside: comparison of a run with the same run with all dampers inside.
+//! Effect of dampers that run outside the vehicle model: compares a run with the same run with all dampers inside.
 
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
@@ -10,7 +10,7 @@ use dashpot_vehicle_run::{Run, VehicleRunError, VehicleTick};
 /// Maximum number of compared ticks; each takes about 200 bytes per run.
 const MAX_TICKS: u64 = 600_000;
 
-/// Records a run with dampers outside, for comparison with the run with all dampers inside.
+/// Records a run with external dampers, for comparison with the run with all dampers inside.
 pub struct InsideComparison {
     start: Run,
     dampers: Vec<usize>,
@@ -24,20 +24,20 @@ pub struct InsideComparison {
 pub struct Effect {
     /// Compared duration, s.
     pub duration_s: f64,
-    /// Differences of each damper outside.
+    /// Differences of each damper that was outside.
     pub dampers: Vec<DamperEffect>,
     /// Largest deviations of the vehicle.
     pub deviations: Deviations<Worst>,
 }
 
-/// Difference between the force of a damper outside and inside.
+/// Difference between the forces of a damper in the run with this damper external and in the run with it inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DamperEffect {
     /// Name of the damper.
     pub damper: String,
     /// Root mean square of the force with the damper inside, N.
     pub force_rms_n: f64,
-    /// Root mean square of the difference of both forces, N.
+    /// Root mean square of the difference between the two forces, N.
     pub difference_rms_n: f64,
 }
 
@@ -46,15 +46,15 @@ pub struct DamperEffect {
 pub struct Forces {
     /// Name of the damper.
     pub damper: String,
-    /// Force with the damper outside, N.
+    /// Force of the external damper, N.
     pub outside_n: Vec<f64>,
     /// Force with the damper inside, N.
     pub inside_n: Vec<f64>,
 }
 
 impl InsideComparison {
-    /// Starts with a run that has not been stepped yet and whose dampers are still inside; `dampers` are the indices of
-    /// those that will be outside.
+    /// Starts from a run that has not been stepped yet and whose dampers are all still inside; `dampers` are the
+    /// indices of the dampers that will be outside.
     pub fn new(run: &Run, case: &Case, dampers: Vec<usize>) -> Self {
         Self {
             start: run.clone(),
@@ -77,11 +77,11 @@ impl InsideComparison {
         }
     }
 
-    /// Runs the same case with all dampers inside and compares both over the shorter duration. Returns `None` if no
-    /// tick was added.
+    /// Runs the same case with all dampers inside, and compares the two runs within the duration of the shorter one.
+    /// Returns `None` if no tick was added.
     ///
     /// # Errors
-    /// See [`Run::step`].
+    /// Same errors as [`Run::step`].
     pub fn compare(self, case: &Case) -> Result<Option<(Effect, Vec<Forces>)>, VehicleRunError> {
         if self.ticks == 0 {
             return Ok(None);

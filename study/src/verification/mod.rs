@@ -22,7 +22,7 @@ pub const TOLERANCE: f64 = 1e-8;
 /// Runs the case with its step size divided by `every`, and records the ticks of the case.
 ///
 /// # Errors
-/// See [`Run::new`].
+/// Same errors as [`Run::new`].
 pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleRunError> {
     let finer = Case {
         step_s: case.step_s / every as f64,
@@ -45,10 +45,10 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleRunErr
     }
 }
 
-/// Solves the case with the reference at the ticks of `stepped`, to a relative tolerance.
+/// Solves the case with the reference solver at the ticks of `stepped`, to a relative tolerance.
 ///
 /// # Errors
-/// See [`Run::new`]; also if the tolerance cannot be reached.
+/// Same errors as [`Run::new`]; also an error if the tolerance cannot be reached.
 pub fn reference(case: &Case, stepped: &Trace, tolerance: f64) -> Result<Trace, VerificationError> {
     let contact = contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
     let built_track = case.track.build().map_err(VehicleRunError::from)?;
@@ -63,7 +63,7 @@ pub fn reference(case: &Case, stepped: &Trace, tolerance: f64) -> Result<Trace, 
     let mut trace = Trace::new(case);
     trace.times_s.clone_from(&stepped.times_s);
     for (sample, track) in samples.iter().zip(&stepped.track_accelerations) {
-        // An accelerometer does not measure gravity, but it measures the acceleration of the curve.
+        // An accelerometer does not measure gravity, but it does measure the centripetal acceleration in a curve.
         let acceleration =
             |body: usize| std::array::from_fn(|i| sample.accelerations[body][i] - track[body][i]);
         let tick = Sample {

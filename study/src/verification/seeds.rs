@@ -1,4 +1,4 @@
-//! Check of a chaotic case against the reference: mean indices over seeds of the track irregularity are compared.
+//! Checks a chaotic case against the reference: compares indices averaged over seeds of the track irregularity.
 
 use serde::Serialize;
 
@@ -14,11 +14,11 @@ pub const SEEDS: u64 = 8;
 /// Relative tolerance of the reference; its error is far below the differences between seeds.
 const TOLERANCE: f64 = 1e-6;
 
-/// Maximum difference of two means in standard errors. With about a hundred indices, chance exceeds four in about one
-/// of a hundred cases.
+/// Maximum difference of two means in standard errors. With about a hundred indices, chance alone exceeds four standard
+/// errors in about one of a hundred cases.
 pub const STANDARD_ERRORS: f64 = 4.0;
 
-/// Largest difference of mean indices over seeds between the step and the reference.
+/// Largest difference between the fixed step and the reference, of indices averaged over seeds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OverSeeds {
     /// Number of seeds.
@@ -32,13 +32,13 @@ pub struct OverSeeds {
     pub means: Means,
 }
 
-/// Means of an index over seeds; serialized as a list of both.
+/// Means of an index over the seeds; serialized as a list of the two means.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(into = "[f64; 2]")]
 pub struct Means {
-    /// Mean with the step.
+    /// Mean from the runs with the fixed step.
     pub step: f64,
-    /// Mean with the reference.
+    /// Mean from the runs with the reference solver.
     pub reference: f64,
 }
 
@@ -65,7 +65,7 @@ struct Pair {
 /// seed or a run does not complete.
 ///
 /// # Errors
-/// See [`reference()`].
+/// Same errors as [`reference()`].
 pub fn over_seeds(case: &Case) -> Result<Option<OverSeeds>, VerificationError> {
     let seeds: Vec<u64> = (1..=SEEDS).collect();
     let pairs = dashpot_workers::map(&seeds, |seed| pair(case, *seed))?;
@@ -139,7 +139,8 @@ mod tests {
             step: indices(step),
             reference: indices(reference),
         };
-        // Means 2 and 3 with variance 1 each over three seeds: the standard error is sqrt(2/3).
+        // The means over the three seeds are 2 and 3, each with variance 1, so the standard error of their difference
+        // is sqrt(2/3).
         let found = compare(&[pair(1.0, 2.0), pair(2.0, 3.0), pair(3.0, 4.0)]);
         let found = found.unwrap();
         let means = <[f64; 2]>::from(found.means);

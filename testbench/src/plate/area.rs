@@ -31,7 +31,7 @@ pub enum PressureArea {
 }
 
 impl PressureArea {
-    /// Returns full pressure on the whole free part of a disc between two radii (m).
+    /// Returns an area with full pressure on the whole free part of a disc, between two radii (m).
     pub fn whole(clamp_m: f64, free_m: f64) -> Self {
         Self::Ring(Profile::full(clamp_m, free_m))
     }
@@ -54,7 +54,7 @@ impl PressureArea {
         }
     }
 
-    /// Returns the pressure over the full pressure at a radius (m) and an angle (rad).
+    /// Returns the pressure at a radius (m) and an angle (rad), divided by the full pressure.
     pub fn at(&self, radius_m: f64, angle_rad: f64) -> f64 {
         let pitch = TAU / f64::from(self.count());
         let angle = angle_rad - pitch * (angle_rad / pitch).round();
@@ -68,7 +68,7 @@ impl PressureArea {
         }
     }
 
-    /// Returns the coefficient of `cos(k N t)` of the pressure over the full pressure at a radius.
+    /// Returns the coefficient of `cos(k N t)` of the pressure at a radius, divided by the full pressure.
     pub(super) fn harmonic(&self, k: u32, radius_m: f64) -> f64 {
         match self {
             Self::Ring(profile) if k == 0 => profile.at(radius_m),
@@ -104,10 +104,10 @@ impl PressureArea {
         }
     }
 
-    /// Checks the values for a disc that is free between two radii (m).
+    /// Checks the values for a disc clamped at one radius and free at another (m).
     ///
     /// # Errors
-    /// A value out of range.
+    /// Returns an error if a value is out of range.
     pub fn check(&self, clamp_m: f64, free_m: f64) -> Result<(), PlateError> {
         match self {
             Self::Ring(profile) => profile.check(clamp_m, free_m),

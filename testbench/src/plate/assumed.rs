@@ -14,7 +14,7 @@ use super::{
 
 /// Number of bosses of a 6/6-hole piston.
 const BOSSES: u32 = 6;
-/// Assumed radius of a hole over that of its boss.
+/// Assumed radius of a hole, divided by the radius of its boss.
 const HOLE_SHARE: f64 = 0.75;
 /// Assumed exponent of a decay.
 const QUADRATIC: f64 = 2.0;
@@ -30,7 +30,7 @@ pub enum Fit {
     Decay {
         /// Exponent of the decay (1).
         exponent: f64,
-        /// Fitted outer radius of full pressure (m).
+        /// Fitted outer radius of the area under full pressure (m).
         full_radius_m: f64,
     },
     /// Full pressure in the middle, decaying to zero at clamp and edge over the same width.
@@ -40,9 +40,9 @@ pub enum Fit {
         /// Fitted width of the decay (m).
         width_m: f64,
     },
-    /// Sectors; the number of them does not matter.
+    /// Sectors; their number does not matter.
     Sectors {
-        /// Inner and outer radius of full pressure (m).
+        /// Inner and outer radius of the area under full pressure (m).
         full_m: [f64; 2],
         /// Fitted share of the circumference (1).
         share: f64,
@@ -51,7 +51,7 @@ pub enum Fit {
     RoundBosses {
         /// Radius of the pitch circle (m).
         pitch_radius_m: f64,
-        /// Radius of a hole over that of its boss (1).
+        /// Radius of a hole, divided by the radius of its boss (1).
         hole_share: f64,
         /// Fitted radius of a boss (m).
         boss_radius_m: f64,
@@ -61,7 +61,7 @@ pub enum Fit {
 /// Returns the area assumed for a valve with correction factor `factor`; a factor of 1 means the whole disc.
 ///
 /// # Errors
-/// This kind of area cannot have the factor.
+/// Returns an error if no area of this kind has this correction factor.
 pub fn assumed_area(
     valve: ShimPackValve,
     stack: &Stack,
@@ -94,10 +94,11 @@ pub fn is_ring(valve: ShimPackValve) -> bool {
     matches!(valve, ShimPackValve::FootCompression)
 }
 
-/// Returns geometries of the valve's kind of area with correction factor `factor`; empty if none can have it.
+/// Returns geometries, all of the kind of area that the valve has, whose correction factor is `factor`; empty if there
+/// are none.
 ///
 /// # Errors
-/// The plate has no solution.
+/// Returns an error if the plate has no solution.
 pub fn fits(
     valve: ShimPackValve,
     stack: &Stack,
@@ -143,7 +144,8 @@ pub fn fits(
     Ok(fits)
 }
 
-/// Returns full pressure on a ring in the middle of the free width, over `share` of that width.
+/// Returns a profile with full pressure on a ring in the middle of the free width; the ring covers `share` of that
+/// width.
 pub fn middle_ring(stack: &Stack, share: f64) -> Profile {
     let (clamp, free) = (stack.clamp_radius_m(), stack.free_radius_m());
     let (middle, half) = (0.5 * (clamp + free), 0.5 * share * (free - clamp));
@@ -160,7 +162,7 @@ fn bosses(pitch_radius_m: f64) -> RoundBosses {
     }
 }
 
-/// Returns the fitted value; `None` if no geometry has the factor.
+/// Returns the fitted value; `None` if no geometry has the requested correction factor.
 fn if_reachable(fit: Result<f64, PlateError>) -> Result<Option<f64>, PlateError> {
     match fit {
         Ok(fitted) => Ok(Some(fitted)),

@@ -8,14 +8,14 @@ use super::{PlateError, PressureArea, Stack};
 /// Discretisation of a plate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Resolution {
-    /// Minimum number of elements from clamp to edge; each corner of the pressure profile has a node.
+    /// Minimum number of elements from clamp to edge; the mesh also has a node at each corner of the pressure profile.
     pub elements: usize,
     /// Number of harmonics of the boss spacing.
     pub harmonics: u32,
 }
 
 impl Default for Resolution {
-    /// Lifts within 1e-6 and stresses within 1e-3 of the results of twice the resolution.
+    /// With this resolution, lifts are within 1e-6 and stresses within 1e-3 of the results at twice the resolution.
     fn default() -> Self {
         Self {
             elements: 96,
@@ -35,10 +35,10 @@ pub struct Curvature {
     pub twist: f64,
 }
 
-/// A stack bent by pressure. All results are per pressure, because thin plates are linear.
+/// A stack bent by pressure. All results are divided by the pressure, because thin plates are linear.
 #[derive(Clone, Debug)]
 pub struct Bending {
-    /// Node radii over the free radius.
+    /// Node radii divided by the free radius.
     nodes: Vec<f64>,
     harmonics: Vec<Harmonic>,
     bosses: u32,
@@ -52,7 +52,7 @@ impl Stack {
     /// Bends the stack by pressure on `area`.
     ///
     /// # Errors
-    /// The area is not within the free part of the stack.
+    /// Returns an error if the area is not within the free part of the stack.
     pub fn bend(&self, area: &PressureArea, resolution: Resolution) -> Result<Bending, PlateError> {
         let harmonics = if area.is_axisymmetric() {
             0
@@ -75,7 +75,7 @@ impl Stack {
         Ok(bending.mean_edge_lift_m_per_pa())
     }
 
-    /// Returns the correction factor Ce of `area`: the mean edge lift over the lift under uniform pressure.
+    /// Returns the correction factor Ce of `area`: the mean edge lift divided by the lift under uniform pressure.
     ///
     /// # Errors
     /// Same errors as [`Stack::bend`].
@@ -123,7 +123,8 @@ impl Stack {
 
 /// Returns nodes from `clamp` to 1, including all `corners`, for about `elements` elements.
 ///
-/// Between corners the nodes have equal ratios, because the curvature changes with the logarithm of the radius.
+/// Between corners, the ratio of successive radii is constant, because the curvature changes with the logarithm of the
+/// radius.
 fn nodes(clamp: f64, corners: [f64; 4], elements: usize) -> Vec<f64> {
     let max_log_ratio = -clamp.ln() / elements.max(1) as f64;
     let mut ends = [clamp, corners[0], corners[1], corners[2], corners[3], 1.0];
@@ -131,7 +132,7 @@ fn nodes(clamp: f64, corners: [f64; 4], elements: usize) -> Vec<f64> {
     let mut nodes = vec![clamp];
     let mut start = clamp;
     for end in ends {
-        // A shorter element would only be rounding.
+        // A shorter element would be due to rounding only.
         if end - start > 1e-9 {
             let end = end.min(1.0);
             let log_ratio = (end / start).ln();
@@ -191,7 +192,8 @@ impl Bending {
         }
     }
 
-    /// Returns the edge lift per pressure, averaged over the circumference (m/Pa); the flow past the edge follows it.
+    /// Returns the edge lift per pressure, averaged over the circumference (m/Pa); it determines the flow past the
+    /// edge.
     pub fn mean_edge_lift_m_per_pa(&self) -> f64 {
         self.scale * self.harmonics.first().map_or(0.0, Harmonic::at_edge)
     }
@@ -228,7 +230,7 @@ impl Bending {
         harmonics.map(move |harmonic| (harmonic.order, harmonic.at(&self.nodes, element, q)))
     }
 
-    /// Returns the element that contains a radius, and the radius over the free radius.
+    /// Returns the element that contains a radius, and the radius divided by the free radius.
     fn locate(&self, radius_m: f64) -> (usize, f64) {
         let clamp = self.clamp_radius_m / self.free_radius_m;
         let q = (radius_m / self.free_radius_m).clamp(clamp, 1.0);

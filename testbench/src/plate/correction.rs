@@ -6,14 +6,14 @@ use super::{PlateError, PressureArea, Profile, Resolution, RoundBosses, Stack};
 const MAX_ITERATIONS: u32 = 60;
 /// Width of the interval at which the search ends (1).
 const INTERVAL_TOLERANCE: f64 = 1e-13;
-/// Error of the factor at which the search ends: rounding allows no less.
+/// Error of the factor at which the search ends; rounding prevents a smaller one.
 const FACTOR_TOLERANCE: f64 = 1e-9;
 
 /// Returns the radius r_f (m) at which a pressure that is full from the clamp begins its decay,
 /// `((r_w - r)/(r_w - r_f))^n`, for the correction factor `factor`.
 ///
 /// # Errors
-/// No radius has the factor.
+/// Returns an error if no radius has this correction factor.
 pub fn fitted_full_radius_m(
     stack: &Stack,
     exponent: f64,
@@ -38,7 +38,7 @@ pub fn fitted_full_radius_m(
 /// correction factor `factor`.
 ///
 /// # Errors
-/// No width has the factor.
+/// Returns an error if no width has this correction factor.
 pub fn fitted_decay_width_m(
     stack: &Stack,
     exponent: f64,
@@ -64,7 +64,7 @@ pub fn fitted_decay_width_m(
 /// The factor is the share times the factor of the full ring, because only the harmonic of order zero has a mean.
 ///
 /// # Errors
-/// The factor of the full ring is too small.
+/// Returns an error if the correction factor of the full ring is too small.
 pub fn fitted_share(
     stack: &Stack,
     profile: Profile,
@@ -86,7 +86,8 @@ pub fn fitted_share(
 /// Returns the radius (m) of round bosses for the correction factor `factor`; the hole has `hole_share` of this radius.
 ///
 /// # Errors
-/// No radius has the factor, from nearly zero to where the bosses meet the clamp, the edge or each other.
+/// Returns an error if no radius has this correction factor, from nearly zero to where the bosses meet the clamp, the
+/// edge or each other.
 pub fn fitted_boss_radius_m(
     stack: &Stack,
     bosses: RoundBosses,
@@ -123,7 +124,7 @@ fn fitted(
             max,
         });
     }
-    // Regula falsi, Illinois variant: the value at an end that is kept twice in a row is halved.
+    // Regula falsi, Illinois variant: if an end is kept twice in a row, its value is halved.
     let (mut at_low, mut at_high) = (min - factor, max - factor);
     let mut low_moved = None;
     for _ in 0..MAX_ITERATIONS {

@@ -125,7 +125,7 @@ fn element(
     (stiffness, force)
 }
 
-/// An eliminated node.
+/// Block row of an eliminated node.
 struct EliminatedBlock {
     /// Inverse of the diagonal block.
     inverse: Matrix2<f64>,
@@ -143,13 +143,13 @@ struct Chain {
 }
 
 impl Chain {
-    /// Adds the contribution of the element before a node.
+    /// Starts a node: adds the contribution of the element before it.
     fn open(&mut self, diagonal: Matrix2<f64>, force: Vector2<f64>) {
         self.diagonal += diagonal;
         self.force += force;
     }
 
-    /// Adds the contribution of the element after the node, and eliminates the node.
+    /// Completes the node: adds the contribution of the element after it, and eliminates it.
     fn close(
         &mut self,
         diagonal: Matrix2<f64>,

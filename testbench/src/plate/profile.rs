@@ -5,11 +5,11 @@ use serde::Serialize;
 use super::PlateError;
 use super::limits::{check_exponent, invalid};
 
-/// Pressure over the full pressure as a function of the radius: 1 from `full_m[0]` to `full_m[1]`, decaying to zero at
-/// `ends_m` as `((r - end)/(full - end))^n`.
+/// Pressure as a function of the radius, divided by the full pressure: 1 from `full_m[0]` to `full_m[1]`, decaying to
+/// zero at `ends_m` as `((r - end)/(full - end))^n`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Profile {
-    /// Inner and outer radius of full pressure (m).
+    /// Inner and outer radius of the area under full pressure (m).
     pub full_m: [f64; 2],
     /// Radii at which the pressure has decayed to zero (m); equal to `full_m` for no decay.
     pub ends_m: [f64; 2],
@@ -18,7 +18,7 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Returns full pressure between two radii (m) and none outside.
+    /// Returns a profile with full pressure between two radii (m) and no pressure outside.
     pub fn full(inner_m: f64, outer_m: f64) -> Self {
         let radii = [inner_m, outer_m];
         Self {
@@ -28,7 +28,7 @@ impl Profile {
         }
     }
 
-    /// Returns the pressure over the full pressure at a radius (m).
+    /// Returns the pressure at a radius (m), divided by the full pressure.
     pub fn at(&self, radius_m: f64) -> f64 {
         let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
         if (inner..=outer).contains(&radius_m) {

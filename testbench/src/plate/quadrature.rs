@@ -1,7 +1,7 @@
 //! Gauss-Legendre quadrature.
 
-/// Points and weights of the eight-point rule on 0 to 1; the other four points are their negatives (Abramowitz and
-/// Stegun, table 25.4).
+/// Positive points and weights of the eight-point rule on -1 to 1; the other four points are their negatives
+/// (Abramowitz and Stegun, table 25.4).
 const POSITIVE_POINTS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
     (0.525_532_409_916_329, 0.313_706_645_877_887_3),

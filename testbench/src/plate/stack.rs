@@ -31,7 +31,7 @@ impl Stack {
     /// Builds the stack of a valve's shims; `section` names the valve in error messages.
     ///
     /// # Errors
-    /// Same errors as [`Pack::new`]: an invalid disc, or no shim.
+    /// Same errors as [`Pack::new`], for an invalid disc or no shim.
     pub fn new(
         section: &'static str,
         valve: &Valve,
@@ -76,8 +76,8 @@ impl Stack {
         self.elastic_modulus_pa * self.equivalent_thickness_m().powi(3) / (12.0 * (1.0 - nu * nu))
     }
 
-    /// Returns the thickness that determines the bending stress (m): the thickest disc if they slide, otherwise the
-    /// whole stack.
+    /// Returns the thickness that determines the bending stress (m): that of the thickest disc if the discs slide,
+    /// otherwise that of the whole stack.
     pub fn bent_thickness_m(&self) -> f64 {
         match self.stacking {
             Stacking::Sliding => self.discs_m.iter().copied().fold(0.0, f64::max),
@@ -85,9 +85,9 @@ impl Stack {
         }
     }
 
-    /// Returns the thickness (m) that the deflection w must be small against for plate theory to apply.
+    /// Returns the thickness (m) with which to compare the deflection w: plate theory applies if w is much smaller.
     ///
-    /// The tension in the stretched middle planes relates to the bending as `w^2 sum h` to `sum h^3`.
+    /// The ratio of the tension in the stretched middle planes to the bending is proportional to `w^2 sum h/sum h^3`.
     pub fn stretched_thickness_m(&self) -> f64 {
         let whole: f64 = self.discs_m.iter().sum();
         match self.stacking {

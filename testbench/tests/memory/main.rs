@@ -30,7 +30,7 @@ const COLUMNS: [Column; 3] = [
 
 const MIB: usize = 1 << 20;
 
-/// Heap in use and its peak (bytes).
+/// Heap memory in use and its peak (bytes).
 static IN_USE: AtomicUsize = AtomicUsize::new(0);
 static PEAK: AtomicUsize = AtomicUsize::new(0);
 
@@ -75,7 +75,7 @@ fn recording(folder: &Path, form: FileFormat, rows: usize) -> PathBuf {
     path
 }
 
-/// Replays as the command does, but writes no file.
+/// Replays a file like the command, but writes no output.
 fn replay_file(path: &Path, form: FileFormat, rows: usize) {
     let damper: Damper<f32> = damper::load("in-service", &[])
         .unwrap()
@@ -110,7 +110,7 @@ fn a_long_recording_takes_no_more_memory_than_a_short_one() {
         // The list of row groups or blocks may grow, but by much less than a byte per row.
         let growth = many.saturating_sub(few);
         assert!(8 * growth < MANY - FEW, "{form:?}: {few} {many}");
-        // Check of the count itself: rows held in memory are counted.
+        // Checks the counter itself: it must count rows that are held in memory.
         let path = folder.path().join("recording");
         let held = peak_of(|| {
             let rows = Recording::open(&path).unwrap().read_all().unwrap();

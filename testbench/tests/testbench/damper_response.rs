@@ -1,4 +1,4 @@
-//! Frequency response of dampers against closed forms.
+//! Frequency response of dampers, compared with closed forms.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -14,7 +14,7 @@ use dashpot_testbench::response::{at_amplitude, linearised};
 
 const DAMPING: f64 = 120e3;
 
-/// A reduced damper whose limits are out of reach.
+/// A reduced damper whose limits the motions do not reach.
 fn reduced(
     damping: f64,
     saturation_m_per_s: f64,
@@ -71,7 +71,7 @@ fn a_clearance_is_a_dead_zone() {
     assert!((linear.stiffness_n_per_m() / stiffness - 1.0).abs() < 1e-3);
 }
 
-/// With a nearly rigid mount, a dashpot `C` that saturates at `V_r` has at the peak velocity `V` the damping
+/// With a nearly rigid mount, a dashpot `C` that saturates at `V_r` has, at the peak velocity `V`, the damping
 /// `C 2/pi (asin(V_r/V) + V_r/V sqrt(1 - (V_r/V)^2))`.
 #[test]
 fn a_saturation_is_a_relay_with_a_slope() {
@@ -92,7 +92,7 @@ fn a_saturation_is_a_relay_with_a_slope() {
     assert!((linear.damping_n_s_per_m() / DAMPING - 1.0).abs() < 1e-3);
 }
 
-/// Other harmonics do no work, so the energy per cycle is `pi A^2 K''` also for a damper with all laws.
+/// Other harmonics do no work, so the energy per cycle is `pi A^2 K''` even for a damper with all laws.
 #[test]
 fn loss_stiffness_gives_the_energy_per_cycle() {
     let damper = damper::load("in-service", &[]).unwrap();

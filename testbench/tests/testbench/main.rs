@@ -1,4 +1,4 @@
-//! A damper on its test bench, against closed forms and other tools.
+//! A damper on its test bench: compares it with closed forms and other tools.
 
 mod damper_response;
 mod plate;

@@ -198,7 +198,7 @@ fn errors_have_file_line_and_name() {
     assert_eq!(message, expected);
 }
 
-/// The invalid test is the last one: the first would have run if all were not checked beforehand.
+/// The last test is invalid. If the tests were not all checked first, the first test would run.
 #[test]
 fn invalid_tests_are_reported_with_their_line_before_any_test_runs() {
     let second = |keys: &str| {

@@ -1,4 +1,4 @@
-//! Swept sine against closed forms and against single harmonic motions.
+//! Swept sine: compares it with closed forms and with single harmonic motions.
 
 use std::f64::consts::{PI, TAU};
 
@@ -57,7 +57,9 @@ fn a_clearance_is_a_dead_zone() {
     assert_eq!(within[0].loss_angle_deg(), None);
 }
 
-/// Checks the accuracy stated in docs/model.md: the stiffness of no preset rises faster than the frequency squared.
+/// Checks the accuracy stated in docs/model.md.
+///
+/// The limit assumes that no preset has a stiffness that rises faster than the square of the frequency.
 #[test]
 fn sweeps_at_one_octave_per_minute_agree_with_harmonic_motions() {
     let frequencies = frequencies(0.1, 5.0, 13);

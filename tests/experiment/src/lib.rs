@@ -1,10 +1,10 @@
-//! A motion through one damper or a bank of twelve, as bytes that a host sends to any processor.
+//! An experiment that drives one damper or a bank of twelve with a motion, as bytes that a host sends to any processor.
 //!
-//! | bytes | hold |
+//! | bytes | contents |
 //! |---|---|
 //! | 12 | 32-bit numbers: 1 for the bank, 0 for one damper; steps; samples of the motion |
 //! | two images | the damper, and another to swap in |
-//! | 4 a sample | displacement (m), `f32` |
+//! | 4 per sample | displacement (m), `f32` |
 //!
 //! Every number is little-endian.
 #![no_std]
@@ -27,7 +27,7 @@ pub const BYTES: usize = HEADER_BYTES + 2 * IMAGE_BYTES + 4 * SAMPLES;
 const HEADER_BYTES: usize = 12;
 const IMAGE_BYTES: usize = Damper::<f32>::IMAGE_BYTES;
 
-/// Lanes of a bank run this many ticks apart.
+/// Each lane of a bank lags the one before it by this number of ticks.
 const LAG: u32 = 9;
 
 /// An experiment; see the table above.
@@ -79,7 +79,7 @@ impl<'a> Experiment<'a> {
             .chain(self.motion_m.as_flattened().iter().copied())
     }
 
-    /// Displacement (m) of a lane at a step: the motion to its end and back, repeatedly.
+    /// Displacement (m) of a lane at a step: the motion runs to its end and back, repeatedly.
     pub fn displacement_m(&self, step: u32, lane: usize) -> f32 {
         let last = self.motion_m.len() as u32 - 1;
         let sample = (step + LAG * lane as u32) % (2 * last);

@@ -18,7 +18,7 @@ fn main() -> ExitCode {
             }
         },
         None => {
-            eprintln!("wrong use: dashpot-experiment FILE");
+            eprintln!("usage error: dashpot-experiment FILE");
             ExitCode::from(2)
         }
     }
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
 
 fn run(path: &std::path::Path) -> Result<u64, String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-    let experiment = Experiment::parse(&bytes).ok_or("no experiment, or cut short")?;
+    let experiment = Experiment::parse(&bytes).ok_or("not an experiment, or truncated")?;
     let damper = Damper::<f32>::from_image(experiment.damper).map_err(|error| error.to_string())?;
     let digest = experiment.run(&damper, |damper, state, x| damper.step(state, x), step_bank);
     Ok(digest.value())

@@ -1,10 +1,10 @@
-//! A recorded run through the health estimator, as bytes that a host sends to any processor.
+//! A recorded run for the health estimator, as bytes that a host sends to any processor.
 //!
-//! | bytes | hold |
+//! | bytes | contents |
 //! |---|---|
-//! | 4 | samples, 32 bits |
+//! | 4 | number of samples, 32 bits |
 //! | an image | the estimator's model |
-//! | 8 a sample | displacement (m) and force (N), `f32` |
+//! | 8 per sample | displacement (m) and force (N), `f32` |
 //!
 //! Every number is little-endian.
 

@@ -1,5 +1,5 @@
-//! Two dampers behind a link on the desk, and the requests of a host.
-#![allow(dead_code)] // each test uses a part
+//! A simulated device with two dampers behind a link, and the requests of a host.
+#![allow(dead_code)] // each test uses only a part
 
 use dashpot::damper;
 use dashpot_core::link::{
@@ -21,7 +21,7 @@ pub struct Bench {
     pub header: Header,
 }
 
-/// An answer of the device.
+/// An answer from the device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer(Vec<u8>);
 
@@ -117,7 +117,7 @@ impl Bench {
         })
     }
 
-    /// Tick and states as bytes.
+    /// Returns the tick, and the states as bytes.
     pub fn states(&self) -> (u32, Vec<u8>) {
         let states = self.device.states().iter();
         let bytes = states.flat_map(DamperState::<f32>::to_bytes);

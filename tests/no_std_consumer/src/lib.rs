@@ -1,4 +1,4 @@
-//! All calls of a firmware in a tick, without `std`, heap and builder.
+//! All calls that a firmware makes in a tick, without `std`, heap and builder.
 #![no_std]
 
 use dashpot_core::integrity::Check;
@@ -30,7 +30,7 @@ pub extern "C" fn checked_step_f64(
     damper.step(state, x)
 }
 
-/// Steps a bank that fills a group and has dampers left over.
+/// Steps a bank whose dampers fill one group and part of another.
 #[unsafe(no_mangle)]
 pub extern "C" fn checked_bank(
     damper: &Damper<f32>,

@@ -1,11 +1,11 @@
-//! Finds circles in a graph of names.
+//! Finds cycles in a graph of names.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Arrows between nodes.
 pub type Graph<T> = BTreeMap<T, BTreeSet<T>>;
 
-/// Returns the groups of nodes that lead back to one another.
+/// Returns the groups of nodes in which each node leads to every other and back.
 pub fn circles<T: Ord + Clone>(graph: &Graph<T>) -> BTreeSet<BTreeSet<T>> {
     let reached: BTreeMap<&T, BTreeSet<&T>> = graph
         .keys()

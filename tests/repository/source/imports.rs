@@ -1,8 +1,8 @@
-//! Finds what one module declares and names: its submodules, items and paths into its own crate.
+//! Finds the submodules and items that a module declares, and the paths into its own crate that it names.
 
 use super::tokens::Token;
 
-/// Path of names, such as `["crate", "health", "Watch"]`.
+/// A path as a list of names, such as `["crate", "health", "Watch"]`.
 pub type Path = Vec<String>;
 
 /// Declarations and paths of one module.
@@ -14,7 +14,7 @@ pub struct Contents {
     pub inline: Vec<(String, Contents)>,
     /// Functions, types and so on defined here.
     pub items: Vec<String>,
-    /// Paths that code other than `use` names; the first name is `crate`, `self` or `super`.
+    /// Paths named outside `use`; the first name is `crate`, `self` or `super`.
     pub paths: Vec<Path>,
     /// Imports.
     pub uses: Vec<Use>,
@@ -35,7 +35,7 @@ const DEFINING: [&str; 8] = [
     "fn", "struct", "enum", "union", "trait", "type", "const", "static",
 ];
 
-/// Reads the contents of a module from its tokens. Leaves out what is compiled for tests only.
+/// Reads the contents of a module from its tokens. Leaves out code that is compiled only for tests.
 pub fn contents(tokens: &[Token]) -> Contents {
     let mut contents = Contents::default();
     let mut at = 0;
@@ -100,7 +100,7 @@ pub fn contents(tokens: &[Token]) -> Contents {
     contents
 }
 
-/// Length of an attribute, with the item behind it if the item is compiled for tests only.
+/// Length of an attribute, including the item after it if that is compiled only for tests.
 fn attribute(tokens: &[Token]) -> usize {
     let open = if tokens.get(1).is_some_and(|token| token.is('!')) {
         2
@@ -122,7 +122,7 @@ fn attribute(tokens: &[Token]) -> usize {
     {
         return length + item(&tokens[length..]);
     }
-    1 // It may have paths.
+    1 // The attribute may contain paths.
 }
 
 /// Length of an item with its attributes.

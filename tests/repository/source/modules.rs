@@ -7,10 +7,10 @@ use std::path::PathBuf;
 use super::imports::{Contents, Path, Use, contents};
 use super::tokens;
 
-/// Names of a module from the crate's root; empty for the root itself.
+/// Path of a module as the list of names from the crate's root; empty for the root itself.
 pub type Module = Vec<String>;
 
-/// Re-exports that lead to one another, at most.
+/// Maximum number of re-exports in a chain.
 const MAX_STEPS: usize = 32;
 
 /// A crate read from its source files.
@@ -19,7 +19,7 @@ pub struct Crate {
     modules: BTreeMap<Module, Contents>,
 }
 
-/// An import: module that has it, module that it is from, and the path as written.
+/// An import from one module of the crate into another.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Import {
     /// Importing module.

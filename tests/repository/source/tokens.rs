@@ -47,7 +47,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads up to the end of the next token. The inner `None` is a comment, a space or a lifetime.
+    /// Reads up to the end of the next token. The inner value is `None` for a comment, a space or a lifetime.
     fn next(&mut self) -> Option<Option<Token>> {
         let first = self.rest.chars().next()?;
         if self.rest.starts_with("//") {
@@ -96,7 +96,7 @@ impl<'a> Reader<'a> {
         self.take(end.unwrap_or(self.rest.len()))
     }
 
-    /// Block comments may contain others.
+    /// Skips a block comment, which may contain others.
     fn skip_block_comment(&mut self) {
         let mut depth = 0;
         loop {
@@ -156,7 +156,7 @@ impl<'a> Reader<'a> {
         let mut characters = self.rest.chars();
         let first = characters.next()?;
         if first == '\\' {
-            // The second character is escaped; `\u{..}` has more up to the closing quote.
+            // The second character is escaped; `\u{..}` has further characters up to the closing quote.
             let after = 1 + characters.next().map_or(0, char::len_utf8);
             let end = self.rest[after..]
                 .find('\'')

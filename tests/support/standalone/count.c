@@ -1,5 +1,6 @@
-/* Instructions of a step in C without a library on a Cortex-M under QEMU's `-icount shift=10`, where one takes 1024 ns: in
- * ticks of SysTick, which runs with the processor's clock. Every number goes to the debugger through semihosting. */
+/* Counts the instructions of a step in C without a library on a Cortex-M under QEMU's `-icount shift=10`, where an
+ * instruction takes 1024 ns. The results are ticks of SysTick, which runs with the processor's clock. Semihosting sends
+ * every number to the debugger. */
 #include <stdint.h>
 
 #include "damper.h"
@@ -9,13 +10,13 @@
 #define SYST_RVR (*(volatile uint32_t *)0xE000E014U)
 #define SYST_CVR (*(volatile uint32_t *)0xE000E018U)
 #define CPACR (*(volatile uint32_t *)0xE000ED88U)
-#define SYST_RUN 5U /* counter, processor clock */
+#define SYST_RUN 5U /* counter on, with the processor's clock */
 #define SYST_MASK 0xffffffU
 
 enum { SYS_WRITE0 = 0x04, SYS_EXIT = 0x18 };
 #define STOPPED_BY_EXIT 0x20026U
 
-extern const char clock_hz[]; /* its address is the number */
+extern const char clock_hz[]; /* the symbol's address is the frequency */
 extern uint32_t stack_top[], data_start[], data_end[], data_image[], bss_start[], bss_end[];
 
 typedef float step_function(const damper_damper *damper, damper_state *state, float displacement_m);
@@ -41,7 +42,7 @@ static void print(const char *name, uint32_t value)
     semihosting(SYS_WRITE0, (uintptr_t)digits);
 }
 
-/* One instruction, the return. */
+/* A function of one instruction, its return. */
 __attribute__((naked, noinline)) static float nothing(const damper_damper *damper, damper_state *state,
                                                       float displacement_m)
 {
@@ -51,7 +52,7 @@ __attribute__((naked, noinline)) static float nothing(const damper_damper *dampe
     __asm__ volatile("bx lr");
 }
 
-/* A hundred and one: what is found for it proves the count. */
+/* A function of 101 instructions: its measured count shows that the method is right. */
 __attribute__((naked, noinline)) static float known(const damper_damper *damper, damper_state *state,
                                                     float displacement_m)
 {
@@ -63,7 +64,7 @@ __attribute__((naked, noinline)) static float known(const damper_damper *damper,
 
 static float force;
 
-/* Clock ticks of a call of any of these functions, the same instructions counted beside its own. */
+/* Clock ticks of a call of any of these functions. The instructions of the call itself are the same for each. */
 __attribute__((noinline)) static uint32_t timed(step_function *volatile function, const damper_damper *damper,
                                                 damper_state *state, float displacement_m)
 {
@@ -76,7 +77,7 @@ __attribute__((noinline)) static uint32_t timed(step_function *volatile function
     return (start - end) & SYST_MASK;
 }
 
-/* The force's bits into the digest: FNV-1a over its bytes. */
+/* Adds the bits of the force to the digest: FNV-1a over its bytes. */
 static void digest_force(void)
 {
     union {
@@ -127,7 +128,7 @@ static void measure(void)
     print("kept", damper_digest(&damper_as_built) == DAMPER_DIGEST);
 }
 
-void start(void); /* the linker script names it */
+void start(void); /* the linker script names this function */
 void start(void)
 {
     const uint32_t *from = data_image;
@@ -139,7 +140,7 @@ void start(void)
     for (to = bss_start; to < bss_end; to++) {
         *to = 0;
     }
-    CPACR |= 0xFU << 20; /* floating point on */
+    CPACR |= 0xFU << 20; /* switch floating point on */
     __asm__ volatile("dsb\n\tisb" ::: "memory");
     SYST_RVR = SYST_MASK;
     SYST_CVR = 0;
@@ -158,7 +159,7 @@ static void unexpected(void)
 
 typedef void (*vector)(void);
 
-/* Stack, reset, and the fourteen exceptions of the architecture. */
+/* Vector table: stack, reset, and the fourteen exceptions of the architecture. */
 __attribute__((section(".vectors"), used)) static const struct {
     uint32_t *stack;
     vector entries[15];

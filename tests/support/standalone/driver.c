@@ -1,5 +1,5 @@
-/* Requests from standard input, each answered on standard output: what was returned, the state as it lies in memory
- * and as it is saved. */
+/* Reads requests from standard input and answers each on standard output: the returned value, the state as it is in
+ * memory, and the state as it is saved. */
 #include <stdio.h>
 
 #include "damper.h"

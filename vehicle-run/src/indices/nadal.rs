@@ -18,7 +18,7 @@ pub struct Nadal {
 }
 
 impl Nadal {
-    /// Computes the limit for the wheel profile of all vehicles, S1002, and a friction coefficient.
+    /// Computes the limit for a friction coefficient and the wheel profile S1002, which all vehicles have.
     pub(super) fn new(friction: f64) -> Self {
         let flange_angle_rad = flange_angle_rad();
         Self {
@@ -29,7 +29,7 @@ impl Nadal {
     }
 }
 
-/// Flange angle of the S1002 profile, rad. It does not depend on the wheel radius. It is computed once, because
+/// Flange angle of the S1002 profile, rad. The angle does not depend on the wheel radius. It is computed once, because
 /// building the profile pair takes longer than simulating one second.
 fn flange_angle_rad() -> f64 {
     static ANGLE: OnceLock<Result<f64, PairError>> = OnceLock::new();

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::Accelerometer;
 use dashpot_files::case::Case;
 
-/// Length of a window, s. Sperling's index depends on it; the definition of mean comfort requires it.
+/// Length of a window, s. Sperling's index depends on this length, and the definition of mean comfort requires it.
 pub const WINDOW_S: f64 = 5.0;
 
 /// Reason why a run has no ride indices.
@@ -68,7 +68,7 @@ pub struct RideIndices {
     /// Corner frequencies of the band of mean comfort, Hz.
     pub comfort_band_hz: [f64; 2],
     /// Mean comfort `N_MV` of EN 12299 from the 95th percentiles of the windows, dimensionless. The longitudinal
-    /// acceleration is zero.
+    /// acceleration is taken as zero.
     pub mean_comfort: Option<f64>,
 }
 

@@ -16,7 +16,7 @@ pub struct WheelIndices {
     /// Root mean square of `Y/Q`, dimensionless.
     pub derailment_rms: f64,
     /// Maximum mean of `Y/Q` over 2 m in the direction of flange climbing, divided by Nadal's limit, dimensionless; 0
-    /// if it never has this direction.
+    /// if `Y/Q` never has this direction.
     pub derailment_over_nadal: f64,
     /// Longest distance over which `Y/Q` stays above Nadal's limit, m.
     pub longest_over_nadal_m: f64,

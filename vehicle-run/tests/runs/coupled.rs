@@ -1,5 +1,5 @@
-//! A vehicle as part of another simulation: fed with the forces of its own dampers it reproduces its own run; saved
-//! states across a fault; invalid bytes.
+//! A vehicle as part of another simulation: with the forces of its own damper it reproduces its own run; saved states
+//! across a fault; invalid bytes.
 
 use dashpot_files::case::{Case, CaseOptions};
 use dashpot_vehicle_run::{Coupled, CoupledCase, Ending, Run};
@@ -102,8 +102,8 @@ fn invalid_bytes_change_nothing() {
     }
 }
 
-/// With the force that the damper inside has at the end of each tick, the run equals that with all dampers inside, bit
-/// for bit.
+/// The external damper gets the force that the same damper has at the end of each tick of a run without external
+/// dampers. Both runs then have the same displacements, bit for bit.
 #[test]
 fn forces_of_its_own_damper_reproduce_its_own_run() {
     let case = case("locomotive", "rear lateral damper 1");

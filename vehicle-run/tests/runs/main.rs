@@ -1,4 +1,4 @@
-//! Runs of vehicles: coupling with dampers outside, and indices.
+//! Runs of vehicles: coupling with external dampers, and indices.
 
 mod coupled;
 mod vehicle_indices;

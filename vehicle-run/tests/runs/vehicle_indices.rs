@@ -98,8 +98,8 @@ fn unloading_is_relative_to_the_load_at_standstill() {
         assert_eq!(left.lifted_share, 0.0);
         assert_eq!(right.unloading_greatest, Some(1.0));
         assert_eq!(right.lifted_share, 25.0 / 2000.0);
-        // The mean over the last 2 m of the ramp, centred at 0.9495 s, is lower than that of 2 m with the wheel lifted
-        // for a quarter of them.
+        // The load has its smallest mean over the last 2 m of the ramp, centred at 0.9495 s. The mean over 2 m that
+        // include the lift is larger, because the wheel is lifted for a quarter of them only.
         is_near(
             right.unloading_of_mean_greatest.unwrap(),
             0.75 * 0.9495,
@@ -213,7 +213,8 @@ fn ride_is_computed_at_the_points_of_the_vehicle_file() {
     let case = CaseOptions::new(file.to_str().unwrap(), "ideal", 72.0)
         .case()
         .unwrap();
-    // Roll of 2 rad/s^2 at 2 Hz: laterally 0.5 m/s^2 above the centre of gravity, 1 m/s^2 down to its right.
+    // Roll of 2 rad/s^2 at 2 Hz. The point is 0.25 m above the centre of gravity and 0.5 m to its right, which gives
+    // 0.5 m/s^2 laterally and 1 m/s^2 vertically.
     let roll = |tick: usize| 2.0 * (2.0 * PI * 2.0 * tick as f64 * STEP_S).sin();
     let ticks = || {
         (0..12_000).map(|tick| Tick {
@@ -239,7 +240,8 @@ fn ride_is_computed_at_the_points_of_the_vehicle_file() {
     // Published filter gains at 2 Hz.
     let expected = 6.0 * f64::hypot(0.5 * 0.89024, 1.0 * 0.43668) / 2_f64.sqrt();
     is_near(seat.mean_comfort.unwrap(), expected, 5e-3);
-    // Without ride points in the file: the middle and above the bogies, at the height of the centre of gravity.
+    // Without ride points in the file, the points are in the middle and above the bogies, at the height of the centre
+    // of gravity.
     let found = indices(&plain, ticks());
     assert_eq!(found.ride.len(), plain.vehicle.bodies.len());
     assert!(found.ride.iter().all(|ride| ride.at_m[2] == body.height_m));
@@ -279,7 +281,7 @@ fn a_curve_has_the_acceleration_that_cant_does_not_balance() {
     is_near(expected, 0.4714, 1e-3);
     is_near(found.unbalanced.rms_m_per_s2, expected, 1e-9);
     is_near(found.unbalanced.greatest_m_per_s2, expected, 1e-9);
-    // An accelerometer on the body measures it, apart from remaining motion.
+    // An accelerometer on the body measures the unbalanced acceleration, apart from the remaining motion.
     is_near(found.bodies[0].lateral_rms_m_per_s2, expected, 0.02);
     let ticks = (found.duration_s / STEP_S).round();
     let mass_kg = 123_960.0;

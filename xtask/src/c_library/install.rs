@@ -1,4 +1,4 @@
-//! The install tree of the C library: header, libraries, and files for pkg-config and CMake.
+//! Creates the install tree of the C library: header, libraries, and files for pkg-config and CMake.
 
 use std::fs;
 use std::io;
@@ -14,8 +14,8 @@ const PKG_CONFIG: &str = include_str!("../../../capi/install/dashpot.pc.in");
 const CMAKE: &str = include_str!("../../../capi/install/DashpotConfig.cmake.in");
 const CMAKE_VERSION: &str = include_str!("../../../capi/install/DashpotConfigVersion.cmake.in");
 
-/// Builds the library for a platform, installs it in its own folder in `output`, and returns that folder. The tree may
-/// be moved as a whole.
+/// Builds the library for a platform, installs it in its own folder in `output`, and returns that folder. The folder
+/// can be moved as a whole.
 ///
 /// # Errors
 /// The build fails, or a file cannot be written.
@@ -58,7 +58,7 @@ fn copy(from: &Path, to: &Path) -> Outcome {
     replace(to, |new| fs::copy(from, new).map(drop))
 }
 
-/// Creates a link to a file of the same folder.
+/// Creates a link to a file in the same folder.
 fn link(name: &str, to: &Path) -> Outcome {
     #[cfg(unix)]
     use std::os::unix::fs::symlink;

@@ -30,7 +30,7 @@ pub fn folder() -> PathBuf {
 /// Builds `libdashpot.a` for a processor and returns its path.
 ///
 /// # Errors
-/// The build fails. The message has cargo's output.
+/// The build fails. The message contains cargo's output.
 pub fn build_for(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
     let mut cargo = toolchain.cargo("rustc", &manifest(), processor);
     let target = toolchain.output_folder(&folder(), processor);
@@ -47,7 +47,7 @@ fn archive_in(release: &Path) -> PathBuf {
     release.join("libdashpot.a")
 }
 
-/// Runs `cargo rustc` with arguments for the linker of a shared library.
+/// Runs `cargo rustc` with additional arguments for the linker of the shared library.
 fn build(mut cargo: Command, crate_types: &str, link_arguments: &[String]) -> Outcome {
     cargo.args(["--crate-type", crate_types, "--features", "panic-handler"]);
     cargo.arg("--");

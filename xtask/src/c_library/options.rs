@@ -8,7 +8,7 @@ use crate::run::repository;
 /// Options of the command.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Platforms to build for; empty for all that this machine can build.
+    /// Platforms to build for; empty for all platforms for which this machine can build.
     pub platforms: Vec<Platform>,
     /// Folder of the install trees.
     pub output: PathBuf,
@@ -18,7 +18,7 @@ impl Options {
     /// Reads the arguments after the command.
     ///
     /// # Errors
-    /// An argument is wrong. The message says what is allowed.
+    /// An argument is invalid. The message states what is allowed.
     pub fn parse(arguments: &[&str]) -> Result<Self, String> {
         let mut options = Self {
             platforms: Vec::new(),

@@ -11,16 +11,16 @@ use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
 use crate::tools::{AARCH64_GCC, AARCH64_LIBC, missing};
 
-/// A processor, without an operating system or with Linux.
+/// A processor with or without an operating system (Linux).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Platform {
-    /// Static library.
+    /// Without an operating system: a static library.
     Bare(Processor),
-    /// Static and shared library for Linux, with Rust's name of the processor.
+    /// Linux: a static and a shared library. The text is Rust's name of the processor.
     Linux(&'static str),
 }
 
-/// Files of a build.
+/// Files that a build creates.
 pub struct Built {
     /// The static library.
     pub archive: PathBuf,
@@ -46,13 +46,13 @@ impl Platform {
         }
     }
 
-    /// True if this machine is of the platform.
+    /// True if this machine has this platform.
     pub fn is_host(&self) -> bool {
         matches!(self, Self::Linux(processor) if OS == "linux" && *processor == ARCH)
     }
 
-    /// Returns the library's name, which includes the platform so that no wrong library is linked. On this machine's
-    /// own platform it is `dashpot`.
+    /// Returns the library's name: `dashpot` for this machine's own platform. For others it includes the platform, so
+    /// that a wrong library is not linked by mistake.
     pub fn library(&self) -> String {
         if self.is_host() {
             "dashpot".into()
@@ -61,7 +61,7 @@ impl Platform {
         }
     }
 
-    /// Returns the number of bytes of a pointer.
+    /// Returns the size of a pointer in bytes.
     pub fn pointer_bytes(&self) -> usize {
         match self {
             Self::Bare(_) => 4,
@@ -72,7 +72,7 @@ impl Platform {
     /// Checks that this machine can build for the platform.
     ///
     /// # Errors
-    /// It cannot. The message names what to install.
+    /// This machine cannot build for it. The message states what to install.
     pub fn check_tools(&self) -> Outcome {
         match self {
             Self::Bare(processor) => TargetToolchain::find(processor.target).map(drop),
@@ -93,7 +93,7 @@ impl Platform {
     /// Builds the libraries.
     ///
     /// # Errors
-    /// A tool is missing, or the build fails. The message has cargo's output.
+    /// A tool is missing, or the build fails. The message contains cargo's output.
     pub fn build(&self) -> Outcome<Built> {
         self.check_tools()?;
         let (cargo, release) = match self {
@@ -120,7 +120,7 @@ impl Platform {
             .arg("--manifest-path")
             .arg(manifest());
         let soname = format!("-Wl,-soname,lib{}.so.{INTERFACE}", self.library());
-        // The compiler's own functions call memset of the C library, which Rust links only with std.
+        // Functions that the compiler adds call memset of the C library, which Rust links only together with std.
         build(cargo, "staticlib,cdylib", &[soname, "-lc".into()])?;
         Ok(Built {
             archive: archive_in(&release),

@@ -1,4 +1,4 @@
-//! A Slurm array of shards, complete or disturbed.
+//! Checks of a Slurm array of shards, undisturbed and disturbed.
 
 use super::trial::{CASES, COMPLETE, SHARDS, Trial, contains, read, rows_of};
 use crate::run::Outcome;
@@ -12,7 +12,7 @@ pub fn complete(trial: &Trial) -> Outcome<String> {
 
 const ENDED: &str = "ended";
 
-/// Ends shard 1 with scancel's SIGTERM, and shard 2 with SIGKILL as when a node goes down.
+/// Ends shard 1 with scancel's SIGTERM, and shard 2 with SIGKILL, as if a node had gone down.
 pub fn ended(trial: &Trial) -> Outcome<String> {
     trial.results(ENDED, &[0, 3])?;
     let job = trial.submit(ENDED, "1-2", SHARDS)?;
@@ -25,7 +25,7 @@ pub fn ended(trial: &Trial) -> Outcome<String> {
         &["--batch", "--signal=KILL", &format!("{job}_2")],
     )?;
     trial.has_ended(&job, &["CANCELLED", "FAILED"])?;
-    // The command stopped in order.
+    // The command stopped in an orderly way.
     contains(
         &trial.log(&job, 1)?,
         "of 6 cases are done; the same command resumes",
@@ -39,7 +39,7 @@ pub fn ended(trial: &Trial) -> Outcome<String> {
     ))
 }
 
-/// Resubmits the shards that [`ended`] left.
+/// Resubmits the shards that [`ended`] left incomplete.
 pub fn resumed(trial: &Trial) -> Outcome<String> {
     let kept = [1, 2].map(|shard| (shard, trial.rows_kept(ENDED, shard)));
     let job = trial.run(ENDED, "1-2", SHARDS, &["COMPLETED"; 2])?;
@@ -54,7 +54,7 @@ pub fn resumed(trial: &Trial) -> Outcome<String> {
     ))
 }
 
-/// Requeues a shard with `scontrol requeue`, as after a node went down or another job took precedence.
+/// Requeues a shard with `scontrol requeue`, as happens if a node goes down or another job takes precedence.
 pub fn requeued(trial: &Trial) -> Outcome<String> {
     let results = "requeued";
     trial.results(results, &[1, 2, 3])?;
@@ -65,13 +65,13 @@ pub fn requeued(trial: &Trial) -> Outcome<String> {
         .run("scontrol", &["requeue", &format!("{job}_0")])?;
     trial.has_ended(&job, &["COMPLETED"])?;
     let log = trial.log(&job, 0)?;
-    // The log has both runs; the first run printed how many cases it had done.
+    // The log contains both runs; the first run printed how many cases it had completed.
     let done = log
         .split("interrupted: ")
         .nth(1)
         .and_then(|rest| rest.split(' ').next());
     let done = done.and_then(|word| word.parse().ok());
-    let kept = done.ok_or_else(|| format!("no interruption: {log}"))?;
+    let kept = done.ok_or_else(|| format!("the log shows no interruption: {log}"))?;
     let run = resumes(trial, &job, 0, kept)?;
     trial.merges_to_the_whole(results)?;
     Ok(format!(
@@ -93,7 +93,7 @@ pub fn complete_again(trial: &Trial) -> Outcome<String> {
     Ok("`6 cases, none run now`".into())
 }
 
-/// Submits a shard twice; the second is refused while the first runs.
+/// Submits a shard twice; the second job is refused while the first runs.
 pub fn twice_at_once(trial: &Trial) -> Outcome<String> {
     let results = "twice";
     trial.results(results, &[0, 2, 3])?;
@@ -113,20 +113,20 @@ pub fn wrong_count(trial: &Trial) -> Outcome<String> {
     let results = "count";
     trial.results(results, &[0, 1, 2])?;
     trial.run(results, "3", 5, &["COMPLETED"])?;
-    // The run has cases 3, 8, 13, 18 and 23 instead of 3, 7, 11, 15, 19 and 23.
+    // This shard has cases 3, 8, 13, 18 and 23 instead of 3, 7, 11, 15, 19 and 23.
     let doubles = [(0, "8"), (1, "13"), (2, "18")];
     let doubles = doubles.map(|(shard, cases)| {
         let files = format!("{results}/{} and {results}/rows-3-of-5.csv", rows_of(shard));
-        format!("; double, in {files}: {cases}")
+        format!("; duplicates in {files}: {cases}")
     });
     let missing = "4 of 24 cases are missing: 7, 11, 15, 19";
     trial.merge_fails(results, &format!("{missing}{}", doubles.concat()))?;
     Ok(format!(
-        "exit code 1, `{missing}; double, in ...: 8; ...: 13; ...: 18`"
+        "exit code 1, `{missing}; duplicates in ...: 8; ...: 13; ...: 18`"
     ))
 }
 
-/// Submits shard 4 of 4, which are numbered 0 to 3.
+/// Submits shard 4 of 4, which does not exist: shards are numbered 0 to 3.
 pub fn beyond(trial: &Trial) -> Outcome<String> {
     let job = trial.run("beyond", "4", SHARDS, &["FAILED"])?;
     let refusal = "--shard 4, allowed: 0 to 3 with --shards 4";

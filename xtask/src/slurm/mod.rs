@@ -14,7 +14,7 @@ use trial::{CASES, SHARDS, Trial};
 /// Programs that the checks run.
 const TOOLS: [Tool; 5] = [MUNGED, SLURMCTLD, SLURMD, SBATCH, PARALLEL];
 
-/// Name of a check, and the check, which returns what it saw.
+/// Name of a check, and its function, which returns what it observed.
 type Check = (&'static str, fn(&Trial) -> Outcome<String>);
 
 const CHECKS: [Check; 9] = [
@@ -91,7 +91,7 @@ pub fn slurm() -> Outcome {
     }
 }
 
-/// Returns the versions of the programs, as each prints its own.
+/// Returns the versions of the programs, as they print them.
 fn versions(node: &Node) -> Outcome<String> {
     let mut versions = Vec::new();
     for program in ["sinfo", "munge", "parallel"] {

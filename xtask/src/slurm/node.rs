@@ -1,4 +1,4 @@
-//! A Slurm of one node, which runs as long as the checks.
+//! A Slurm cluster of one node, which runs as long as the checks.
 
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader};
@@ -15,7 +15,7 @@ const MAX_WAIT: Duration = Duration::from_secs(120);
 /// Time between two checks of jobs.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// A Slurm of one node. It stops when dropped, and when this process ends for any reason.
+/// A Slurm cluster of one node. It stops when dropped, and when this process ends for any reason.
 #[derive(Debug)]
 pub struct Node {
     script: Child,
@@ -26,12 +26,12 @@ impl Node {
     /// Starts Slurm with `xtask/slurm_node.sh` on free ports.
     ///
     /// # Errors
-    /// A daemon does not start; standard error has its output.
+    /// A daemon does not start; its output is on standard error.
     pub fn start() -> Outcome<Self> {
         let name = format!("dashpot-slurm-{}", std::process::id());
         let folder = std::env::temp_dir().join(name);
         let failed = |error: std::io::Error| format!("cannot start Slurm: {error}");
-        // Both are held at once, so that they differ.
+        // Both ports are held at the same time, so they differ.
         let free = || TcpListener::bind((Ipv4Addr::LOCALHOST, 0));
         let ports = [free().map_err(failed)?, free().map_err(failed)?];
         let mut script = plain("sh");
@@ -62,13 +62,13 @@ impl Node {
     /// Stops jobs and daemons.
     ///
     /// # Errors
-    /// A process or the folder is left.
+    /// A process or the folder remains.
     pub fn end(mut self) -> Outcome<String> {
         let folder = self.folder.clone();
         drop(self.script.stdin.take());
         let ended = self.script.wait().map_err(|error| error.to_string())?;
         if !ended.success() || folder.exists() {
-            return Err(format!("{ended}; {} is left", folder.display()));
+            return Err(format!("{ended}; {} remains", folder.display()));
         }
         Ok("jobs, daemons and folder".into())
     }
@@ -110,7 +110,7 @@ impl Node {
     /// Returns the state of each task of a job, or of one task.
     ///
     /// # Errors
-    /// `squeue` fails or prints something else.
+    /// `squeue` fails, or its output is not a list of tasks and states.
     pub fn states(&self, job: &str) -> Outcome<BTreeMap<u64, String>> {
         let mut squeue = self.command("squeue");
         squeue.args(["--noheader", "--array", "--states=all", "--format=%K %T"]);
@@ -121,7 +121,7 @@ impl Node {
             Some((task.parse().ok()?, state.trim().to_owned()))
         });
         let tasks: Option<BTreeMap<u64, String>> = tasks.collect();
-        tasks.ok_or_else(|| format!("squeue: not tasks and states: {text}"))
+        tasks.ok_or_else(|| format!("squeue: no list of tasks and states: {text}"))
     }
 
     /// Waits for a job and returns the final state of each task, in the order of tasks.
@@ -178,7 +178,7 @@ pub fn wait_until<T>(what: &str, mut check: impl FnMut() -> Outcome<Option<T>>) 
     }
 }
 
-/// Returns a command without the variables that another Slurm sets for its jobs and users.
+/// Returns a command without the environment variables that another Slurm sets for its jobs and users.
 fn plain(program: &str) -> Command {
     let mut command = Command::new(program);
     for (name, _) in std::env::vars_os() {

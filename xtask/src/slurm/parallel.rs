@@ -1,4 +1,4 @@
-//! Shards with GNU parallel.
+//! Checks of shards that GNU parallel runs.
 
 use std::fs;
 use std::process::Command;
@@ -8,13 +8,13 @@ use crate::run::{Outcome, repository};
 
 const RESULTS: &str = "parallel";
 
-/// Shard 2 cannot write at first. When repeated, the command runs only this shard.
+/// Runs all shards, but shard 2 cannot write its rows; then repeats the command, which must run only this shard.
 pub fn one_failed(trial: &Trial) -> Outcome<String> {
     let results = trial.results(RESULTS, &[])?;
     let barrier = results.join(format!("{}.partial", rows_of(2)));
     fs::create_dir(&barrier).map_err(|error| in_file(&barrier, &error))?;
     if run(trial)? {
-        return Err("parallel succeeded though a shard failed".into());
+        return Err("parallel succeeded although a shard failed".into());
     }
     fs::remove_dir(&barrier).map_err(|error| in_file(&barrier, &error))?;
     if !run(trial)? {
@@ -53,7 +53,7 @@ fn run(trial: &Trial) -> Outcome<bool> {
     Ok(output.status.success())
 }
 
-/// Reads parallel's log: shards in the order in which they ended, each with true if it failed.
+/// Reads parallel's log: the shards in the order in which they ended, each with `true` if it failed.
 fn runs(log: &str) -> Outcome<Vec<(u64, bool)>> {
     let run = |line: &str| {
         let columns: Vec<&str> = line.split('\t').collect();
@@ -62,7 +62,7 @@ fn runs(log: &str) -> Outcome<Vec<(u64, bool)>> {
         Some((job.checked_sub(1)?, *columns.get(6)? != "0"))
     };
     let runs: Option<Vec<(u64, bool)>> = log.lines().skip(1).map(run).collect();
-    runs.ok_or_else(|| format!("not a log of parallel: {log}"))
+    runs.ok_or_else(|| format!("this is not a log of parallel: {log}"))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A study in a folder, its rows from one process, and its shards.
+//! A study in a folder, its rows as one process computes them, and its shards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,17 +13,17 @@ const STUDY: &str = include_str!("study.toml");
 /// File of the study. The space tests the quoting in the files of `cluster/`.
 pub const STUDY_FILE: &str = "a study.toml";
 
-/// Number of its cases.
+/// Number of cases of the study.
 pub const CASES: u64 = 24;
 
 /// Number of shards.
 pub const SHARDS: u64 = 4;
 
-/// A study, a Slurm to run it on, and a folder for results.
+/// A study, a Slurm cluster that runs it, and a folder for results.
 pub struct Trial {
-    /// Slurm.
+    /// Slurm cluster that runs the jobs.
     pub node: Node,
-    /// Folder of the study, of the results of each check, and of Slurm's logs.
+    /// Folder for the study, the results of each check, and Slurm's logs.
     pub folder: PathBuf,
     /// Rows from one process with one thread.
     whole: String,
@@ -61,7 +61,7 @@ impl Trial {
     /// Runs `dashpot`, which must end with this exit code, and returns its output.
     ///
     /// # Errors
-    /// It ends with another code.
+    /// `dashpot` ends with another exit code.
     pub fn dashpot(&self, arguments: &[&str], code: i32) -> Outcome<String> {
         let mut command = Command::new(program());
         command.args(arguments).current_dir(&self.folder);
@@ -119,7 +119,7 @@ impl Trial {
             .submit(&script, &options, &variables, &self.folder)
     }
 
-    /// Submits as [`Self::submit`] and waits until each task has ended in its expected state.
+    /// Submits tasks as [`Self::submit`] does and waits until each has ended in its expected state.
     ///
     /// # Errors
     /// A task ends in another state.
@@ -188,7 +188,7 @@ impl Trial {
         })
     }
 
-    /// Merges a folder of results, which must give the rows of one process.
+    /// Merges a folder of results; the rows must equal those of one process.
     ///
     /// # Errors
     /// The rows differ.
@@ -198,17 +198,20 @@ impl Trial {
         if read(&merged)? == self.whole {
             return Ok(());
         }
-        Err(format!("{}: not the rows of one process", merged.display()))
+        Err(format!(
+            "{}: its rows differ from those of one process",
+            merged.display()
+        ))
     }
 
-    /// Merges a folder of results, which must fail with this message.
+    /// Merges a folder of results; the merge must fail with this message.
     ///
     /// # Errors
     /// The merge succeeds, or its message differs.
     pub fn merge_fails(&self, results: &str, expected: &str) -> Outcome {
         let text = self.merge(results, 1)?;
         if self.folder.join(results).join("merged").exists() {
-            return Err("merge failed and wrote something".into());
+            return Err("merge failed but wrote a file".into());
         }
         contains(&text, expected)
     }
@@ -227,10 +230,10 @@ impl Trial {
     }
 }
 
-/// Folder of results of the complete array.
+/// Folder with the results of the complete array.
 pub const COMPLETE: &str = "complete";
 
-/// Returns the name of the file of a shard's rows.
+/// Returns the name of the file with a shard's rows.
 pub fn rows_of(shard: u64) -> String {
     format!("rows-{shard}-of-{SHARDS}.csv")
 }

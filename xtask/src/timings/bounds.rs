@@ -4,24 +4,24 @@ use std::collections::BTreeSet;
 
 use crate::run::{Outcome, cargo_output};
 
-/// Largest number of packages that each package may be built from, itself included, on this machine's platform.
+/// For each package, the maximum number of packages in its build for this machine's platform, including itself.
 const MAX_PACKAGES: [(&str, usize); 2] = [
     // The default build.
     ("dashpot-hil", 170),
-    // An FMU links it: no commands, plots, signals or differential equations.
+    // An FMU links this package, so it must not need commands, plots, signals or differential equations.
     ("dashpot-vehicle-model", 80),
 ];
 
-/// Processor time of `cargo run --release` from nothing, in seconds: two cores cannot give more in two minutes.
+/// Maximum processor time of `cargo run --release` from scratch, in seconds: two cores provide this in two minutes.
 const MAX_PROCESSOR_S: f64 = 240.0;
 
 /// Allowance for slower processors.
 const MARGIN: f64 = 1.5;
 
-/// Checks the number of packages that the command and the FMU's library are built from. Compiles nothing.
+/// Checks the number of packages in the builds of the command and of the FMU's library. Compiles nothing.
 ///
 /// # Errors
-/// A package has too many.
+/// A package is built from too many packages.
 pub fn check_packages() -> Outcome {
     let mut failures = Vec::new();
     for (package, max) in MAX_PACKAGES {
@@ -60,7 +60,7 @@ fn packages(tree: &str) -> BTreeSet<&str> {
 /// Checks the processor time of the command's build.
 ///
 /// # Errors
-/// It is above the bound.
+/// The processor time is above the bound.
 pub fn check_processor_time(total_s: f64) -> Outcome {
     let max = MAX_PROCESSOR_S * MARGIN;
     if total_s <= max {

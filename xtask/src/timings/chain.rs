@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::unit::Unit;
 
-/// Longest chain that ends with some unit.
+/// Longest chain that ends with a given unit.
 #[derive(Clone, Debug, Default)]
 pub struct Chain<'a> {
     /// Processor time of all its units, in seconds.
@@ -13,8 +13,8 @@ pub struct Chain<'a> {
     pub units: Vec<&'a Unit>,
 }
 
-/// Returns the chain with the most processor time. Cargo starts a crate when those it uses have been checked but not
-/// yet optimised, so a build can take less wall time than this.
+/// Returns the chain with the most processor time. Cargo starts a crate as soon as the crates it uses have been
+/// checked, before they are optimised, so a build can take less wall time than this.
 pub fn longest(units: &[Unit]) -> Chain<'_> {
     let mut found = BTreeMap::new();
     let chains = (0..units.len()).map(|index| ending_with(units, index, &mut found));

@@ -1,4 +1,4 @@
-//! `cargo xtask timings`: processor time that a build from nothing takes, crate by crate.
+//! `cargo xtask timings`: measures the processor time of a build from scratch, crate by crate.
 
 mod bounds;
 mod chain;
@@ -20,7 +20,7 @@ use crate::run::{Outcome, output_of, repository, run};
 use unit::Unit;
 use wrapper::child_processor_seconds;
 
-/// Target of the build.
+/// What to build.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Build {
     /// The command, as `cargo run --release` builds it.
@@ -41,7 +41,7 @@ impl Build {
 /// Builds into an empty folder, prints the processor time of each package, and checks the bound of the command's build.
 ///
 /// # Errors
-/// The build fails, this is not Linux, or the command takes more than its bound.
+/// The build fails, this is not Linux, or the command's build exceeds its time limit.
 pub fn timings(build: Build) -> Outcome {
     let folder = repository().join("target/timings");
     let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
@@ -56,7 +56,7 @@ pub fn timings(build: Build) -> Outcome {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(build.arguments()).current_dir(repository());
     cargo.env("CARGO_TARGET_DIR", target_folder());
-    // This replaces any other wrapper: a cache would hide the time it saves.
+    // This replaces any other wrapper, such as a cache, which would hide the time it saves.
     cargo.env("RUSTC_WRAPPER", std::env::current_exe().map_err(failed)?);
     cargo.env_remove("RUSTC_WORKSPACE_WRAPPER").env(LOG, &log);
     run(cargo, &format!("cargo {}", build.arguments().join(" ")))?;
@@ -75,7 +75,7 @@ pub fn timings(build: Build) -> Outcome {
 /// Builds the command with [`timings`], then runs its demonstration: README's first command.
 ///
 /// # Errors
-/// The build or the demonstration fails, this is not Linux, or the build or a step takes more than its bound.
+/// The build or the demonstration fails, this is not Linux, or the build or a step exceeds its bound.
 pub fn build_and_demonstrate() -> Outcome {
     timings(Build::Command)?;
     let program = target_folder().join("release/dashpot");

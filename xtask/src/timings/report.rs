@@ -6,7 +6,7 @@ use std::fmt::Write;
 use super::chain::longest;
 use super::unit::Unit;
 
-/// Packages below this are summed in one row, in seconds.
+/// Packages below this processor time are summed in one row, in seconds.
 const MIN_LISTED_S: f64 = 0.5;
 
 /// Processor time of all crates of a package.
@@ -16,7 +16,8 @@ struct PackageTime {
     is_ours: bool,
 }
 
-/// Returns the table, the packages in falling order, and the sums. `total_s` is the processor time of the whole build.
+/// Returns the table with the packages in descending order and the sums. `total_s` is the processor time of the whole
+/// build.
 pub fn report(units: &[Unit], total_s: f64, wall_s: f64) -> String {
     let mut packages: BTreeMap<&str, PackageTime> = BTreeMap::new();
     for unit in units {

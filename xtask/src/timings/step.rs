@@ -1,4 +1,4 @@
-//! Instructions of a step in the command as users build it.
+//! Counts the instructions of a step in the command, built as users build it.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,8 +8,8 @@ use crate::run::{Outcome, output_of};
 /// Number of steps that are counted.
 const STEPS: u32 = 20_000;
 
-/// Largest number of instructions of a step in `f32` on x86-64; 386 were measured. Compiled without optimisation, or in
-/// several codegen units, a step takes 2000 and more.
+/// Maximum number of instructions of a step in `f32` on x86-64; 386 were measured. If compiled without optimisation, or
+/// in several codegen units, a step takes 2000 or more.
 const MAX_INSTRUCTIONS: u64 = 450;
 
 /// Counts the instructions of a step of `program` with Valgrind and checks the bound.
@@ -32,7 +32,7 @@ pub fn check(program: &Path) -> Outcome {
     judge(total / u64::from(STEPS))
 }
 
-/// Total number of instructions in the file of callgrind.
+/// Total number of instructions in callgrind's output file.
 fn total(text: &str) -> Option<u64> {
     let line = text
         .lines()

@@ -17,13 +17,13 @@ pub struct Unit {
     pub needs_build_script: bool,
     /// Crate name with the hash of its output files.
     pub name: String,
-    /// Names of the units it uses.
+    /// Names of the units that this unit uses.
     pub uses: Vec<String>,
     /// Processor time, user and system, of the compiler and the linker it runs, in seconds.
     pub processor_s: f64,
 }
 
-/// Between the columns of a line.
+/// Separator of the columns of a line.
 const SEPARATOR: char = '\t';
 
 impl Unit {
@@ -41,7 +41,8 @@ impl Unit {
         columns.join(&SEPARATOR.to_string())
     }
 
-    /// Reads what the compiler's arguments say; `None` if they compile no crate of cargo's, as a query for its version.
+    /// Reads a unit from the compiler's arguments; `None` if cargo does not compile a crate with them but, for example,
+    /// asks for the version.
     pub fn from_arguments(arguments: &[String]) -> Option<Self> {
         let value = |option: &str| {
             let at = arguments.iter().position(|argument| argument == option)?;
@@ -72,7 +73,7 @@ impl FromStr for Unit {
     type Err = String;
 
     fn from_str(line: &str) -> Outcome<Self> {
-        let wrong = || format!("not a line of the compiler's wrapper: {line}");
+        let wrong = || format!("not a line that the compiler's wrapper writes: {line}");
         let columns: Vec<&str> = line.split(SEPARATOR).collect();
         let [
             package,

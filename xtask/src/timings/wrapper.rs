@@ -8,14 +8,14 @@ use std::process::{Command, ExitCode};
 use super::unit::Unit;
 use crate::run::{Outcome, repository};
 
-/// Environment variable that names the file for records, and makes this program a wrapper of rustc.
+/// Environment variable that names the file for records. If it is set, this program acts as a wrapper of rustc.
 pub const LOG: &str = "DASHPOT_COMPILER_LOG";
 
-/// Ticks per second in which Linux reports processor time to programs, on all of its platforms that we build on.
+/// Ticks per second in which Linux reports processor time to programs; the same on all platforms that we build on.
 const TICKS_PER_S: f64 = 100.0;
 
-/// Runs the compiler that the first argument names, with the other arguments, and records its processor time. Returns
-/// the compiler's exit code.
+/// Runs the compiler named by the first argument, with the other arguments, records its processor time, and returns its
+/// exit code.
 pub fn compile(arguments: &[String]) -> ExitCode {
     match compile_and_record(arguments) {
         Ok(code) => code,
@@ -37,7 +37,7 @@ fn compile_and_record(arguments: &[String]) -> Outcome<ExitCode> {
     if let Some(unit) = Unit::from_arguments(arguments) {
         record(unit, child_processor_seconds()?)?;
     }
-    // A compiler that was ended by a signal has no code.
+    // A compiler that a signal ended has no exit code.
     Ok(status
         .code()
         .and_then(|code| u8::try_from(code).ok())
@@ -57,14 +57,14 @@ fn record(mut unit: Unit, processor_s: f64) -> Outcome {
     unit.processor_s = processor_s;
     let log = variable(LOG);
     let failed = |error: std::io::Error| format!("{log}: {error}");
-    // One write, so that lines of compilers that end at the same time do not mix.
+    // A single write keeps the lines of compilers that end at the same time apart.
     let line = unit.line() + "\n";
     let file = fs::File::options().create(true).append(true).open(&log);
     file.and_then(|mut file| file.write_all(line.as_bytes()))
         .map_err(failed)
 }
 
-/// Processor time, user and system, of the programs that this one has waited for and of theirs, in seconds.
+/// Processor time, user and system, of the programs for which this one has waited and of their children, in seconds.
 ///
 /// # Errors
 /// This is not Linux.

@@ -1,4 +1,4 @@
-//! Installs packages of Debian.
+//! Installs Debian packages.
 
 use std::path::Path;
 use std::process::Command;
@@ -8,11 +8,11 @@ use crate::run::Outcome;
 /// Installs packages with apt-get, as root.
 ///
 /// # Errors
-/// This is not root, there is no apt-get, or it failed. The message has the command to run by hand.
+/// The user is not root, there is no apt-get, or it failed. The message contains the command to run by hand.
 pub fn install(packages: &[&str]) -> Outcome {
     let line = format!("apt-get install --yes {}", packages.join(" "));
     if !is_root() || !Path::new("/usr/bin/apt-get").exists() {
-        return Err(format!("tools are missing; as root: {line}"));
+        return Err(format!("tools are missing; run as root: {line}"));
     }
     let apt_get = |arguments: &[&str], packages: &[&str]| {
         let mut command = Command::new("apt-get");
@@ -20,7 +20,7 @@ pub fn install(packages: &[&str]) -> Outcome {
         command.env("DEBIAN_FRONTEND", "noninteractive");
         command.status().is_ok_and(|status| status.success())
     };
-    // A package list that cannot be updated may still be good enough.
+    // If the package list cannot be updated, the old one may still be good enough.
     let _ = apt_get(&["update"], &[]);
     if apt_get(&["install", "--yes", "--no-install-recommends"], packages) {
         Ok(())

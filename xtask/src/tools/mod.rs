@@ -1,4 +1,5 @@
-//! Programs that developer commands and tests run: which there are, how they are installed, and tests that go without.
+//! Programs that developer commands and tests run: a list of them, their installation, and the tests that are skipped
+//! without them.
 
 mod apt;
 mod program;

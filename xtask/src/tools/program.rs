@@ -1,4 +1,4 @@
-//! Programs that come as packages of Debian.
+//! Programs that come in Debian packages.
 
 use std::process::{Command, Stdio};
 
@@ -21,15 +21,15 @@ pub const CLANG: Tool = program("clang", "clang");
 pub const GXX: Tool = program("g++", "g++");
 /// Memory checker.
 pub const VALGRIND: Tool = program("valgrind", "valgrind");
-/// C compiler and linker of the Cortex-M processors.
+/// C compiler and linker for the Cortex-M processors.
 pub const ARM_GCC: Tool = program("arm-none-eabi-gcc", "gcc-arm-none-eabi");
-/// C library of the Cortex-M processors, which the compiler's package only recommends.
+/// C library for the Cortex-M processors, which the compiler's package only recommends.
 pub const ARM_LIBC: Tool = header("arm-none-eabi-gcc", "string.h", "libnewlib-arm-none-eabi");
 /// Emulator of the Cortex-M processors.
 pub const QEMU: Tool = program("qemu-system-arm", "qemu-system-arm");
-/// Linker of the 64-bit Arm processor.
+/// Linker for the 64-bit Arm processor.
 pub const AARCH64_GCC: Tool = program("aarch64-linux-gnu-gcc", "gcc-aarch64-linux-gnu");
-/// C library of the 64-bit Arm processor.
+/// C library for the 64-bit Arm processor.
 pub const AARCH64_LIBC: Tool = header("aarch64-linux-gnu-gcc", "stdio.h", "libc6-dev-arm64-cross");
 /// Emulator of programs for the 64-bit Arm processor.
 pub const QEMU_AARCH64: Tool = program("qemu-aarch64", "qemu-user");
@@ -45,7 +45,7 @@ pub const CHROMIUM: Tool = program("chromium", "chromium");
 /// Controls the browser for a test.
 pub const CHROMEDRIVER: Tool = program("chromedriver", "chromium-driver");
 
-/// Finite-element solver that shim packs are compared with.
+/// Finite-element solver, with which shim packs are compared.
 pub const CALCULIX: Tool = program("ccx", "calculix-ccx");
 
 /// Python, for the link's example client and the tests of the package `dashpot`.
@@ -53,7 +53,7 @@ pub const PYTHON: Tool = program("python3", "python3");
 
 /// Daemon that signs the messages of Slurm's daemons.
 pub const MUNGED: Tool = program("munged", "munge");
-/// Slurm's controller, which keeps the queue. The package also has the daemon of a node and the users' commands.
+/// Slurm's controller, which keeps the queue. The package also contains the daemon of a node and the users' commands.
 pub const SLURMCTLD: Tool = program("slurmctld", "slurm-wlm");
 /// Slurm's daemon on a compute node.
 pub const SLURMD: Tool = program("slurmd", "slurm-wlm");
@@ -83,7 +83,7 @@ pub const TEST_TOOLS: [Tool; 17] = [
     PYTHON,
 ];
 
-/// Folder of daemons, which is not on every user's path.
+/// Folder with daemons, which is not on every user's path.
 const DAEMONS: &str = "/usr/sbin";
 
 const fn program(program: &'static str, package: &'static str) -> Tool {
@@ -103,7 +103,7 @@ const fn header(program: &'static str, header: &'static str, package: &'static s
 }
 
 impl Tool {
-    /// True if the program is on the path or among the daemons, and finds the header.
+    /// True if the program is on the path or among the daemons and, if a header is required, finds it.
     pub fn is_installed(self) -> bool {
         let path = std::env::var_os("PATH").unwrap_or_default();
         let mut folders = std::env::split_paths(&path).chain([DAEMONS.into()]);
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn missing_tools_are_named_by_their_packages() {
-        // Cargo runs this test, so it is on the path.
+        // Cargo runs this test, so cargo is on the path.
         let installed = program("cargo", "cargo");
         assert_eq!(missing(&[installed]), [""; 0]);
         let tools = [installed, program("no-such-program", "its-package")];

@@ -1,4 +1,5 @@
-//! Tests that are skipped because a tool is missing: printed at once and listed at the end, and a failure in CI.
+//! Handles tests that are skipped because a tool is missing: they are printed at once and listed at the end, and fail
+//! in CI.
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -13,7 +14,7 @@ pub const SKIPPED: &str = "DASHPOT_SKIPPED";
 /// printed at once and in the summary of `cargo xtask test`.
 ///
 /// # Panics
-/// A tool is missing and the variable `CI` is set: CI must skip nothing.
+/// A tool is missing and the variable `CI` is set: CI must not skip tests.
 pub fn have(tools: &[Tool], skipped: &str) -> bool {
     let missing = missing(tools);
     if !missing.is_empty() {
@@ -59,7 +60,7 @@ pub fn skip(skipped: &str, remedy: &str) {
         thread.name().unwrap_or("a test")
     );
     refuse_in_ci(std::env::var_os("CI"), &line);
-    // The test harness captures `eprintln!` of passing tests, but not this.
+    // The test harness captures the `eprintln!` output of passing tests, but not this.
     let _ = std::io::stderr()
         .lock()
         .write_all(format!("\n!!!! SKIPPED: {line}").as_bytes());
@@ -75,7 +76,7 @@ pub fn skip(skipped: &str, remedy: &str) {
 /// Fails the test if the variable `CI` has a value.
 fn refuse_in_ci(ci: Option<OsString>, line: &str) {
     let ci = ci.is_some_and(|value| !value.is_empty());
-    assert!(!ci, "in CI no test is skipped: {line}");
+    assert!(!ci, "CI does not allow skipped tests: {line}");
 }
 
 #[cfg(test)]
@@ -83,7 +84,7 @@ mod tests {
     use super::refuse_in_ci;
 
     #[test]
-    #[should_panic(expected = "in CI no test is skipped: a (QEMU)")]
+    #[should_panic(expected = "CI does not allow skipped tests: a (QEMU)")]
     fn ci_skips_no_test() {
         refuse_in_ci(None, "a (QEMU)");
         refuse_in_ci(Some("".into()), "a (QEMU)");

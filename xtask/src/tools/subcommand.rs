@@ -2,7 +2,7 @@
 
 use crate::run::{Outcome, cargo, cargo_output};
 
-/// A subcommand of cargo. Only the developer command that runs it installs it, and once.
+/// A subcommand of cargo. Only the developer command that runs it installs it, and only once.
 #[derive(Clone, Copy, Debug)]
 pub struct Subcommand {
     name: &'static str,
@@ -19,12 +19,12 @@ pub const CARGO_FUZZ: Subcommand = Subcommand {
     name: "fuzz",
     version: "0.13.2",
 };
-/// Changes the code bit by bit and lists the changes that no test notices.
+/// Makes small changes to the code, one at a time, and lists the changes that no test notices.
 pub const CARGO_MUTANTS: Subcommand = Subcommand {
     name: "mutants",
     version: "27.1.0",
 };
-/// Finds changes of a public interface that the version number does not allow.
+/// Finds changes to a public interface that the version number does not allow.
 pub const CARGO_SEMVER_CHECKS: Subcommand = Subcommand {
     name: "semver-checks",
     version: "0.51.0",
@@ -34,7 +34,7 @@ impl Subcommand {
     /// Builds and installs the subcommand if it is missing; any installed version will do.
     ///
     /// # Errors
-    /// It does not build.
+    /// The subcommand does not build.
     pub fn install(self) -> Outcome {
         let Self { name, version } = self;
         if cargo_output(&[name, "--version"]).is_ok() {

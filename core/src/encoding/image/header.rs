@@ -35,7 +35,7 @@ impl Header {
         }
     }
 
-    /// Checks that `image` starts with this header and has its length.
+    /// Checks that `image` starts with this header and has the length that the header states.
     ///
     /// # Errors
     /// The first difference.

@@ -37,15 +37,15 @@ enum Stage {
 /// Allowed range of the largest displacement.
 const DISPLACEMENTS_M: Range = Limits::RANGES.displacement_m;
 
-/// Number of bytes of an image in a slice.
+/// Number of bytes of an image that one slice checks.
 const BYTES_PER_SLICE: usize = 64;
-/// Number of rows of the table in a slice.
+/// Number of rows of the table that one slice checks.
 const ROWS_PER_SLICE: usize = 8;
 
 macro_rules! loading {
     ($float:ident, $word:ident) => {
         impl Damper<$float> {
-            /// Replaces this damper by that of an image, without a copy on the stack. The next step adopts states of
+            /// Replaces this damper with that of an image, without a copy on the stack. The next step adopts states of
             /// the old damper.
             ///
             /// # Errors
@@ -56,8 +56,8 @@ macro_rules! loading {
                 Ok(())
             }
 
-            /// Loads the next slice of an image, of at most a few thousand operations, so that ticks can run between
-            /// slices.
+            /// Loads the next slice of an image, which takes at most a few thousand operations, so that ticks can run
+            /// between slices.
             ///
             /// Call it with the same image and damper until it returns true. Do not step the damper until then, or
             /// after an error.
@@ -131,7 +131,7 @@ macro_rules! loading {
                 Ok(Loading(stage))
             }
 
-            /// Reads the scalars of an image and the stated revisions of damper and table.
+            /// Reads the scalars of an image and the revisions of damper and table that it states.
             fn read_scalars(image: &[u8]) -> Result<(Scalars<$float>, [$word; 2]), ImageError> {
                 let words = Words::<{ size_of::<$float>() }>::of(image);
                 let both = words.scalars().zip(words.revisions());
@@ -140,7 +140,7 @@ macro_rules! loading {
                 Ok((scalars, revisions.map($word::from_le_bytes)))
             }
 
-            /// Runs a slice that only reads and returns the next stage.
+            /// Runs a slice that only reads, and returns the next stage.
             fn verify_slice(image: &[u8], stage: Stage) -> Result<Stage, ImageError> {
                 const BYTES: usize = size_of::<$float>();
                 let number = |word: &[u8; BYTES]| $float::from_le_bytes(*word);
@@ -195,7 +195,7 @@ macro_rules! loading {
     };
 }
 
-/// Bytes under the CRC-32 of an image, and the stated CRC-32.
+/// Bytes that the CRC-32 of an image covers, and the CRC-32 stated in the image.
 struct Body<'a> {
     checked: &'a [u8],
     stated: u32,

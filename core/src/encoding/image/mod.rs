@@ -31,7 +31,7 @@ const CHECK_BYTES: usize = 4;
 #[non_exhaustive]
 pub enum ImageError {
     /// The bytes are truncated, too long, or from a core with another table.
-    #[error("{found} bytes where a damper has {expected}")]
+    #[error("{found} bytes, but a damper has {expected}")]
     Length {
         /// Number of bytes of an image.
         expected: u32,
@@ -44,22 +44,22 @@ pub enum ImageError {
     /// The byte-order mark is not little-endian.
     #[error("byte order is not little-endian")]
     ByteOrder,
-    /// The image has this other version of the format.
+    /// The image has a different format version, given here.
     #[error("format version {0}, must be {VERSION}")]
     Version(u16),
-    /// The image is for another scalar, of this many bytes.
-    #[error("scalar of {0} bytes is not this damper's")]
+    /// The image is for a scalar of another size, which has this many bytes.
+    #[error("wrong precision: each number has {0} bytes")]
     Scalar(u32),
     /// The CRC-32 does not match: the bytes are damaged.
     #[error("CRC-32 does not match: the bytes are damaged")]
     Checksum,
-    /// A number of this piece of the table is not finite; pieces count from 0.
+    /// A number in the table's piece with this index (from 0) is not finite.
     #[error("piece {0} of the table has a number that is not finite")]
     Piece(u32),
-    /// The revision does not match the constants, so they are not from a build.
-    #[error("the revision does not match the constants: they are not from a build")]
+    /// The revision does not match the constants, so no build produced them.
+    #[error("the revision does not match the constants: no build produced them")]
     Revision,
-    /// A constant outside the table is not finite or out of range.
+    /// A constant outside the table is not finite or is out of range.
     #[error("a constant outside the table is not finite or out of range")]
     Scalars,
 }
@@ -71,7 +71,7 @@ macro_rules! image {
             pub const IMAGE_BYTES: usize =
                 Header::BYTES + Self::WORDS * size_of::<$word>() + CHECK_BYTES;
 
-            /// Returns this damper as checked bytes for [`Self::load_image`].
+            /// Returns this damper as bytes with a checksum, for [`Self::load_image`].
             pub fn to_image(&self) -> [u8; Self::IMAGE_BYTES] {
                 let mut image = [0; Self::IMAGE_BYTES];
                 let words = self.to_words();

@@ -17,7 +17,7 @@
 /* Relative spacing of double-precision numbers. */
 #define EPSILON 2.220446049250313e-16
 
-/* Maximum number of internal steps in a communication step, and in a run: a time cannot resolve more. */
+/* Maximum number of internal steps in a communication step and in a run; a double cannot resolve more as a time. */
 #define MAX_STEPS 1e9
 #define MAX_TOTAL_STEPS 4503599627370496.0
 
@@ -200,7 +200,7 @@ component_status component_unsupported(component *this, const char *function)
     if (!component_allows(this, ANY_BUT_FAILED, function)) {
         return COMPONENT_ERROR;
     }
-    return component_tell(this, COMPONENT_ERROR, "%s is no capability of this FMU", function);
+    return component_tell(this, COMPONENT_ERROR, "this FMU does not support %s", function);
 }
 
 component_status component_get_real(component *this, uint32_t variable, double *value)
@@ -264,7 +264,7 @@ component_status component_step(component *this, double at_s, double step_s)
 {
     const double now_s = component_time_s(this);
     const double count = floor(step_s / model_step_s + 0.5);
-    /* A size computed as the difference of two times also has their rounding errors. */
+    /* A step size that is the difference of two times also has their rounding errors. */
     const double close_s = CLOSE * model_step_s + 4 * EPSILON * fabs(now_s);
     const char *notice;
 
@@ -412,7 +412,7 @@ component_status component_state_size(component *this, const char *function, con
 component_status component_serialize(component *this, const component_state *state, uint8_t *bytes, size_t count)
 {
     if (state == NULL || count < state->bytes) {
-        return component_tell(this, COMPONENT_DISCARD, "%lu bytes for a state that has %lu", (unsigned long)count,
+        return component_tell(this, COMPONENT_DISCARD, "%lu bytes for a state of %lu bytes", (unsigned long)count,
                               state == NULL ? 0UL : (unsigned long)state->bytes);
     }
     memcpy(bytes, state->content, state->bytes);
@@ -424,7 +424,7 @@ component_status component_deserialize(component *this, const uint8_t *bytes, si
     component_state *state;
 
     if (!is_state(this, bytes, count)) {
-        return component_tell(this, COMPONENT_DISCARD, "%lu bytes that are no state of this FMU, or damaged",
+        return component_tell(this, COMPONENT_DISCARD, "the %lu bytes are not a state of this FMU, or are damaged",
                               (unsigned long)count);
     }
     state = *pointer == NULL ? new_state(this, count) : *pointer;

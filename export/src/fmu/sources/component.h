@@ -11,8 +11,8 @@
 typedef enum component_status {
     COMPONENT_OK,
     COMPONENT_WARNING,
-    COMPONENT_DISCARD,  /* refused, everything as before the call */
-    COMPONENT_ERROR     /* only reset, a restored state or the end are allowed now */
+    COMPONENT_DISCARD,  /* rejected; nothing changed */
+    COMPONENT_ERROR     /* from now on, only reset, restoring a state and freeing are allowed */
 } component_status;
 
 typedef enum component_phase {
@@ -27,7 +27,7 @@ enum { ANY_BUT_FAILED = INSTANTIATED | INITIALIZING | STEPPING | TERMINATED };
 
 typedef struct component component;
 
-/* Hands a message to the importer. */
+/* Passes a message to the importer. */
 typedef void component_log(const component *this, component_status status, const char *category, const char *message);
 
 struct component {
@@ -37,13 +37,13 @@ struct component {
     double start_s;
     double stop_s;      /* HUGE_VAL if not set */
     uint64_t steps;     /* internal steps since the start */
-    double refused_at_s; /* the step refused just before; else HUGE_VAL */
+    double refused_at_s; /* the step that was refused last; HUGE_VAL if none */
     double refused_step_s;
     bool logs;
     bool may_return_early;
     unsigned categories;
     component_log *log;
-    void (*logger)(void);  /* the importer's, of any type */
+    void (*logger)(void);  /* belongs to the importer; of any type */
     void *environment;
 };
 
@@ -57,7 +57,7 @@ component_status component_tell(component *this, component_status status, const 
 /* True if a function may be called in this phase; otherwise logs an error. */
 bool component_allows(component *this, unsigned phases, const char *function);
 
-/* Sets the categories that are logged; all if none is named. */
+/* Sets the categories that are logged; without names, all of them. */
 component_status component_set_logging(component *this, bool logs, size_t count, const char *const categories[]);
 extern const char *const component_categories[COMPONENT_ERROR + 1];
 
@@ -72,10 +72,10 @@ component_status component_set_reals(component *this, const uint32_t variables[]
 component_status component_get_integer(component *this, uint32_t variable, int32_t *value);
 component_status component_no_variable(component *this, uint32_t variable);
 
-/* For a type without variables: a request for no variables is not an error. */
+/* For types that have no variables here: a request for no variables is not an error. */
 component_status component_none(component *this, const char *function, const uint32_t variables[], size_t count);
 
-/* A function for a capability or mode that this FMU does not have. */
+/* Logs the error of a function for a capability or mode that this FMU does not have. */
 component_status component_unsupported(component *this, const char *function);
 
 /* Steps to `at_s + step_s`. Refuses a step that is not a multiple of the internal step or does not start at the end
@@ -83,7 +83,7 @@ component_status component_unsupported(component *this, const char *function);
 component_status component_step(component *this, double at_s, double step_s);
 bool component_has_ended(const component *this);
 
-/* Copies the whole instance into new memory; NULL if there is none. The same bytes are serialized. */
+/* Copy of a whole instance. Serialization writes the same bytes. A state is NULL if there is no memory for it. */
 typedef struct component_state {
     size_t bytes;
     uint8_t content[];

@@ -14,8 +14,8 @@ extern const unsigned dampers_count;
 /* Maximum clearance (m), the same for all dampers. */
 extern const double dampers_largest_clearance_m;
 
-/* Dampers for one instance, to be freed with dampers_free: as built, or, if this FMU loads them, from the images in
- * `resources`. On failure returns NULL and writes the reason. */
+/* Returns dampers for one instance: as built, or, if this FMU loads them, from the images in `resources`. Free them
+ * with dampers_free. On failure returns NULL and writes the reason. */
 damper_damper *dampers_new(const char *resources, char *reason, size_t reason_bytes);
 void dampers_free(damper_damper *dampers);
 

@@ -299,7 +299,7 @@ fmi2Status fmi2CancelStep(fmi2Component c)
     return (fmi2Status)component_unsupported(c, "fmi2CancelStep");
 }
 
-/* A step has ended when fmi2DoStep returns, so only the time can be reported. */
+/* A step is complete when fmi2DoStep returns, so only the time can be reported. */
 static fmi2Status no_status(fmi2Component c, const char *function)
 {
     component *const this = c;

@@ -106,7 +106,7 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
             return "an image with a constant out of range";
         }
     }
-    damper->force_limit_n = damper->force_limit_n + damper->force_limit_n; /* an image has half of it */
+    damper->force_limit_n = damper->force_limit_n + damper->force_limit_n; /* an image contains half of it */
     damper->move_bound = damper_bits_of(bounds[0]);
     damper->displacement_bound = damper_bits_of(bounds[1]);
     for (piece = 0; piece < 2 * DAMPER_PIECES; piece++) {

@@ -1,10 +1,10 @@
 /* A bank of dampers: displacement in, force out.
  *
- * A communication step of h ends at the displacement `displacement_m + h velocity_m_per_s`; on the way there the
- * displacement is linear over the internal steps. Without velocity the force at t + h is thus that of the displacement
- * given at t: one communication step late. With it the force belongs to t + h. An importer that interpolates gives the
- * derivative of the displacement, which then stands for the velocity, or that of the velocity, half of which times h is
- * added to it: the mean over the step. */
+ * A communication step of h ends at the displacement `displacement_m + h velocity_m_per_s`; on the way there, the
+ * displacement is linear over the internal steps. Without the velocity, the force at t + h is thus that of the
+ * displacement given at t: it is one communication step late. With the velocity, the force belongs to t + h. An
+ * importer that interpolates can give input derivatives. A derivative of the displacement replaces the velocity. Half
+ * the derivative of the velocity times h is added to the velocity, which gives the mean over the step. */
 
 #include "model.h"
 
@@ -14,7 +14,7 @@
 
 #include "dampers.h"
 
-/* Variables of each damper, in their order from 1 on. */
+/* Variables of each damper, in their order. */
 enum {
     DISPLACEMENT,
     VELOCITY,
@@ -29,7 +29,7 @@ typedef struct place {
     damper_state state;
     double displacement_m;
     double velocity_m_per_s;
-    double clearance_m;         /* as given, before rounding */
+    double clearance_m;         /* as set, before rounding */
     double reached_m;           /* the displacement at the last communication point */
     double derivative_m_per_s;  /* of the displacement, for the next communication step; */
     double is_derived;          /* valid if this is not 0 */
@@ -39,12 +39,12 @@ typedef struct place {
 struct model {
     damper_damper *dampers;
     damper_damper *as_loaded;
-    unsigned told;              /* status bits of any damper already reported */
+    unsigned reported;          /* status bits that were already reported, of all dampers */
     bool is_started;
     place places[];
 };
 
-/* Marks that there was no valid displacement yet. */
+/* Value of `reached_m` before the first valid displacement. */
 static const double nowhere_m = 1e300;
 
 /* True if a step to a displacement follows it completely or in part. */
@@ -56,7 +56,7 @@ static bool is_good(const damper_damper *damper, double displacement_m)
     return displacement >= -most && displacement <= most;
 }
 
-/* An invalid displacement is rejected: the damper starts at the first valid one. */
+/* Starts a damper. An invalid displacement is rejected; the damper then starts at the first valid one. */
 static void start(model *this, unsigned number)
 {
     place *at = &this->places[number];
@@ -120,7 +120,7 @@ void model_reset(model *this)
     unsigned number;
 
     memcpy(this->dampers, this->as_loaded, dampers_count * sizeof *this->dampers);
-    this->told = 0;
+    this->reported = 0;
     this->is_started = false;
     for (number = 0; number < dampers_count; number++) {
         place *at = &this->places[number];
@@ -197,7 +197,7 @@ void model_set_real(model *this, uint32_t variable, double value)
         if (!this->is_started) {
             start(this, (unsigned)number);
         } else if (at->state.revision != damper->revision) {
-            /* As the next step would do it: a state always belongs to its damper. */
+            /* The next step would do the same; this way, a state always belongs to its damper. */
             damper_adopt(damper, &at->state);
         }
     }
@@ -256,7 +256,7 @@ void model_start(model *this)
     this->is_started = true;
 }
 
-/* The mean velocity over a step of h. */
+/* Mean velocity over a communication step of h. */
 static double velocity(const place *at, double h)
 {
     if (at->is_derived != 0) {
@@ -310,8 +310,8 @@ const char *model_notice(model *this)
     for (number = 0; number < dampers_count; number++) {
         bits |= damper_status(&this->places[number].state);
     }
-    bits &= (DAMPER_INPUT_HELD | DAMPER_INPUT_LIMITED | DAMPER_CORRUPTED | DAMPER_RESTARTED) & ~this->told;
-    this->told |= bits;
+    bits &= (DAMPER_INPUT_HELD | DAMPER_INPUT_LIMITED | DAMPER_CORRUPTED | DAMPER_RESTARTED) & ~this->reported;
+    this->reported |= bits;
     if (bits & DAMPER_CORRUPTED) {
         return "the memory of a damper was damaged: it started over at rest";
     }
@@ -362,7 +362,7 @@ void model_save(const model *this, uint8_t *bytes)
 {
     unsigned number;
 
-    bytes = model_put(bytes, this->told, 4);
+    bytes = model_put(bytes, this->reported, 4);
     bytes = model_put(bytes, this->is_started, 4);
     for (number = 0; number < dampers_count; number++) {
         bytes = put_reals(bytes, &this->places[number]);
@@ -387,7 +387,7 @@ model_result model_restore(model *this, const uint8_t *bytes)
     const uint8_t *const first = bytes + 2 * 4;
     damper_damper damper;
     place at;
-    uint64_t told, is_started;
+    uint64_t reported, is_started;
     unsigned number;
 
     for (number = 0; number < dampers_count; number++) {
@@ -395,8 +395,8 @@ model_result model_restore(model *this, const uint8_t *bytes)
             return MODEL_OTHER;
         }
     }
-    (void)model_take(model_take(bytes, &told, 4), &is_started, 4);
-    this->told = (unsigned)told;
+    (void)model_take(model_take(bytes, &reported, 4), &is_started, 4);
+    this->reported = (unsigned)reported;
     this->is_started = is_started != 0;
     for (number = 0; number < dampers_count; number++) {
         (void)restored(&this->dampers[number], &damper, &at, first + (size_t)number * PLACE_BYTES);

@@ -23,7 +23,7 @@ typedef enum model_result {
     MODEL_NO_VARIABLE,   /* no variable of this type has this number */
     MODEL_READ_ONLY,     /* the variable is computed */
     MODEL_OUT_OF_RANGE,  /* the value is not allowed; the variable is unchanged */
-    MODEL_OTHER          /* saved bytes of another model, or damaged */
+    MODEL_OTHER          /* the saved bytes belong to another model, or are damaged */
 } model_result;
 
 /* The fixed internal step (s), and the identity of this model. */
@@ -49,7 +49,7 @@ model_result model_get_integer(const model *this, uint32_t variable, int32_t *va
 /* Describes the allowed values of a variable. */
 const char *model_allowed(uint32_t variable);
 
-/* Ends the initialization: the model is at rest at the inputs. */
+/* Ends the initialization: the model is now at rest at the values of its inputs. */
 void model_start(model *this);
 
 /* Runs steps of model_step_s up to the next communication point. Returns their number, which is smaller if the model
@@ -69,7 +69,7 @@ void model_save(const model *this, uint8_t *bytes);
 /* Restores a state; on failure the model is unchanged. */
 model_result model_restore(model *this, const uint8_t *bytes);
 
-/* Write and read numbers as bytes; each returns the position of the next. */
+/* Write and read numbers as bytes; each function returns the position of the next number. */
 uint8_t *model_put(uint8_t *to, uint64_t value, unsigned bytes);
 const uint8_t *model_take(const uint8_t *from, uint64_t *value, unsigned bytes);
 uint8_t *model_put_real(uint8_t *to, double value);

@@ -43,7 +43,8 @@ pub struct BudgetArguments {
     /// Number of ticks to run [default: 1000000 free-running, five seconds in real time].
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..=10_000_000_000))]
     steps: Option<u64>,
-    /// Duration instead of --steps, s; free-running, half of it times single ticks and half times batches.
+    /// Duration instead of --steps, s; in a free-running measurement, half of it is for single ticks and half for
+    /// batches.
     #[arg(long, conflicts_with = "steps", value_name = "S",
         value_parser = clap::value_parser!(u64).range(1..=604_800))]
     duration_s: Option<u64>,
@@ -99,7 +100,7 @@ fn measure<T: Compiled>(arguments: &BudgetArguments) -> Outcome<()> {
     let damper: Damper<T> = T::compiled_build(&arguments.damper.load()?, step_s)?;
     let mut bench = Bench::new(damper, arguments.dampers, step_s);
     let options = arguments.realtime.options();
-    // Read before the run, so that the load of the run itself does not count.
+    // Read the load average before the run, so that it does not include the run itself.
     let machine = Machine::read(Path::new("/"), options.core, SystemTime::now());
     let clock = MonotonicClock::default();
     let clock_overhead_ns = overhead_ns(&clock);

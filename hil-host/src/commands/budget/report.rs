@@ -38,7 +38,7 @@ pub(super) struct Report {
 struct Spread {
     name: &'static str,
     figures: Figures,
-    /// Tick of the longest time (or the first tick of its batch), from 0.
+    /// Tick that took longest, or the first tick of the batch that took longest; counted from 0.
     worst_tick: u64,
     /// Time of that tick along the motion (tick times step).
     worst_time_s: f64,
@@ -81,7 +81,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let setting = &report.setting;
     writeln!(
         out,
-        "{} {}, dampers per tick: {}, {} ticks, {}; tick {}; two clock readings {}{}",
+        "{} {}, dampers per tick: {}, {} ticks, {}; tick {}; two clock readings take {}{}",
         setting.damper,
         setting.scalar,
         setting.dampers,
@@ -104,7 +104,11 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         .iter()
         .map(|ns| span(*ns as f64))
         .collect();
-    writeln!(out, "first ticks, including clock: {}", first.join(", "))?;
+    writeln!(
+        out,
+        "first ticks, including clock readings: {}",
+        first.join(", ")
+    )?;
     for spread in &report.spreads {
         print_spread(out, spread)?;
     }

@@ -20,7 +20,7 @@ pub(super) fn text(report: &Report, found: &CheckedParameters) -> Outcome<String
     )];
     for row in &report.loops {
         lines.push(format!(
-            "  {}: +-{:.2} mm, {:.3} m/s, misses {:.0} N of {:.0} N",
+            "  {}: +-{:.2} mm, {:.3} m/s, residual {:.0} N at a peak force of {:.0} N",
             row.test,
             row.amplitude_m * 1e3,
             row.peak_velocity_m_per_s,

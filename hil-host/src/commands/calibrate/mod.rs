@@ -41,7 +41,8 @@ use dashpot_files::output::{cannot_write, write_bytes, write_whole_if};
 Parameters are identified by least squares, and each test is weighted by the noise of its force. Recorded loops also
 determine two parameters of the rig: sensor_skew_s, the delay of the recorded force, and force_offset_n, the reading
 of the force sensor at zero force. --vary sets their bounds, --prior states prior knowledge, and --hold fixes them. A
-wrong sign, a wrong unit or a start from another kind of damper is an error, which names the option that corrects it.
+wrong sign, a wrong unit or a start from another kind of damper is an error; the message names the option that
+corrects it.
 
 A table of indices is a CSV file with the columns amplitude_m and frequency_hz and any of max_extension_force_n,
 max_compression_force_n, energy_per_cycle_j (magnitudes; an empty cell means not measured), force_at_most_n (an upper

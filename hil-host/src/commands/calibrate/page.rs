@@ -115,7 +115,7 @@ fn notes(report: &Report) -> Markup {
 fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
     let panel_of = |(number, profile): (&Number, &Profile)| {
         let centre = number.found;
-        // In percent where possible, so that the ticks are readable.
+        // Use percent where possible, so that the tick labels are readable.
         let (scale, label) = match centre {
             0.0 => (1.0, "change from the value found"),
             _ => (100.0 / centre.abs(), "change from the value found, %"),
@@ -126,7 +126,7 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
             .iter()
             .filter(|(_, rise)| *rise <= 2.0 * RISE_95);
         let points: Vec<(f64, f64)> = points.map(|(value, rise)| (shown(*value), *rise)).collect();
-        // Near the minimum the rise is a parabola on each side.
+        // On each side of the minimum, the rise is nearly a parabola.
         let side = |end: Option<&(f64, f64)>| {
             let (end, rise) = end.copied().unwrap_or((0.0, 0.0));
             (0..=20).map(move |part| {
@@ -263,7 +263,7 @@ fn loop_figures(
         shares: None,
     };
     let caption = html! {
-        "Force over displacement (first) and over velocity (second), with the noise of the displacement removed: "
+        "Force against displacement (first) and velocity (second), with the noise of the displacement removed: "
                 "measured, before and found."
     };
     let missed_caption = html! {

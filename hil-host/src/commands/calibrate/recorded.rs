@@ -7,7 +7,7 @@ use dashpot_files::FileError;
 use dashpot_files::input;
 use dashpot_recording::{Channels, Gaps, Measurement};
 
-/// Reads the loops recorded in the file at `path`, and its gaps.
+/// Reads the recorded loops from the file at `path` and returns them with the gaps in the recording.
 ///
 /// # Errors
 /// The file cannot be read, or a channel is missing.

@@ -16,7 +16,7 @@ use dashpot_files::output;
 use dashpot_recording::Gaps;
 use dashpot_testbench::bench_test::{Indices, run_until_periodic};
 
-/// Half-width of the 95 % interval of the middle of a motion, in standard deviations of the noise.
+/// Half the width of the 95 % interval for the middle of a motion, in standard deviations of the noise.
 ///
 /// It is 1.96 / sqrt(2) because the middle is the mean of two ends, and smoothing makes neither end noisier than a
 /// sample.
@@ -45,7 +45,7 @@ pub(super) struct Number {
     correlation: Vec<(String, f64)>,
 }
 
-/// Smallest shift that the report mentions, as a part of the interval from noise alone.
+/// Smallest shift that the report mentions, as a fraction of half the interval from noise alone.
 const PART_OF_NOISE: f64 = 0.2;
 
 impl Number {
@@ -122,14 +122,14 @@ pub(super) struct Warned {
     pub(super) words: String,
 }
 
-/// Counts of tests and omitted rows of a file of loops.
+/// Number of tests found in a file of recorded loops, and what was omitted.
 #[derive(Serialize)]
 pub(super) struct Recording {
     file: String,
     tests: usize,
-    /// Segments between gaps with too few samples for a test.
+    /// Number of segments between gaps that have too few samples for a test.
     too_short: usize,
-    /// Rows with a missing value.
+    /// Number of rows with a missing value.
     rows_left_out: u64,
     /// Number of the last line, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -182,7 +182,7 @@ pub(super) struct Loop {
     pub(super) missed_before_n: f64,
     pub(super) missed_after_n: f64,
     correlation_samples: f64,
-    /// True if the residual is larger than noise explains.
+    /// True if the residual is larger than the noise explains.
     pub(super) misses: bool,
 }
 
@@ -447,7 +447,7 @@ impl Report {
 }
 
 impl IndexRow {
-    /// Returns the name, measured value, value before and value after of each measured index.
+    /// Returns, for each measured index, its name, its measured value, and its values before and after calibration.
     pub(super) fn lines(&self) -> impl Iterator<Item = (&'static str, String, f64, f64)> {
         let IndexRow {
             measured,

@@ -100,9 +100,9 @@ fn message(error: &CalibrationError, given: &Given) -> String {
     }
 }
 
-/// Message for an implausible result whose cause was not identified.
+/// Returns the message about an implausible result whose cause was not identified.
 fn without_cause(finding: &Finding, what: &str, remedies: &[String]) -> String {
-    let tried = "none of the signs, units, bounds and presets tried explains the recordings";
+    let tried = "no sign, unit, bound or preset that was tried explains the recordings";
     match finding {
         Finding::Missed { .. } => format!(
             "{what}\n  {tried}: this damper model lacks an effect that they contain; to accept the closest fit \
@@ -258,8 +258,8 @@ pub(super) fn line(warning: &Warning) -> String {
             uncertainty,
             shift_percent,
         } => format!(
-            "warning: {key} shifts by {shift_percent:.2} % if {assumed} is {value} +- {uncertainty}, more than by the \
-             noise of the tests, which cannot separate the two. The interval includes this shift; set the \
+            "warning: {key} shifts by {shift_percent:.2} % if {assumed} is {value} +- {uncertainty}; the noise of the \
+             tests shifts it less. The tests cannot separate the two. The interval includes this shift; set the \
              uncertainty with {}",
             uncertainty_option(assumed)
         ),

@@ -38,7 +38,7 @@ pub struct ContactArguments {
     /// Distance between the flange backs, m.
     #[arg(long, default_value_t = Installation::default().back_to_back_m)]
     pub back_to_back_m: f64,
-    /// Distance from the flange back to the tread datum, m.
+    /// Distance from the back of the flange to the tread datum, m.
     #[arg(long, default_value_t = Installation::default().back_to_datum_m)]
     pub back_to_datum_m: f64,
     /// Wheel radius at the tread datum, m.

@@ -96,7 +96,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
                 continue;
             }
             last_label = at;
-            // Next to the wheel surface, along its normal.
+            // Place the number next to the wheel surface, along its normal.
             let (across, up) = (side.slope.atan().sin(), side.slope.atan().cos());
             let away = 15.0 * f64::from(FINE);
             let offset = ((away * across) as i32, (-away * up) as i32);
@@ -112,7 +112,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
                 ))
                 .map_err(failed)?;
         }
-        // Inside the rail head, where every profile leaves space.
+        // The explanation is inside the rail head, where every profile leaves space.
         let middle = 0.5
             * (rail().map(|p| p.0).fold(f64::MAX, f64::min)
                 + rail().map(|p| p.0).fold(f64::MIN, f64::max));

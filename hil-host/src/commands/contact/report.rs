@@ -145,8 +145,8 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(
             out,
             "\ncontact tables of this pair are rejected: at a lateral shift of {:.6} m of the right wheel over its \
-             rail (roll {:.4} rad, yaw {:.4} rad)\nthe contact force jumps by {:.0} N under a load of {:.0} N; its \
-             stiffness allows {:.0} N",
+             rail (roll {:.4} rad, yaw {:.4} rad)\nthe contact force jumps by {:.0} N under a load of {:.0} N; the \
+             stiffness of the contact explains {:.0} N of the jump",
             jump.lateral_m, jump.roll_rad, jump.yaw_rad, jump.jump_n, jump.load_n, jump.allowed_n
         )?;
     }

@@ -9,7 +9,8 @@ use crate::commands::failure::Outcome;
 use dashpot_realtime::timing::Distribution;
 use dashpot_testbench::compiled::Compiled;
 
-/// Steps timed together: long compared with the clock's resolution, short compared with the time between interruptions.
+/// Number of steps timed together. They take long compared with the clock's resolution, but are short compared with the
+/// time between interruptions.
 const BLOCK: usize = 500;
 /// Minimum number of timed steps.
 const STEPS: usize = 200_000;

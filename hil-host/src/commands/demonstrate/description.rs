@@ -134,7 +134,7 @@ fn relief_opening(bench: &Bench) -> Option<(f64, [f64; 2])> {
     ))
 }
 
-/// Returns the first erratum of the source paper, with values of the first damper, which is the paper's.
+/// Returns the first erratum of the source paper, with values of the first damper, which is the damper of the paper.
 ///
 /// # Errors
 /// See [`shim_valves::erratum`].

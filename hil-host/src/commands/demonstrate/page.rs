@@ -167,7 +167,7 @@ fn ride_figures(ride: &Ride) -> Result<Markup, DrawError> {
         "Error of the same fixed step over the whole synthetic ride: fixed step minus reference, in newtons."
     };
     let loops = html! {
-        "Computed force over displacement (first) and velocity (second) along the whole synthetic ride, "
+        "Computed force against displacement (first) and velocity (second) along the whole synthetic ride, "
         (rate_khz(ride.step_s)) " kHz, single precision."
     };
     Ok(html! {
@@ -182,7 +182,7 @@ fn ride_figures(ride: &Ride) -> Result<Markup, DrawError> {
 fn bench_figure(bench: &Bench) -> Result<Markup, DrawError> {
     let caption = html! {
         "Settled loops of a synthetic harmonic motion at " (LOOP_FREQUENCY_HZ) " Hz for several amplitudes: computed \
-         force over \
+         force against \
          displacement (first) and velocity (second)."
     };
     Ok(html! {

@@ -25,7 +25,7 @@ struct Report {
     /// Size in memory; for standalone C, size of the table.
     damper_bytes: usize,
     state_bytes: usize,
-    /// Size of the image; `None` for Rust source, which contains words.
+    /// Size of the image; `None` for Rust source, which contains words instead of an image.
     #[serde(skip_serializing_if = "Option::is_none")]
     image_bytes: Option<usize>,
 }
@@ -47,7 +47,7 @@ pub(super) fn run<T: Word>(arguments: &ExportArguments) -> Outcome<()> {
             report.exported.print(out)?;
             writeln!(
                 out,
-                ": {} for {} us, {}, revision {:#010x}: {}{} bytes {}, state {} bytes",
+                ": {} for a step of {} us, {}, revision {:#010x}: {}{} bytes {}, state {} bytes",
                 report.damper,
                 arguments.step_us,
                 report.scalar,

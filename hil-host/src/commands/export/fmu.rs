@@ -167,7 +167,7 @@ pub(super) fn fmu_name(arguments: &ExportArguments, content: &str) -> String {
     }
 }
 
-/// Words a compile error and its remedies for the command line.
+/// Describes a compile error and its remedies in terms of command-line options.
 fn cannot_compile(error: &CompileError) -> Failure {
     let remedies = error.remedies().iter().map(|remedy| match remedy {
         Remedy::OtherCompiler => "another C compiler in the variable CC",
@@ -176,7 +176,7 @@ fn cannot_compile(error: &CompileError) -> Failure {
         Remedy::OtherLibrary => "a library for this platform with --library FILE",
     });
     let remedies: Vec<&str> = remedies.collect();
-    // The messages of a compiler may span several lines.
+    // A compiler's messages may span several lines.
     let separator = match error {
         CompileError::Failed { .. } => "\n",
         _ => "; ",

@@ -76,7 +76,7 @@ pub(super) fn run(arguments: &ExportArguments) -> Outcome<()> {
             report.exported.print(out)?;
             writeln!(
                 out,
-                ": health model of {} for {} us: image {} bytes, {} bytes in memory, estimate {} bytes",
+                ": health model of {} for a step of {} us: image {} bytes, {} bytes in memory, {} bytes per estimate",
                 report.damper,
                 arguments.step_us,
                 report.image_bytes,

@@ -23,7 +23,7 @@ pub enum Language {
     Rust,
     /// C source with bytes for the C library, and its header (x.c and x.h); also valid C++.
     C,
-    /// Bytes only: for a link, a file system or another linker.
+    /// Bytes only, to send over a link, store in a file system or link with another linker.
     Bin,
 }
 
@@ -79,8 +79,8 @@ pub struct ExportArguments {
     /// Floating-point type.
     #[arg(long, value_parser = named_values::scalar(), default_value_t = Scalar::F32)]
     scalar: Scalar,
-    /// Write step and constants as C99 without a library, for toolchains without Rust; needs `--lang c`, either
-    /// scalar.
+    /// Write step and constants as C99 without a library, for toolchains without Rust; needs `--lang c` and
+    /// accepts either scalar.
     #[arg(long, conflicts_with = "health")]
     standalone: bool,
     /// Write the damper's health model instead of the damper, in any language.

@@ -23,10 +23,11 @@ pub(super) struct Exported {
 }
 
 impl Exported {
-    /// Writes `content`, which receives the name of the header to include, and for C source in a file also the header.
+    /// Writes the text that `content` returns; it receives the name of the header to include. For C source in a file,
+    /// also writes the header.
     ///
     /// # Errors
-    /// The constant cannot be exported or a file cannot be written; then neither file is.
+    /// The constant cannot be exported or a file cannot be written. Neither file is written then.
     pub(super) fn write(
         arguments: &ExportArguments,
         name: Option<String>,

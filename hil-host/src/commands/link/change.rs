@@ -62,10 +62,10 @@ pub(super) fn set(set: &SetArguments, link: &LinkArguments) -> Outcome<()> {
     })
 }
 
-/// Configure when the link counts as lost, and the outputs after that.
+/// Configure when the link is treated as lost, and the outputs after that.
 ///
-/// In free-running mode, the link counts as lost after more than this number of ticks without a displacement. The
-/// outputs then stay safe until the next `run` or `stop`.
+/// In free-running mode, the target treats the link as lost after more than this number of ticks without a
+/// displacement. The outputs then stay safe until the next `run` or `stop`.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot link --link serial:/dev/ttyACM0 loss-of-link --after-ticks 100 --output ramp=100
@@ -113,7 +113,7 @@ impl fmt::Display for SafeOutputChoice {
 #[derive(Serialize)]
 struct Loss {
     after_ticks: u32,
-    /// Written as the option's value.
+    /// Outputs after a loss, written like the value of the option.
     output: String,
 }
 
@@ -132,7 +132,7 @@ pub(super) fn loss_of_link(loss: &LossOfLinkArguments, link: &LinkArguments) -> 
         let after = counted(report.after_ticks.into(), "tick");
         writeln!(
             out,
-            "lost after {after} without a displacement; outputs after that: {}",
+            "the link is lost after {after} without a displacement; outputs after that: {}",
             report.output
         )
     })

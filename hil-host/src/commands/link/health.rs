@@ -199,7 +199,11 @@ fn feed(
 
 fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if let Some(damper) = &report.damper {
-        writeln!(out, "slot {}: model of {damper} loaded", report.place)?;
+        writeln!(
+            out,
+            "slot {}: health model of {damper} loaded",
+            report.place
+        )?;
     }
     if report.fed > 0 {
         writeln!(out, "{} fed", counted(report.fed, "sample"))?;

@@ -88,9 +88,9 @@ fn build(name: &str, source: &Source, step_s: f32) -> Outcome<Damper<f32>> {
 struct Report {
     damper: String,
     revision: u32,
-    /// Slots it was loaded into.
+    /// Slots into which the damper was loaded.
     loaded: Vec<u8>,
-    /// Slots that already held it.
+    /// Slots that already held the damper.
     skipped: Vec<u8>,
 }
 

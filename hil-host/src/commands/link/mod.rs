@@ -41,13 +41,13 @@ use crate::commands::failure::Outcome;
 
 A target has one damper per slot, numbered from 0; `hello` lists the slots. --place selects a slot.
 
-Every run opens a new session and so takes the target over from any other client: a running `dashpot pil` opens its
-session again and continues, a `dashpot link watch` ends.
+Every run opens a new session and takes the target over from any other client: a running `dashpot pil` opens its
+session again and continues; a running `dashpot link watch` ends.
 
 With --link qemu, every run starts an emulator of its own. To use the same emulator several times, start it yourself
 (see docs/link.md) and use --link tcp:HOST:PORT.
 
-Exit code: 0 success, 1 failed or refused by the target, 2 wrong use.")]
+Exit code: 0 success, 1 failed or refused by the target, 2 usage error.")]
 pub struct LinkArguments {
     #[command(flatten)]
     line: LineArguments,
@@ -76,7 +76,7 @@ enum Action {
     LossOfLink(LossOfLinkArguments),
     /// Put every damper at rest at a displacement and start the free-running mode.
     ///
-    /// The target then counts the link as lost when no displacement arrives for the number of ticks set by
+    /// From then on, the target treats the link as lost if no displacement arrives for the number of ticks set by
     /// `loss-of-link` (default 100). Use `run` to recover from a lost link.
     Run(DisplacementArguments),
     /// Send new displacements to the dampers of a free-running target.

@@ -79,7 +79,7 @@ impl Target {
         })
     }
 
-    /// Expands the values of `option`, one for all dampers or one per damper, to one per damper.
+    /// Returns one value of `option` per damper, given one value per damper or one value for all.
     pub(super) fn for_each_damper(&self, option: &str, values: &[f32]) -> Outcome<Reals> {
         let dampers = self.greeting.dampers;
         match values {

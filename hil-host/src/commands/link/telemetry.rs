@@ -14,7 +14,7 @@ use crate::commands::print::{counted, print_report_beside};
 use dashpot_files::output::{self, cannot_write_rows, write_whole_if};
 use dashpot_files::status_bits::{self, StatusBit};
 
-/// Number of responses that hold all buffered ticks; later samples are newer than the request.
+/// Maximum number of responses that the buffered ticks fill; samples in later responses are newer than the request.
 const MAX_RESPONSES: usize = KEPT_TICKS / MAX_SAMPLES;
 
 /// Fetch the buffered samples: up to 64 ticks per damper. Each sample is sent only once.
@@ -24,7 +24,7 @@ const MAX_RESPONSES: usize = KEPT_TICKS / MAX_SAMPLES;
   dashpot link --link serial:/dev/ttyACM0 telemetry --output samples.csv
 
 --output writes the columns place, tick, displacement_m, force_n and status, which is the sum of 1 input held, 2 input
-limited, 4 saturated, 8 damper swapped and 16 corrupted.")]
+limited, 4 saturated, 8 damper swapped, 16 corrupted and 32 restarted.")]
 pub(super) struct TelemetryArguments {
     #[command(flatten)]
     places: Places,
@@ -123,7 +123,7 @@ struct PlaceReport {
 #[derive(Serialize)]
 struct Report {
     places: Vec<PlaceReport>,
-    /// `None` if they were written to a file.
+    /// `None` if the samples were written to a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<Vec<PlaceSample>>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -52,7 +52,7 @@ impl Watched {
             .saturating_sub(before.unwrap_or(taken.overwritten));
         if lost > 0 {
             let lost = counted(lost.into(), "sample");
-            // Nothing can be done when standard error is closed.
+            // If standard error is closed, the warning is lost.
             let _ = writeln!(
                 io::stderr(),
                 "warning: slot {}: {lost} overwritten before they were fetched",
@@ -113,7 +113,7 @@ fn print(out: &mut dyn Write, format: Format, place: u8, sample: &Sample) -> io:
     }
 }
 
-/// Returns the time in which the samples for one response accumulate.
+/// Returns the time in which the samples for one response accumulate, but at most [`LONGEST_PAUSE`].
 fn pause(step_s: f32) -> Duration {
     Duration::try_from_secs_f32(step_s * MAX_SAMPLES as f32)
         .map_or(LONGEST_PAUSE, |pause| pause.min(LONGEST_PAUSE))

@@ -26,7 +26,7 @@ fn curve(
     Curve::new(name, colour, points.collect::<Vec<_>>())
 }
 
-/// Marks injected faults and recoveries, if there were any.
+/// Returns marks at injected faults and recoveries; empty if there were none.
 fn marks(history: &History) -> Vec<Curve> {
     let kinds = [
         (AMBER_LINE, &history.faults_made),
@@ -103,7 +103,7 @@ fn bars(history: &History) -> Curve {
     Curve::new("", BLUE_LINE, points).filled().wide(4)
 }
 
-/// Draws round trips over time, with the step if ticks were `paced`.
+/// Draws round-trip times over time, with a line at one step if the ticks were `paced`.
 pub(super) fn round_trip(history: &History, paced: bool) -> Figure {
     let trips = curve(
         history,

@@ -60,7 +60,7 @@ impl History {
         self.clock_ticks.record(tick, f64::from(record.clock_ticks));
         self.clock_spread
             .saturating_record(record.clock_ticks.into());
-        // Drawn on a logarithmic scale, which has no zero.
+        // The round trip is drawn on a logarithmic scale, which has no zero.
         let round_trip_ns = record.round_trip_ns.max(1);
         self.round_trip_ns.record(tick, round_trip_ns as f64);
         if record.events.iter().any(|event| event.is_injected()) {

@@ -153,7 +153,7 @@ impl PilArguments {
             .map(PathBuf::as_path)
     }
 
-    /// Rejects one file for two purposes.
+    /// Rejects the same file for two options.
     fn check_files(&self) -> Outcome<()> {
         let dampers = self
             .dampers

@@ -18,7 +18,7 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
     let is_paced = report.pacing.is_some();
     let clock_ticks = html! {
         "Clock ticks of " (f64::from(report.target.clock_hz) * 1e-6)
-        " MHz per tick of the whole bank: histogram (first) and course over time (second)."
+        " MHz per tick of the whole bank: histogram (first) and values over time (second)."
     };
     let round_trip = html! {
         "From the request of a step to its response, including repeated requests and recoveries."

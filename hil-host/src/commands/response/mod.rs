@@ -31,15 +31,16 @@ Amplitude-frequency characteristics of the paper, Figs. 13b and 18b:
   dashpot response --damper reduced-lateral --over mount.clearance_m=0.5e-3,1e-3,2e-3 --amplitude-m 5e-3 \\
       --page fig18b.html
 
-For x = A sin wt, the first harmonic of the force is A (K' sin wt + K\" cos wt). Dynamic stiffness is its magnitude over
-A; the loss angle is the phase by which it leads the displacement (0 for a spring, 90 degrees for a dashpot); damping
-is K\"/w. Harmonic values come from the periodic force at one frequency after the other. Linearised values apply to a
-peak velocity of 0.1 mm/s with the clearance taken up. Swept values come from one motion through all frequencies,
-demodulated with a Bartlett window of 2 cycles around each frequency, and are compared with the harmonic values.
+For x = A sin wt, the first harmonic of the force is A (K' sin wt + K\" cos wt). Dynamic stiffness is its magnitude
+divided by A; the loss angle is the phase by which it leads the displacement (0 for a spring, 90 degrees for a
+dashpot); damping is K\"/w. Harmonic values come from the periodic force at one frequency after the other. Linearised
+values apply to a peak velocity of 0.1 mm/s with the clearance taken up. Swept values come from one motion through all
+frequencies, demodulated with a Bartlett window of 2 cycles around each frequency, and are compared with the harmonic
+values.
 
 Columns of --output: response (harmonic, linearised or swept), the parameter of --over, amplitude_m, frequency_hz,
-dynamic_stiffness_n_per_m, loss_angle_deg, storage_n_per_m (K'), loss_n_per_m (K\"), damping_n_s_per_m, difference (of
-swept from harmonic stiffness, over the harmonic stiffness)."
+dynamic_stiffness_n_per_m, loss_angle_deg, storage_n_per_m (K'), loss_n_per_m (K\"), damping_n_s_per_m, difference
+(between swept and harmonic stiffness, divided by the harmonic stiffness)."
 )]
 pub struct ResponseArguments {
     #[command(flatten)]

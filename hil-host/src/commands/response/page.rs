@@ -27,7 +27,7 @@ pub(super) fn write(report: &Report) -> Outcome<String> {
             let all: Vec<&Series> = report.series.iter().collect();
             figures.push((String::new(), part(report, &all)?));
         }
-        // One figure per amplitude that compares the parameter values.
+        // Each amplitude has one figure, which compares the parameter values.
         Some(_) => {
             let harmonic = |series: &&Series| series.response == Kind::Harmonic;
             let first = report.series.first().and_then(|series| series.value);
@@ -77,7 +77,8 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
     };
     let mut panels = response::panels(Scale::Decades);
     for series in series {
-        // Dashed and dotted curves have the colour of their line; only one of them is labelled.
+        // Dashed and dotted curves have the colour of the solid line they belong to. Of these curves, only the
+        // linearised one without a parameter has a label.
         let name = match (series.response, &report.over, series.value) {
             (Kind::Harmonic, Some(_), Some(value)) => formatted(value),
             (Kind::Harmonic, ..) => series.name(),

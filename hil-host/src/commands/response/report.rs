@@ -41,7 +41,7 @@ pub(super) struct Row {
     pub(super) storage_n_per_m: f64,
     pub(super) loss_n_per_m: f64,
     pub(super) damping_n_s_per_m: f64,
-    /// Difference of a swept value from the harmonic one, relative to the latter.
+    /// Relative difference of a swept value from the harmonic value.
     pub(super) difference: Option<f64>,
 }
 
@@ -53,7 +53,7 @@ pub(super) struct Series {
     pub(super) value: Option<f64>,
     /// Amplitude of the motion; `None` for the linearised damper.
     pub(super) amplitude_m: Option<f64>,
-    /// Largest difference of swept from harmonic values.
+    /// Largest relative difference of swept values from harmonic values.
     pub(super) largest_difference: Option<f64>,
     pub(super) rows: Vec<Row>,
     #[serde(skip)]

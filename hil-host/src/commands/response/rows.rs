@@ -43,7 +43,7 @@ pub(super) fn write(path: &Path, file: &mut dyn Write, report: &Report) -> Outco
                 row.difference,
             ];
             let cells = value.into_iter().chain(numbers);
-            // Display of f64 gives the shortest text that parses to the same number.
+            // `Display` of `f64` gives the shortest text that parses to the same number.
             let cells = cells.map(|cell| cell.map_or_else(String::new, |cell| cell.to_string()));
             let kind = series.response.name().to_owned();
             rows.write_record([kind].into_iter().chain(cells))

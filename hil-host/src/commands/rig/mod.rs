@@ -54,7 +54,7 @@ pub struct RigArguments {
         value_name = "US"
     )]
     pub step_us: StepSize,
-    /// Write loops of force over displacement and velocity to this folder as force-loops.svg.
+    /// Write loops of force against displacement and velocity to this folder as force-loops.svg.
     #[arg(long, value_name = "FOLDER")]
     pub plots: Option<PathBuf>,
     /// Run the tests of a sheet instead of a single motion: built-in name or TOML file, `-` for standard input.
@@ -156,11 +156,11 @@ fn draw(
         }
     }
     let mut panels = loops::panels(displacement, velocity);
-    // The middle of a loop is empty.
+    // The legend is in the middle of the loop, which is empty.
     panels[0].legend = Some(SeriesLabelPosition::MiddleMiddle);
     for (panel, over) in panels.iter_mut().zip(["displacement", "velocity"]) {
         panel.title = format!(
-            "Force over {over}, harmonic motion of ±{:.3} mm at {} Hz",
+            "Force against {over}, harmonic motion of ±{:.3} mm at {} Hz",
             motion.amplitude_m * 1e3,
             motion.frequency_hz
         );

@@ -1,6 +1,6 @@
 //! Titles of the drawings.
 
-/// `name` with a capital first letter.
+/// Returns `name` with a capital first letter.
 pub(super) fn capital(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| {

@@ -21,7 +21,7 @@ fn pressures_mpa(tables_end_pa: f64, preload_pa: f64) -> impl Iterator<Item = f6
     (0..=STEPS).map(move |i| end_mpa * f64::from(i) / f64::from(STEPS))
 }
 
-/// Returns file name and SVG text of each plot.
+/// Returns the file name and the SVG text of each plot.
 pub(super) fn draw(
     hydraulics: &Hydraulics,
     valves: &[ValveReport],
@@ -99,7 +99,8 @@ fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> P
     }
 }
 
-/// Interpolates linearly between points, ten parts each, because a straight line is curved on a logarithmic scale.
+/// Interpolates linearly between points in ten parts per segment, because a straight line is curved on a logarithmic
+/// scale.
 fn between(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let parts = points.windows(2).flat_map(|pair| {
         let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];

@@ -116,7 +116,7 @@ pub(super) fn radii(valve: &Valve, parts: u32) -> impl Iterator<Item = f64> + us
     (0..=parts).map(move |i| clamp + (free - clamp) * f64::from(i) / f64::from(parts))
 }
 
-/// Returns Cw from clamp to edge in four equal parts; rounding errors at the clamp become zero.
+/// Returns Cw at the ends of four equal parts from clamp to edge; rounding errors at the clamp become zero.
 fn coefficients(pack: &Pack, valve: &Valve) -> Vec<Coefficient> {
     let cw = |radius_m| pack.disc().deflection_coefficient(radius_m);
     let rounding = 1e-12 * cw(valve.free_radius_m);

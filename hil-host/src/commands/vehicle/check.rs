@@ -24,7 +24,7 @@ struct Report {
     deviations: Deviations<Worst>,
     bounds: Deviations<f64>,
     with_half_the_inner_step: Deviations<Worst>,
-    /// If a bound is exceeded: difference between two reference solutions of different tolerances.
+    /// Difference between two reference solutions with different tolerances, if a bound is exceeded.
     #[serde(skip_serializing_if = "Option::is_none")]
     parting: Option<Deviations<Worst>>,
     /// Indices over seeds of the irregularity, for a chaotic case.
@@ -67,25 +67,25 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
         }
     };
     let whole = traced(1)?;
-    // Ticks short enough that their single step is half as long as the steps inside a tick of the case.
+    // These ticks take one step each, which is half as long as the steps inside a tick of the case.
     let half = traced((2.0 * case.step_s / whole.inner_step_s()).round() as u64)?;
-    bar.set_message("reference, at least one second per simulated second");
+    bar.set_message("reference solution: takes at least one second per simulated second");
     let solution = reference(case, &whole, TOLERANCE).map_err(failed)?;
     let deviations = whole.deviations(&solution);
     let is_within_bounds = deviations.is_within_bounds();
     let parting = if is_within_bounds {
         None
     } else {
-        bar.set_message("another reference, to see whether the case is chaotic");
+        bar.set_message("second reference solution, to check whether the case is chaotic");
         let looser = reference(case, &whole, 100.0 * TOLERANCE).map_err(failed)?;
         Some(looser.deviations(&solution))
     };
-    // Even two reference solutions differ by more than the bounds.
+    // The case is chaotic if even two reference solutions differ by more than the bounds.
     let is_chaotic = parting
         .as_ref()
         .is_some_and(|parting| !parting.is_within_bounds());
     let over_seeds = if is_chaotic {
-        bar.set_message("both with other seeds, to compare means");
+        bar.set_message("step and reference with other seeds, to compare means");
         over_seeds(case).map_err(failed)?
     } else {
         None
@@ -167,8 +167,8 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if let Some(parting) = &report.parting {
         writeln!(
             out,
-            "\na second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %: differences as \
-             large as the deviations above mean that the case is chaotic",
+            "\nA second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %. If these \
+             differences are as large as the deviations above, the case is chaotic.",
             100.0 * report.reference_tolerance,
             1e2 * parting.acceleration.deviation,
             1e6 * parting.lateral_m.deviation,

@@ -11,7 +11,7 @@ pub trait Exchange {
     /// Sets the forces that act at the end of the next tick.
     ///
     /// # Errors
-    /// A force that is not finite.
+    /// A force is not finite.
     fn before(&mut self, run: &mut Run) -> Result<(), VehicleRunError>;
     /// Sends the displacements of the tick and sets the returned forces. Returns an ending if a damper is lost.
     fn after(&mut self, run: &mut Run) -> Option<Ending>;
@@ -42,8 +42,8 @@ pub struct Driven {
 
 /// Steps `run` to its end, paced if there is a `pacer`, and sends a record of each tick to another thread.
 ///
-/// A tick allocates nothing and makes no system calls except those of `exchange` and the clocks. All of it is within
-/// the work that the pacer times.
+/// A tick allocates nothing and makes no system calls except those of `exchange` and the clocks. The pacer times all of
+/// this as the work of the tick.
 ///
 /// # Errors
 /// Errors from [`Exchange::before`] and [`Run::step`].
@@ -70,7 +70,7 @@ pub fn drive<C: Clock>(
         driven.stepping += started.elapsed();
         driven.ticks += 1;
         let ended = stepped.or_else(|| exchange.after(run));
-        // A reading thread that has ended reports its own error.
+        // If the reading thread has ended, it reports its own error.
         let is_read = records
             .send(|record| record.copy(run.time_s(), run.state()))
             .is_ok();

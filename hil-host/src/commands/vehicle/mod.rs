@@ -61,7 +61,7 @@ deadline in a thousand is missed.
 
 --outside sends a damper's displacement at the end of a tick; the returned force acts at the end of the next tick, one
 tick late. The run is then repeated with all dampers simulated internally, and the difference is reported. A recorded
-force is applied at its own time; the recording must cover the whole run."
+force is applied without this delay; the recording must cover the whole run."
 )]
 pub struct VehicleArguments {
     #[command(flatten)]
@@ -231,7 +231,7 @@ fn follow(
             let stepping = stepping.map_err(|error| {
                 Failure::new(format!("cannot start the stepping thread: {error}"))
             })?;
-            // Dropped on an error, which stops the stepping thread.
+            // On an error, the receiver is dropped, which stops the stepping thread.
             let taker = taker;
             let mut written = Ok(());
             while written.is_ok()

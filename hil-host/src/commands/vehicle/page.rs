@@ -68,7 +68,7 @@ pub(super) fn write(
         (figure(&figures::loads(history, wheelsets), &html! { "Vertical force Q of each wheel on the rail." })?)
         h2 { "Derailment coefficient" }
         (figure(&figures::derailment(history, wheelsets), &html! {
-            "Lateral over vertical force, positive if the rail pushes the wheel towards the track centre."
+            "Lateral force divided by vertical force, positive if the rail pushes the wheel towards the track centre."
         })?)
         (spectra::section(densities)?)
         @if !dampers.is_empty() {

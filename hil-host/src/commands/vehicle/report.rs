@@ -232,7 +232,7 @@ fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     )
 }
 
-/// Values of the worse of both wheels.
+/// Values of the worse of the two wheels.
 pub(super) struct Limits {
     pub(super) unloading: Option<f64>,
     pub(super) unloading_of_mean: Option<f64>,

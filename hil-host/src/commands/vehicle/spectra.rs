@@ -79,7 +79,7 @@ pub(super) fn write(spectra: &[Spectrum], to: &Path) -> Outcome<()> {
 pub(super) fn section(spectra: &[Spectrum]) -> Result<Markup, DrawError> {
     let is_nonzero =
         |spectrum: &Spectrum| spectrum.density().iter().any(|[_, density]| *density > 0.0);
-    // On ideal track nothing moves, and zero cannot be drawn on a logarithmic scale.
+    // On an ideal track nothing moves, and zero cannot be drawn on a logarithmic scale.
     if spectra.is_empty() || !spectra.iter().all(is_nonzero) {
         return Ok(html! {});
     }

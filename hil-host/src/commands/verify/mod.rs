@@ -12,7 +12,8 @@ use crate::commands::failure::{Failure, Outcome};
 
 /// Measure the accuracy of the fixed step against the adaptive reference solver for each step size.
 ///
-/// With --input on a recording; without it, as the largest errors of this damper over a fixed set of motions.
+/// With --input, the motion is a recording. Without it, the command prints the largest errors of this damper over a
+/// fixed set of motions.
 #[derive(Debug, Clone, clap::Args)]
 #[command(after_help = "Examples:
   dashpot verify --damper in-service
@@ -21,8 +22,9 @@ use crate::commands::failure::{Failure, Outcome};
   dashpot verify --damper in-service --input run7.csv --step-us 1000 --step-us 62.5 --format json
 
 Without --input, the damper follows about a hundred motions scaled by its clearance, friction, springs and force limit:
-sawtooth, move and stop, crossing of the clearance, changing speed, random ride, speed ramp, hold for a minute. Three
-times each printed value is guaranteed for every motion of the class defined in docs/numerics.md.
+sawtooth, move and stop, crossing of the clearance, changing speed, random ride, speed ramp, hold for a minute. For
+every motion of the class defined in docs/numerics.md, each error is guaranteed to be at most three times its printed
+value.
 
 With --input, two errors are printed. The NRMSE on ticks is the error of the step alone: the reference follows the same
 displacements at the ticks, interpolated linearly. The NRMSE on the recording also includes the effect of resampling:
@@ -30,7 +32,8 @@ the reference follows the recording's own samples, interpolated linearly, and is
 pub struct VerifyArguments {
     #[command(flatten)]
     damper: DamperArguments,
-    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input. Without it, a fixed set of motions.
+    /// Recorded motion: text (CSV), MDF4 or Parquet; `-` for standard input. Without it, a fixed set of motions is
+    /// used.
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
     #[command(flatten)]

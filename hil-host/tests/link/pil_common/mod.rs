@@ -1,4 +1,4 @@
-//! Simulated target, and the motion that drives it.
+//! A simulated target, and the motion that drives it.
 
 // Each test binary uses only some of these functions.
 #![allow(dead_code)]
@@ -14,7 +14,7 @@ use dashpot_files::damper;
 use dashpot_host_link::{Desk, Link, LinkError, RetryLimits, SessionError};
 use dashpot_testbench::excitation::Excitation;
 
-/// The simulated target does not wait in real time; a line ends with an answer, which always arrives.
+/// Long limits that cost no time: a simulated target never waits in real time, and over TCP an answer always arrives.
 pub const RETRY_LIMITS: RetryLimits = RetryLimits {
     timeout: Duration::from_secs(300),
     tries: 30,
@@ -25,7 +25,7 @@ pub fn built(name: &str) -> Damper<f32> {
     parameters.build(1e-3).unwrap()
 }
 
-/// Bank of three dampers other than the driven ones.
+/// Returns a simulated target whose three dampers differ from the driven ones.
 pub fn desk() -> Desk<3> {
     Desk::new([
         built("reduced-vertical"),

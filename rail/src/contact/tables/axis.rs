@@ -74,7 +74,7 @@ pub(super) struct Located<S: Simd> {
 pub(super) struct AxisReader {
     ends: [[f64; 4]; 4],
     cells_per_unit: [[f64; 4]; 3],
-    /// Minus the position of the first end, in cells.
+    /// Position of the first end, in cells, with the opposite sign.
     offset: [f64; 4],
     last_cell: [f64; 4],
 }

@@ -38,7 +38,7 @@ pub enum CacheError {
 const MAGIC: &[u8; 16] = b"dashpot tables 2";
 /// Length in bytes of the key and of the checksum, which follow the magic number.
 const DIGEST: usize = 32;
-/// Number of nodes that are recomputed to verify a file: a changed method gives other nodes.
+/// Number of nodes that are recomputed to verify a file, because a changed method gives different nodes.
 const PROBES: usize = 64;
 /// Maximum number of temporary names that are tried.
 const MAX_ATTEMPTS: u32 = 1000;
@@ -172,7 +172,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     drop(file);
     let written = written.and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
-        // The error to report is that of the writing.
+        // The write error is reported; an error of the removal is ignored.
         let _ = fs::remove_file(&temporary);
     }
     written

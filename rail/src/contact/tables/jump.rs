@@ -9,24 +9,25 @@ use crate::contact::zones::ZONES;
 /// Loads at which the force is compared, as fractions of the nominal load.
 const LOADS: [f64; 2] = [0.5, 1.0];
 
-/// Shift over which the contact stiffness may change the force, m: the node distance in the fine part of the default
-/// [`Grid`](super::Grid), over which interpolation blurs a jump.
+/// Shift, m, for which the change of force due to the contact stiffness is not counted as part of a jump. It is the
+/// node distance in the fine part of the default [`Grid`](super::Grid), over which interpolation blurs a jump anyway.
 const ALLOWED_SHIFT_M: f64 = 30e-6;
 
 /// Maximum [`Jump::excess`] of tables, as a fraction of the load; docs/contact.md explains the choice.
 pub const MAX_JUMP: f64 = 0.3;
 
-/// Change between neighbouring nodes beyond that explained by the stiffness, as a fraction of the load, above which the
-/// interval is searched for a jump.
+/// Threshold above which the interval between two nodes is searched for a jump: the change of force that the stiffness
+/// does not explain, as a fraction of the load.
 const SUSPECT: f64 = 0.02;
 
-/// Interval of the shift at which a remaining change of the force counts as a jump, m. Intervals are halved down to it.
+/// Length of a shift interval, m, over which a remaining change of the force counts as a jump. Intervals are halved
+/// down to this length.
 const NEAR_M: f64 = 0.03e-6;
 
-/// Maximum number of halvings, enough for an interval of a kilometre; a wider grid has no contact.
+/// Maximum number of halvings. They suffice for an interval of a kilometre, which is far wider than any contact.
 const MAX_HALVINGS: usize = 35;
 
-/// Depth below first contact at which a wheel carries any load, m.
+/// Depth below first contact that suffices for any load, m.
 const DEEPEST_M: f64 = 3e-3;
 
 /// A jump of the force on a wheel that moves laterally over its rail at constant height.
@@ -50,8 +51,8 @@ impl Jump {
         (self.jump_n - self.allowed_n) / self.load_n
     }
 
-    /// Returns the largest jump of a turned wheel over `nodes`: rising shifts with the patches there. `None` if the
-    /// stiffness explains the change between all neighbouring nodes.
+    /// Returns the largest jump of a turned wheel over `nodes`, which are rising shifts with their patches. `None` if
+    /// the stiffness explains the change between all neighbouring nodes.
     pub(super) fn largest(
         geometry: &ContactGeometry,
         wheel: &TurnedWheel<'_>,

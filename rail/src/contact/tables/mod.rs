@@ -32,8 +32,8 @@ pub const MAX_NODES: usize = 4_000_000;
 pub enum TablesError {
     /// An axis of the grid has no cells, too many, or ends that do not rise.
     #[error(
-        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in exactly the parts that have a \
-         width, fewer than {MAX_NODES} cells in all, a squared yaw of 0 or more",
+        "axis {name}: ends {:?}, cells {:?}; allowed: finite rising ends, cells in every part that has a width \
+         and in no other part, fewer than {MAX_NODES} cells in all, a squared yaw of 0 or more",
         .axis.ends, .axis.cells
     )]
     Axis {
@@ -50,9 +50,9 @@ pub enum TablesError {
     },
     /// The contact force jumps between neighbouring poses.
     #[error(
-        "{wheel} on {rail}: at a lateral shift of {:.6} m of the wheel over its rail (roll {:.4} rad, yaw {:.4} rad) \
-         the force jumps by {:.0} N under a load of {:.0} N, where the stiffness of the contact explains {:.0} N; \
-         allowed: profiles whose force jumps nowhere by more than that plus {} % of the load",
+        "{wheel} on {rail}: at a lateral shift of {:.6} m of the wheel over its rail (roll {:.4} rad, yaw {:.4} rad), \
+         the force jumps by {:.0} N under a load of {:.0} N. The stiffness of the contact explains {:.0} N of the \
+         jump; the rest must be at most {} % of the load",
         .jump.pose.lateral_m, .jump.pose.roll_rad, .jump.pose.yaw_rad, .jump.jump_n, .jump.load_n,
         .jump.allowed_n, 100.0 * MAX_JUMP
     )]
@@ -88,9 +88,10 @@ pub struct Finder {
     yaw_shift: [f64; 4],
 }
 
-/// Slope of the part of the flange that stays at the same node while the yaw changes; the yaw moves its silhouette
-/// outwards by `r slope yaw^2`. The value lies between the slopes of the root, where the contact jumps, and of the
-/// face. Without this correction the tables would need twice as many yaw nodes.
+/// Slope of the part of the flange for which the tables correct the effect of the yaw. The yaw moves the silhouette of
+/// this part outwards by `r slope yaw^2`; the correction keeps it at the same node. The value lies between the slope of
+/// the root, where the contact jumps, and that of the face. Without the correction, the tables would need twice as many
+/// yaw nodes.
 const FLANGE_SLOPE: f64 = 1.8;
 
 impl Tables {

@@ -81,8 +81,8 @@ impl KalkerTable {
 
     /// Reads another table for `poisson_ratio`.
     ///
-    /// The columns are `a_over_b,nu,C11,C22,C23,C33`. Each ratio of the semi-axes has the same three values of `nu`.
-    /// Lines that begin with `#` are comments.
+    /// The columns are `a_over_b,nu,C11,C22,C23,C33`. The table must contain the same three values of `nu` for each
+    /// ratio of the semi-axes. Lines that begin with `#` are comments.
     ///
     /// # Errors
     /// A cell is not a positive number (`nu`: 0 to 0.5); rows are incomplete or out of order; Poisson's ratio is not
@@ -160,7 +160,7 @@ impl KalkerTable {
     }
 }
 
-/// Value at `nu` of the parabola through a coefficient of three rows with different Poisson's ratios.
+/// Value at `nu` of the parabola through the values of `coefficient` in three rows with different Poisson's ratios.
 fn parabola(nu: f64, three: &[Row], coefficient: fn(&Row) -> f64) -> f64 {
     let lagrange = |i: usize| {
         (0..3)

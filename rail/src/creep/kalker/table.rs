@@ -59,7 +59,9 @@ pub enum KalkerError {
         poisson_ratio: f64,
     },
     /// There are fewer than three ratios, or the last one is incomplete.
-    #[error("{found} rows, allowed: three for each a_over_b, of which there are three or more")]
+    #[error(
+        "{found} rows, allowed: three for each a_over_b, with three or more values of a_over_b"
+    )]
     Rows {
         /// Number of rows.
         found: usize,

@@ -65,8 +65,8 @@ impl Contact<f64> {
 const MIN_SLIDING: f64 = 1e-5;
 
 impl Contact<f64> {
-    /// Adds the minimum longitudinal creepage for derivatives to a pure spin. There the direction of sliding has no
-    /// derivatives, although the forces do.
+    /// Replaces the longitudinal creepage near pure spin by a small one, at which the direction of sliding has
+    /// derivatives. In pure spin it has none, although the forces do.
     #[inline(always)]
     pub(super) fn beside_pure_spin(&self, [xi, eta, phi]: [f64; 3]) -> [f64; 3] {
         let min = MIN_SLIDING / (self.creepage * self.c22);

@@ -24,9 +24,9 @@ use crate::math::number::{Number, are_within, transposed};
 /// spin.
 ///
 /// The idea is that of Kalker's USETAB (Vehicle System Dynamics 27, 1997). The tables were computed with the solver in
-/// `dashpot-reference` for Poisson's ratio 0.28. They cover `a/b` from 0.04 to 25, beyond which `a/b` is limited, and
-/// all creepages. For small creepages the result is the linear theory with the contact's own coefficients. The force
-/// has continuous derivatives with respect to every creepage and never exceeds friction.
+/// `dashpot-reference` for Poisson's ratio 0.28. They cover all creepages, and `a/b` from 0.04 to 25; an `a/b` outside
+/// this range is limited to it. For small creepages the result is the linear theory with the contact's own
+/// coefficients. The force has continuous derivatives with respect to every creepage and never exceeds friction.
 ///
 /// ```
 /// use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
@@ -208,8 +208,8 @@ fn forces<C: Number, R: Number + Mul<C, Output = R>>(
     ]
 }
 
-/// Factor that keeps a force with this square within 1 where the spline overshoots. Above `1 - BEND` the force follows
-/// a parabola with its vertex at 1, so its slope is continuous.
+/// Factor that keeps a force within 1 where the spline overshoots; `square` is the square of the force. Above
+/// `1 - BEND` the force follows a parabola with its vertex at 1, so its slope is continuous.
 #[inline(always)]
 fn limited<R: Number>(square: R) -> R {
     let force = (square + TINY).sqrt();

@@ -89,7 +89,7 @@ const CELLS: [f32; 4] = [
     Layout::CELLS[2] as f32,
 ];
 
-/// Four positions in the book, one in each lane.
+/// Four positions in Kalker's book of tables, one in each lane.
 pub(super) struct BookPositions<S: Simd> {
     /// Indices of the first coefficients.
     first: [u32; 4],
@@ -102,7 +102,7 @@ pub(super) struct BookPositions<S: Simd> {
 }
 
 impl<S: Simd> BookPositions<S> {
-    /// Locates the coordinates ratio of the semi-axes, size, spin and direction, all from 0 to 1.
+    /// Locates four coordinates, all from 0 to 1: ratio of the semi-axes, size, spin and direction.
     #[inline(always)]
     pub(super) fn new(simd: S, [ratio, size, spin, direction]: [f64x4<S>; 4]) -> Self {
         let (ratio_and_size, spin_and_direction) = (
@@ -157,7 +157,7 @@ impl<S: Simd> BookPositions<S> {
         let simd = self.ratio.simd;
         let near: &[Coefficients; SPAN] = pages[self.first[lane] as usize..]
             .first_chunk()
-            .expect("cells within the book");
+            .expect("the cells are within the book");
         let [sizes, spins, directions] =
             factors.each(|factor| factor.each(|lanes| simd.splat_f32x8(lanes[lane])));
         let over_spins = [

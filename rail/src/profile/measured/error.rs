@@ -57,8 +57,8 @@ pub enum ProfileError {
     },
     /// The sign of the lateral axis is ambiguous in this kind of file.
     #[error(
-        "side not stated: in a rail of GENSYS y may point to either side; allowed: the option mirror, none where y \
-         points to the field side, y where it points to the track centre"
+        "side not stated: in a GENSYS rail file y may point to either side; allowed: the option mirror, `none` if y \
+         points to the field side, `y` if it points to the track centre"
     )]
     MirrorNotStated,
     /// There are fewer than [`MIN_POINTS`] points.
@@ -69,8 +69,8 @@ pub enum ProfileError {
     },
     /// The curve folds back, and then emerges again or runs back over the surface.
     #[error(
-        "folded back by {fold_mm:.2} mm near y_mm {y_mm:.2}, allowed: {MAX_FOLD_MM} mm, or to the end of the profile \
-         on the side of the material"
+        "folded back by {fold_mm:.2} mm near y_mm {y_mm:.2}, allowed: {MAX_FOLD_MM} mm, or more if the curve stays \
+         inside the material up to its end"
     )]
     FoldedBack {
         /// Line of the text, counted from 1.
@@ -81,7 +81,7 @@ pub enum ProfileError {
         fold_mm: f64,
     },
     /// Neighbouring points are more than [`MAX_GAP_MM`] apart.
-    #[error("gap: {gap_mm:.2} mm to its neighbour, allowed: {MAX_GAP_MM} mm")]
+    #[error("gap: {gap_mm:.2} mm to the neighbouring point, allowed: {MAX_GAP_MM} mm or less")]
     Gap {
         /// Line of the text, counted from 1.
         line: u64,
@@ -101,14 +101,14 @@ pub enum ProfileError {
     FlangeUp,
     /// The flange of the wheel is on the field side.
     #[error(
-        "wrong side: the flange must lie at negative y_mm (towards the track centre); the option mirror y, or the \
-         format gensys for its files, changes sides"
+        "wrong side: the flange must lie at negative y_mm (towards the track centre); use the option mirror y, \
+         or the format gensys for a GENSYS file"
     )]
     FlangeOutside,
     /// The origin of the wheel is not its tread datum.
     #[error(
-        "y_mm from {from_mm:.1} to {to_mm:.1} with the flange tip at {tip_mm:.1}: allowed: 0 at the tread datum, the \
-         flange tip at negative y_mm (in a SIMPACK file shift.y moves it)"
+        "y_mm from {from_mm:.1} to {to_mm:.1} with the flange tip at {tip_mm:.1}; y_mm must be 0 at the tread \
+         datum and negative at the flange tip (in a SIMPACK file, shift.y moves the profile)"
     )]
     DatumOutside {
         /// Minimum lateral position, mm.
@@ -120,8 +120,8 @@ pub enum ProfileError {
     },
     /// The head of the rail does not point up.
     #[error(
-        "wrong side up: the head must be the least z_mm (up), both sides 0.5 mm deeper or more; the option mirror z \
-         turns it over"
+        "wrong side up: the top of the head must have the smallest z_mm (down is positive), and both sides must be \
+         0.5 mm deeper or more; the option mirror z turns it over"
     )]
     HeadDown,
     /// No smooth curve fits the points.

@@ -6,11 +6,11 @@
 //! Sources:
 //! - CONTACT user guide (Vollebregt, Vtech CMCC), "Inputs regarding wheel and rail profiles": rails have the track
 //!   centre at positive `X` and the foot at negative `Y`.
-//! - The wheels and rails of CONTACT's test bench, measured with several gauges: wheels have `X` from the flange back
-//!   to the field side on either side of the vehicle, and `Y` down from the tread at the taper line. Rails with `Y`
-//!   down have the track centre at negative `X`, which is the same curve rotated by 180 degrees.
-//! - GENSYS, Users Manual for KPF_CONV_MINIPROF2KPF_WHEEL: the running circle is 70 mm from the flange back, the data
-//!   start after the empty line, and `#` starts a comment.
+//! - The wheels and rails of CONTACT's test bench, measured with several gauges: wheels have `X` from the back of
+//!   the flange to the field side on either side of the vehicle, and `Y` down from the tread at the taper line. Rails
+//!   with `Y` down have the track centre at negative `X`, which is the same curve rotated by 180 degrees.
+//! - GENSYS, Users Manual for KPF_CONV_MINIPROF2KPF_WHEEL: the running circle is 70 mm from the back of the flange,
+//!   the data start after the empty line, and `#` starts a comment.
 //!
 //! The manufacturer's own description was not available, so the gauge side of a rail is based on these two programs.
 
@@ -118,7 +118,7 @@ impl Header {
                 if !(named("X") && named("Y")) {
                     return Err(wrong(
                         "ColumnDef",
-                        "names of columns with X and Y, as X,Y,A,C",
+                        "column names that include X and Y, such as X,Y,A,C",
                     ));
                 }
             }
@@ -162,15 +162,15 @@ impl Header {
         }
         match self.points {
             Some(points) if rows.len() < points => Err(ProfileError::CutShort {
-                missing: format!("{} points, allowed: {points}, as XYPoints says", rows.len()),
+                missing: format!("{} points, but XYPoints states {points}", rows.len()),
             }),
             _ => Ok(rows),
         }
     }
 }
 
-/// Moves the origin of `rows` from the flange back to the taper line, where the wheel's radius is measured; the depth
-/// there becomes zero.
+/// Moves the origin of `rows` from the back of the flange to the taper line, where the wheel's radius is measured; the
+/// depth there becomes zero.
 fn shift_wheel(rows: &mut [Row], taper_line_mm: f64) {
     let tread_mm = rows
         .windows(2)

@@ -1,8 +1,8 @@
 //! Measured profiles: reads the files of profile gauges and simulation programs, checks, trims and smooths them.
 //!
 //! - [`Columns`](Format::Columns): two columns `y_mm`, `z_mm`, with `y` to the field side and `z` down.
-//! - [`MiniProf`](Format::MiniProf): `.whl`, `.ban`. A wheel has `X` from the flange back to the field side and `Y`
-//!   down; a rail has the same axes or both reversed.
+//! - [`MiniProf`](Format::MiniProf): `.whl`, `.ban`. A wheel has `X` from the back of the flange to the field side and
+//!   `Y` down; a rail has the same axes or both reversed.
 //! - [`Simpack`](Format::Simpack): `.prw`, `.prr`. After the file's own shifts, rotations and mirrors, `y` points to
 //!   the field side and `z` down.
 //! - [`Gensys`](Format::Gensys): `.wheel`, `.rail`. `z` points down. A wheel has `y` to the track centre; for a rail
@@ -41,8 +41,8 @@ pub const MAX_GAP_MM: f64 = 5.0;
 /// Maximum width of a fold or burr that is removed, mm: several times the noise of a profile gauge. Behind a wider fold
 /// the shape of the surface is unknown.
 pub const MAX_FOLD_MM: f64 = 0.3;
-/// Maximum depth of a point from the top of a rail or the tip of a flange, mm. The highest flanges are 36 mm high, and
-/// a chamfer ends 9 mm above the tread.
+/// Maximum vertical distance of a point from the top of a rail or the tip of a flange, mm. From the tip of the highest
+/// flanges, the tread is 36 mm away and the end of a chamfer 9 mm further.
 pub const REACH_MM: f64 = 45.0;
 /// Default wavelength whose amplitude the smoothing halves, m. From readings every 0.5 mm, rounded to 0.01 mm, it gives
 /// positions within 0.005 mm and curvatures within 2 per m RMS.

@@ -12,7 +12,8 @@ use crate::setters::setters;
 pub struct Options {
     /// Format of the file; `None` detects it from the content and the file name extension.
     pub format: Option<Format>,
-    /// Axes of the file to mirror first. `None` mirrors none, and is an error for a GENSYS rail.
+    /// Axes of the file to mirror before the profile is checked. `None` mirrors no axis, and is an error for a GENSYS
+    /// rail.
     pub mirror: Option<Mirror>,
     /// Wavelength whose amplitude the smoothing halves, m: [`Profile::through`](crate::profile::Profile::through).
     pub smoothing_m: f64,
@@ -64,7 +65,7 @@ impl fmt::Display for Reading {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{}, {} of {} points beyond the widest point left out",
+            "{}, {} of {} points removed at the ends",
             self.format, self.overhanging, self.points
         )?;
         if self.folded > 0 {
@@ -75,7 +76,7 @@ impl fmt::Display for Reading {
             )?;
         }
         if self.turned {
-            f.write_str(", turned upright by half a turn")?;
+            f.write_str(", rotated by 180 degrees")?;
         }
         Ok(())
     }

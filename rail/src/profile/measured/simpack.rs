@@ -40,7 +40,7 @@ pub(super) fn read(
         }
         if let Some(section) = content.strip_suffix(".begin") {
             if section == "point" && complete {
-                return Err(misplaced("one section point"));
+                return Err(misplaced("only one section `point`"));
             }
             sections.push(section);
         } else if let Some(section) = content.strip_suffix(".end") {
@@ -61,7 +61,8 @@ pub(super) fn read(
         }
     }
     if !complete {
-        let missing = "no section point that ends, allowed: point.begin to point.end with rows y z";
+        let missing =
+            "no complete section `point`, which needs rows y z between point.begin and point.end";
         return Err(ProfileError::CutShort {
             missing: missing.to_owned(),
         });

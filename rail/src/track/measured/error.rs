@@ -8,7 +8,7 @@ use crate::track::TrackError;
 #[non_exhaustive]
 pub enum MeasuredTrackError {
     /// The header has an unknown column name.
-    #[error("column {name:?}, allowed: {allowed}, with commas between them")]
+    #[error("unknown column {name:?}, allowed: {allowed}, separated by commas")]
     Header {
         /// Line, counted from 1.
         line: u64,
@@ -61,7 +61,7 @@ pub enum MeasuredTrackError {
     },
     /// The interval from the previous row is too short or too long.
     #[error(
-        "{interval_m} m after the previous row, allowed: {MIN_INTERVAL_M} to {MAX_INTERVAL_M} m, rising"
+        "{interval_m} m after the previous row, allowed: rising distances, {MIN_INTERVAL_M} to {MAX_INTERVAL_M} m apart"
     )]
     Interval {
         /// Line, counted from 1.

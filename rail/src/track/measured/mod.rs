@@ -36,7 +36,7 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Returns the distances and intervals of the file and ramps of 10 m.
+    /// Keeps the distances and intervals of the file, and sets ramps of 10 m.
     fn default() -> Self {
         Self {
             shift_m: 0.0,

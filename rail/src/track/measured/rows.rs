@@ -4,7 +4,7 @@ use super::MeasuredTrackError;
 
 /// Allowed column names.
 const ALLOWED: &str =
-    "distance_m, vertical, lateral, cross_level, gauge, each of the four with _m or _mm";
+    "distance_m, and vertical, lateral, cross_level and gauge, each with _m or _mm";
 const CHANNELS: [&str; 4] = ["vertical", "lateral", "cross_level", "gauge"];
 /// Maximum magnitude of a distance, m.
 const MAX_DISTANCE_M: f64 = 1e7;
@@ -48,7 +48,7 @@ impl Column {
     }
 }
 
-/// Reads all rows. The second result tells which of the four channels the file has.
+/// Reads all rows. The second result states which of the four channels the file contains.
 ///
 /// Cells contain only names and numbers, so quotes cannot hide commas or line ends. Quotes around a cell are removed.
 pub(super) fn read(text: &str) -> Result<(Vec<Row>, [bool; 4]), MeasuredTrackError> {

@@ -44,7 +44,7 @@ impl Across {
         self.bodies.iter().any(Option::is_none)
     }
 
-    /// Adds a force that pulls both ends together to the forces on the bodies.
+    /// Adds to the forces on the bodies a force that pulls the two ends together.
     #[inline(always)]
     pub fn pull(&self, force: f64, forces: &mut [Vector]) {
         for (body, gradient) in self.bodies.iter().zip(&self.gradients) {

@@ -58,7 +58,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         for (constants, contact) in self.wheelsets.iter().zip(&state.contacts) {
             let free = state.speed_m_per_s / constants.carried.rolling_radius_m;
-            // Rolling forward is nose down. Of (free - rate)^2 - free^2 the sum above has rate^2.
+            // Rolling forward is nose down. The energy of the rotation is proportional to (free - rate)^2 - free^2. The
+            // sum above already contains rate^2.
             let rate = state.velocities[constants.blocks.wheelset][3];
             energy.kinetic_j -= constants.spin_inertia_kg_m2 * free * rate;
             let ContactBlocks { wheelset, rails } = constants.blocks;

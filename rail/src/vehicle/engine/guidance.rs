@@ -62,7 +62,7 @@ fn cant_angle(sine: f64) -> f64 {
 }
 
 impl Guidance {
-    /// Returns the guidance of straight track.
+    /// Returns the frames on straight track, which are all zero.
     pub fn new(bodies: usize) -> Self {
         let zeros = vec![[0.0; N]; bodies];
         Self {

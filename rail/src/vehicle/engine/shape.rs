@@ -1,4 +1,4 @@
-//! Lengths of the lists of a state, which a deserialised state may have wrong.
+//! Lengths of the lists of a state, which may be wrong in a deserialised state.
 
 use super::guidance::Guidance;
 use super::state::{VehicleState, Work};

@@ -112,14 +112,15 @@ impl VehicleState {
     }
 
     /// Returns the absolute velocity of each body in the same axes, m/s and rad/s; in a curve the yaw rate includes
-    /// that of the curve. The pitch rate of a wheelset is its deficit in rotation from free rolling in the middle of
-    /// the track.
+    /// that of the curve. The pitch rate of a wheelset is the amount by which its rotation falls short of free rolling
+    /// in the middle of the track.
     pub fn velocities(&self) -> &[[f64; N]] {
         &self.velocities[..self.bodies]
     }
 
-    /// Returns the acceleration of a body that an accelerometer on it would measure, in the axes of the track, m/s^2
-    /// and rad/s^2: force over inertia, without [`track_acceleration`](Self::track_acceleration).
+    /// Returns the acceleration that an accelerometer on a body would measure, in the axes of the track, m/s^2 and
+    /// rad/s^2. It is the force divided by the inertia and does not include
+    /// [`track_acceleration`](Self::track_acceleration).
     ///
     /// # Panics
     /// If the index of the body is out of range.
@@ -165,7 +166,7 @@ impl VehicleState {
         &self.stop_forces_n
     }
 
-    /// Replaces the force of a damper by an external force from the next tick on; `None` returns to the damper's own
+    /// Replaces the force of a damper with an external force from the next tick on; `None` returns to the damper's own
     /// model.
     ///
     /// An external force computed from the displacement of this tick therefore acts one tick late.

@@ -81,7 +81,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             }
         }
         self.act(simd, state, track, distance, &mut forces);
-        // Impacts last longer than two steps, so two steps share their factors.
+        // Impacts last longer than two steps, so two consecutive steps share one factorisation.
         if substep % 2 == 1 {
             self.factorise(simd, state);
         }

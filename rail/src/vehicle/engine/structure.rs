@@ -88,7 +88,7 @@ impl Structure {
         let mut orders = Vec::with_capacity(bodies);
         while !left.is_empty() {
             let degree = |body: &usize| left.iter().filter(|other| coupled[*body][**other]).count();
-            // The last of several minima, so that wheelsets, which have the highest indices, come first.
+            // Takes the last of several minima, so that wheelsets, which have the highest indices, come first.
             let next = (0..left.len())
                 .rev()
                 .min_by_key(|index| degree(&left[*index]));

@@ -37,7 +37,8 @@ pub(super) struct ContactBlocks {
 /// Adds the contact of a wheelset at `speed_m_per_s` to its blocks.
 ///
 /// - Normal direction: the stiffness `3/2 N/penetration` of Hertz and the damping `beta N` of Hunt and Crossley.
-/// - Both tangential directions: the damping `f/speed`, where `f` is force over creepage, limited to `4 G a b`.
+/// - Both tangential directions: the damping `f/speed`, where `f` is the force divided by the creepage, limited to
+///   `4 G a b`.
 ///
 /// An estimate is sufficient if it keeps the correction stable and small: the next step corrects the remaining force
 /// error.
@@ -90,7 +91,7 @@ pub(super) fn add_contact<S: Simd>(
     }
 }
 
-/// Force over creepage, N.
+/// Force divided by creepage, N.
 #[inline(always)]
 fn creep_coefficient_n(patch: &PatchForces, shear_modulus_pa: f64) -> f64 {
     let [a, b] = patch.semi_axes_m;
@@ -109,7 +110,7 @@ fn creep_coefficient_n(patch: &PatchForces, shear_modulus_pa: f64) -> f64 {
     }
 }
 
-/// Length of a vector whose squared components do not overflow and may underflow.
+/// Length of a vector. The squares of its components do not overflow, but may underflow.
 #[inline(always)]
 fn magnitude(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()

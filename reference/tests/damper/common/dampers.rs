@@ -31,7 +31,7 @@ pub fn paper() -> DamperParameters {
     DamperParameters::new(Element::Physical(paper_hydraulics()), Mount::new(6e6))
 }
 
-/// The valves of the paper with 1 mm of clearance.
+/// The published damper with 1 mm of clearance.
 pub fn paper_with_clearance() -> DamperParameters {
     let mut parameters = paper();
     parameters.mount = Mount::new(8e6).clearance_m(1e-3);

@@ -1,5 +1,5 @@
 //! Dampers, motions and the second solver shared by the reference tests.
-#![allow(dead_code)] // each test uses its part
+#![allow(dead_code)] // each test uses only a part
 
 pub mod dampers;
 pub mod motions;

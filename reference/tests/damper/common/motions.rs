@@ -13,8 +13,8 @@ pub fn sampled(rate: f64, duration: f64, displacement: impl Fn(f64) -> f64) -> M
     (times, values)
 }
 
-/// Sum of harmonics between 0.3 and 20 Hz with phases from a fixed sequence, velocity about
-/// 0.04 m/s effective.
+/// Sum of harmonics between 0.3 and 20 Hz with phases from a fixed sequence; the RMS velocity is about
+/// 0.04 m/s.
 pub fn ride(rate: f64, duration: f64) -> Motion {
     let mut seed = 0x2545_f491_4f6c_dd1d_u64;
     let mut uniform = || {
@@ -42,7 +42,7 @@ pub fn ride(rate: f64, duration: f64) -> Motion {
     })
 }
 
-/// 0.8 mm from 0.2 to 25 Hz, exponential.
+/// Exponential sweep of 0.8 mm from 0.2 to 25 Hz.
 pub fn sweep(rate: f64, duration: f64) -> Motion {
     let (low, high) = (0.2, 25.0_f64);
     let growth = (high / low).ln() / duration;

@@ -7,8 +7,8 @@ use differential_equations::prelude::*;
 
 type State = [f64; STATES];
 
-/// Requested tolerance. The method keeps an error estimate of lower order than its result below `0.1 tol^(2/3)` per
-/// step.
+/// Requested tolerance. Per step, the method keeps its error estimate, which is of lower order than its result, below
+/// `0.1 tol^(2/3)`.
 const TOLERANCE: f64 = 1e-14;
 
 /// Remaining error of the Newton iteration, relative to the tolerance.
@@ -33,9 +33,10 @@ impl ODE<f64, State> for Equations<'_> {
     }
 }
 
-/// Radau5, created for each step: if reused, it keeps the factorisation of another step size, and its error estimate is
-/// wrong. A step passes an event, which is then located by Newton's method on the length of that step; dense output is
-/// not used.
+/// Radau5. Each step uses a new solver, because a reused one keeps the factorisation of another step size, which makes
+/// its error estimate wrong.
+///
+/// A step may pass an event; Newton's method on the length of that step then locates it. Dense output is not used.
 pub struct Radau {
     steps: usize,
     natural_step: f64,
@@ -105,7 +106,7 @@ impl Integrator for Radau {
             before = after;
         };
         let natural_step = self.natural_step;
-        // The first event, by the fraction of the step at which it is reached.
+        // The first event is the one that is reached at the smallest fraction of the step.
         let (from, to) = (segment.events(&before), segment.events(&passed));
         let fraction = |i: usize| from[i] / (from[i] - to[i]);
         let mut event = usize::from(to[0] > 0.0 || (to[1] <= 0.0 && fraction(1) < fraction(0)));

@@ -1,4 +1,4 @@
-//! Axisymmetric pressure: uniform pressure against the closed form, other profiles against statics.
+//! Axisymmetric pressure: compares uniform pressure with the closed form, and other profiles with statics.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use super::{RADII_M, stack, stack_of};
 
 const NU: f64 = 0.3;
 
-/// Relative error of the edge deflection with respect to `Cw P/h^3`.
+/// Error of the edge deflection relative to `Cw P/h^3`.
 fn edge_error(clamp_m: f64, free_m: f64, elements: usize) -> f64 {
     let stack = stack(clamp_m, free_m, &[0.3e-3]);
     let resolution = Resolution {
@@ -20,8 +20,8 @@ fn edge_error(clamp_m: f64, free_m: f64, elements: usize) -> f64 {
     stack.correction_factor(&whole, resolution).unwrap() - 1.0
 }
 
-/// Agrees with `Cw(r)` of the core at every radius, within 1e-4 of the edge value with eight elements and 1e-7 with the
-/// default number.
+/// The deflection agrees with `Cw(r)` of the core at every radius, within 1e-4 of the edge value with eight elements
+/// and within 1e-7 with the default number.
 #[test]
 fn uniform_pressure_gives_the_closed_form_at_every_radius() {
     for (clamp, free) in RADII_M {
@@ -159,7 +159,7 @@ fn rings_and_decays_agree_with_statics() {
         let found = stack.mean_edge_lift_m_per_pa(&area, Resolution::default());
         let expected = edge_by_statics(clamp, free, |r| profile.at(r)) / stiffness;
         let error = found.unwrap() / expected - 1.0;
-        // A jump of pressure is resolved to within half a step of the rule.
+        // The rule resolves a jump of pressure to within half a step.
         assert!(error.abs() < 2e-4, "{profile:?}: {error:e}");
     }
 }
@@ -199,8 +199,8 @@ fn round_bosses_agree_with_statics_of_their_mean() {
     assert!(error.abs() < 1e-4, "{error:e}");
 }
 
-/// Sliding discs add their stiffnesses, bonded discs their thicknesses; the stress follows from the thickness that
-/// bends.
+/// The stiffnesses of sliding discs add up, as do the thicknesses of bonded discs; the stress follows from the
+/// thickness that bends.
 #[test]
 fn stacking_determines_stiffness_and_stress() {
     let (clamp, free) = RADII_M[1];

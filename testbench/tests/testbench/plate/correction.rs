@@ -11,7 +11,9 @@ use super::paper_stacks;
 /// Ce of Tables 2 to 4.
 const PUBLISHED: [f64; 3] = [0.2169, 0.2000, 0.8265];
 
-/// Checks the radii stated in docs/shims.md; statics confirms the factor of each pressure.
+/// Checks the fitted radii stated in docs/shims.md.
+///
+/// Each fitted pressure must have the published factor, both by plate theory and by statics.
 #[test]
 fn fitted_decays_have_the_factor_of_the_foot_valve() {
     let [_, _, foot] = paper_stacks();
@@ -43,7 +45,7 @@ fn fitted_decays_have_the_factor_of_the_foot_valve() {
 }
 
 /// Both piston valves have discs of the same radii. Thin plates under the same pressure area then have the same factor,
-/// so the two published factors require two different areas.
+/// so the two published factors require two different pressure areas.
 #[test]
 fn the_factor_does_not_depend_on_thickness() {
     let [extension, compression, _] = paper_stacks();

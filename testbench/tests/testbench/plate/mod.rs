@@ -1,4 +1,4 @@
-//! Shim stacks as plates: against closed forms, against statics, and against CalculiX.
+//! Shim stacks as plates: compares them with closed forms, with statics and with CalculiX.
 
 mod axisymmetric;
 mod calculix;

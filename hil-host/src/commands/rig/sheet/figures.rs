@@ -66,7 +66,7 @@ pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
                 let of_index = tested.test.limits.iter().filter(|l| l.index == index);
                 of_index.map(|limit| {
                     let (velocity, force) = at(tested, index);
-                    // Without a limit on one side, the bar ends at the point.
+                    // On a side without a limit, the bar ends at the point.
                     let end = |end: Option<f64>| end.map_or(force, |end| end * 1e-3);
                     (velocity, end(limit.min), end(limit.max))
                 })
@@ -85,7 +85,8 @@ pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
     figure(panels.into())
 }
 
-/// Draws maximum forces over oil temperature for each motion tested at several temperatures; `None` if there is none.
+/// Draws maximum forces over oil temperature for each motion tested at several temperatures; `None` if there is no such
+/// motion.
 pub(super) fn over_temperature(tested: &[Tested<'_>]) -> Option<Figure> {
     let mut motions: Vec<(Harmonic, Vec<&Tested<'_>>)> = Vec::new();
     for tested in tested {

@@ -15,10 +15,10 @@ use dashpot_testbench::bench_sheet::Tested;
 /// A figure cannot be drawn.
 pub(super) fn write(report: &Report, tested: &[Tested<'_>]) -> Outcome<String> {
     let loops = html! {
-        "Computed force over displacement (first) and velocity (second), one periodic cycle of every test."
+        "Computed force against displacement (first) and velocity (second), one periodic cycle of every test."
     };
     let over_speed = html! {
-        "Maximum forces of every test over its peak velocity."
+        "Maximum forces of every test against its peak velocity."
         @if report.limits > 0 {
             " Bars show the range allowed by the limits of the test; without a limit on one side, the bar ends at the "
             "point."
@@ -41,10 +41,10 @@ pub(super) fn write(report: &Report, tested: &[Tested<'_>]) -> Outcome<String> {
         (tests(&report.tests))
         h2 { "Loops" }
         (figure(&figures::loops_of(tested), &loops)?)
-        h2 { "Forces over velocity" }
+        h2 { "Forces against velocity" }
         (figure(&figures::over_speed(tested), &over_speed)?)
         @if let Some(over_temperature) = &over_temperature {
-            h2 { "Forces over temperature" }
+            h2 { "Forces against temperature" }
             (figure(over_temperature, &html! {
                 "Maximum forces of each motion that is tested at several temperatures."
             })?)

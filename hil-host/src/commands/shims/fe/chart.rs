@@ -1,4 +1,5 @@
-//! Chart of the correction factor Ce over the geometry of the pressure area, which the source paper does not give.
+//! Chart of the correction factor Ce over the geometry of the pressure area. The source paper does not give this
+//! geometry.
 
 use plotters::prelude::SeriesLabelPosition;
 
@@ -24,7 +25,7 @@ pub(super) fn chart(solved: &Solved) -> Outcome<[Panel; 2]> {
     })
 }
 
-/// Horizontal line at the valve's Ce.
+/// Returns a horizontal line at the valve's Ce.
 fn target(solved: &Solved, [from, to]: [f64; 2]) -> Curve {
     let factor = solved.factor;
     let name = format!("Ce of the damper: {factor}");
@@ -39,7 +40,7 @@ fn factor(stack: &Stack, profile: Profile) -> Result<f64, PlateError> {
     stack.correction_factor(&PressureArea::Ring(profile), Resolution::default())
 }
 
-/// Curves of Ce, one per decay exponent.
+/// Returns curves of Ce, one per decay exponent.
 ///
 /// `profile_at` takes a fraction of the width and an exponent, and returns an abscissa and a profile.
 fn decays(solved: &Solved, profile_at: impl Fn(f64, f64) -> (f64, Profile)) -> Outcome<Vec<Curve>> {
@@ -60,7 +61,7 @@ fn decays(solved: &Solved, profile_at: impl Fn(f64, f64) -> (f64, Profile)) -> O
     Ok(curves)
 }
 
-/// Full pressure from the clamp to a radius, then decay to zero at the edge.
+/// Draws Ce for a pressure that is full from the clamp to a radius and then decays to zero at the edge.
 fn outer_decay(solved: &Solved) -> Outcome<Panel> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let mut curves = decays(solved, |part, exponent| {
@@ -76,7 +77,8 @@ fn outer_decay(solved: &Solved) -> Outcome<Panel> {
     Ok(factor_panel(solved, "full pressure up to, mm", curves))
 }
 
-/// Full pressure in the middle, decaying over the same width to zero at clamp and edge.
+/// Draws Ce for a pressure that is full in the middle and decays over equal widths to zero at the clamp and at the
+/// edge.
 fn both_decays(solved: &Solved) -> Outcome<Panel> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let widest = 0.5 * (free - clamp);
@@ -97,7 +99,7 @@ fn both_decays(solved: &Solved) -> Outcome<Panel> {
     })
 }
 
-/// Sector bosses: Ce is their share of the circumference times the Ce of the ring, whatever their number.
+/// Draws Ce for any number of sector bosses: their share of the circumference times the Ce of the ring.
 fn sectors(solved: &Solved) -> Outcome<Panel> {
     let mut curves = Vec::new();
     for (part, colour) in WIDTHS.into_iter().zip(ramp(WIDTHS.len())) {
@@ -115,7 +117,7 @@ fn sectors(solved: &Solved) -> Outcome<Panel> {
     ))
 }
 
-/// Six round bosses: radius of a boss that gives the valve's Ce.
+/// Draws, for six round bosses, the boss radius that gives the valve's Ce.
 fn round_bosses(solved: &Solved) -> Panel {
     let mut shares: Vec<f64> = Vec::new();
     let found = solved.fits.iter().filter_map(|fit| match *fit {

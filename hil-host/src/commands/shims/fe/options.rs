@@ -57,7 +57,7 @@ pub struct PlateArguments {
     /// Valve whose pressure area the following options describe [default: areas of an assumed kind, fitted to Ce].
     #[arg(long, requires = "fe", value_enum)]
     pub valve: Option<ValveName>,
-    /// Inner and outer radius of the full pressure, m [default: clamp and edge].
+    /// Inner and outer radius of the area under full pressure, m [default: clamp and edge].
     #[arg(
         long,
         value_name = "FROM,TO",

@@ -18,7 +18,7 @@ use dashpot_testbench::plate::Bending;
 /// Number of segments per curve.
 const PARTS: u32 = 160;
 
-/// Returns file name and SVG text of each plot.
+/// Returns the file name and the SVG text of each plot.
 pub(in crate::commands::shims) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'static str, String)>> {
     let row = |panels: Vec<Panel>| sheet(Layout::row(panels.len(), 480, 440), &panels);
     let charts = solved.iter().map(chart).collect::<Outcome<Vec<_>>>()?;
@@ -47,7 +47,7 @@ pub(in crate::commands::shims) fn draw(solved: &[Solved]) -> Outcome<Vec<(&'stat
     ])
 }
 
-/// Curves of a value over the radius: under uniform pressure, over a boss and between two bosses.
+/// Returns curves of a value over the radius: under uniform pressure, over a boss and between two bosses.
 fn over_radius(solved: &Solved, value: impl Fn(&Bending, f64, f64) -> f64) -> Vec<Curve> {
     let (clamp, free) = (solved.stack.clamp_radius_m(), solved.stack.free_radius_m());
     let curve = |name: &str, colour: RGBColor, bending: &Bending, angle: f64| {

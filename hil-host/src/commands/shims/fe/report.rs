@@ -138,7 +138,7 @@ pub(in crate::commands::shims) fn print(
 ) -> io::Result<()> {
     writeln!(
         out,
-        "\nshims as thin plates, from the shims in the damper file (a compliance in the file is not used)"
+        "\nshims as thin plates, computed from the shims in the damper file (a compliance in the file is not used)"
     )?;
     for valve in &report.valves {
         print_valve(out, valve, report.allowable_stress_pa)?;
@@ -177,9 +177,9 @@ fn print_valve(
             let source = if valve.pressure_area_is_given {
                 "given"
             } else if valve.damper_correction_factor == 1.0 {
-                "Ce of the file is 1"
+                "the file has Ce = 1"
             } else {
-                "assumed kind, fitted to Ce"
+                "of an assumed kind, fitted to the Ce of the file"
             };
             writeln!(out, "  pressure: {} ({source})", described(area))?;
         }

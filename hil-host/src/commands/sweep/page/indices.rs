@@ -128,7 +128,7 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
     }
 }
 
-/// Draws pale curves of the individual seeds, which show their spread and that they move together.
+/// Draws pale curves of the individual seeds, which show how far the seeds spread and that they change together.
 fn seed_curves(drawn: &Drawn<'_>, sweep: &Sweep, index: &Index, colour: RGBColor) -> Vec<Curve> {
     let axis = &sweep.axes[0];
     let mut seeds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); sweep.seeds.len()];

@@ -26,7 +26,7 @@ struct Drawn<'a> {
     shared: Shared,
 }
 
-/// Checks the signals and dampers of a study's figures before hours of runs.
+/// Checks the signals and dampers of a study's figures, so that errors appear before hours of runs.
 ///
 /// # Errors
 /// A signal or damper does not exist, or a value is invalid.
@@ -163,7 +163,7 @@ impl Drawn<'_> {
         numbers.map(observed).collect()
     }
 
-    /// Returns the existing values only.
+    /// Returns the observed values of an index at a point of a sweep, without the seeds that have none.
     fn values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<f64> {
         let seed_values = self.seed_values(sweep, point, index);
         seed_values.into_iter().flatten().collect()

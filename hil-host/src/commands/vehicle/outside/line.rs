@@ -17,8 +17,8 @@ use dashpot_vehicle_run::Run;
 /// Number of slots of the in-process target: as many as a target may have.
 const DESK_SLOTS: usize = MAX_DAMPERS;
 
-/// Tolerance for the ratio of the steps of case and target to a whole number: a target reports its step in single
-/// precision.
+/// Allowed deviation from a whole number for the ratio between the steps of case and target. The ratio is not exact,
+/// because a target reports its step in single precision.
 const SAME_STEP: f64 = 1e-6;
 
 /// A target and its dampers.
@@ -159,7 +159,7 @@ fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
     Ok(parameters.build(step_s)?)
 }
 
-/// Reports an unusable target with the option `--outside`.
+/// Reports that a target given by `--outside` cannot be used.
 fn refused(name: &str, error: &SessionError) -> Failure {
     match error {
         SessionError::TooManyDampers { .. } => {

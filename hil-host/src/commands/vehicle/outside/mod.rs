@@ -20,9 +20,9 @@ use dashpot_vehicle_run::{Ending, Run, VehicleRunError, outside_index};
 /// External dampers and the options of their links.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct OutsideArguments {
-    /// Take the force of one damper from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE), into which
-    /// its parameters are loaded, or from a recording (CSV, MDF4 or Parquet) with the channels time_s and force_n. May
-    /// be repeated.
+    /// Take the force of one damper from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE) or from a
+    /// recording (CSV, MDF4 or Parquet) with the channels time_s and force_n. A target is loaded with the damper's
+    /// parameters. May be repeated.
     #[arg(
         long = "outside",
         value_name = "DAMPER=LINK|FILE",
@@ -139,7 +139,7 @@ impl OutsideArguments {
             outside.beside = Some(InsideComparison::new(run, case, behind.clone()));
         }
         for damper in behind {
-            // No force until the first response.
+            // The force is zero until the first response.
             set_force_n(run, damper, 0.0)?;
         }
         Ok(())
@@ -177,7 +177,7 @@ impl Outside {
         (&mut self.lines, &mut self.beside)
     }
 
-    /// Returns the report and the forces in both runs; sets `ending` if a target is lost while closing.
+    /// Returns the report and the forces in both runs; sets `ending` if a target is lost while its session is closed.
     ///
     /// # Errors
     /// The run with internal dampers fails.

@@ -30,7 +30,7 @@ pub(in crate::commands::vehicle) struct OutsideReport {
 #[derive(Debug, Clone, Serialize)]
 pub(in crate::commands::vehicle) struct OutsideDamper {
     pub(in crate::commands::vehicle) damper: String,
-    /// Link or file.
+    /// Source of the force: a link or a file.
     pub(in crate::commands::vehicle) source: String,
     pub(in crate::commands::vehicle) is_recorded: bool,
     /// Number of the last line of the file, if it has no line end.
@@ -70,7 +70,8 @@ impl OutsideReport {
         }
     }
 
-    /// Records which files of recorded forces, in the order of their dampers, end without a line end.
+    /// Records which files of recorded forces have no line end on their last line; `histories` is in the order of the
+    /// dampers.
     pub(super) fn add_unended<'a>(&mut self, histories: impl Iterator<Item = &'a ForceHistory>) {
         let recorded = self.dampers.iter_mut().filter(|damper| damper.is_recorded);
         for (damper, history) in recorded.zip(histories) {

@@ -23,7 +23,7 @@ pub enum Geometry {
     Nonlinear,
 }
 
-/// Rows of values by heading; set and time at the end of the headings are left out.
+/// Rows of values by heading, without the set and the time at the end of each heading.
 pub type Printed = BTreeMap<String, Vec<Vec<f64>>>;
 
 impl Deck {

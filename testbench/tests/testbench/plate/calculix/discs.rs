@@ -67,7 +67,7 @@ pub fn edge_deflections(
     printed["displacements"].iter().map(|row| row[2]).collect()
 }
 
-/// Node numbers by half elements outwards and upwards; 0 at element centres, which have no node.
+/// Node numbers, indexed by half elements outwards and upwards; 0 at element centres, which have no node.
 type Grid = Vec<Vec<u32>>;
 
 /// Creates the nodes of a disc; a bonded disc shares the top nodes of the disc below.

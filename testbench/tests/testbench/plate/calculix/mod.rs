@@ -18,7 +18,7 @@ use super::stack_of;
 const PISTON: [f64; 2] = [16.0, 29.0];
 const FOOT: [f64; 2] = [5.0, 11.0];
 
-/// Returns the edge deflection of each disc by CalculiX over ours, under uniform pressure (MPa).
+/// Returns the edge deflection of each disc by CalculiX divided by ours, under uniform pressure (MPa).
 fn over_ours(
     radii: [f64; 2],
     discs_mm: &[f64],
@@ -50,7 +50,7 @@ fn within(ratios: &[f64], fraction: f64) {
 
 #[test]
 fn a_single_disc_is_within_half_a_percent() {
-    if !have(&[CALCULIX], "shims beside CalculiX: one disc") {
+    if !have(&[CALCULIX], "shims compared with CalculiX: one disc") {
         return;
     }
     for (radii, thickness) in [(PISTON, 0.305), (PISTON, 0.410), (FOOT, 0.305)] {
@@ -68,7 +68,7 @@ fn a_single_disc_is_within_half_a_percent() {
 /// All discs of a frictionless stack deflect according to `sum h^3`, including those of the piston extension valve.
 #[test]
 fn sliding_stacks_are_within_half_a_percent() {
-    if !have(&[CALCULIX], "shims beside CalculiX: sliding stacks") {
+    if !have(&[CALCULIX], "shims compared with CalculiX: sliding stacks") {
         return;
     }
     for discs in [
@@ -83,7 +83,7 @@ fn sliding_stacks_are_within_half_a_percent() {
 
 #[test]
 fn a_thin_bonded_stack_is_within_half_a_percent() {
-    if !have(&[CALCULIX], "shims beside CalculiX: bonded stacks") {
+    if !have(&[CALCULIX], "shims compared with CalculiX: bonded stacks") {
         return;
     }
     let ratios = over_ours(
@@ -100,7 +100,10 @@ fn a_thin_bonded_stack_is_within_half_a_percent() {
 /// tension in the middle plane at large deflections.
 #[test]
 fn plate_theory_fails_for_thick_discs_and_large_deflections() {
-    if !have(&[CALCULIX], "shims beside CalculiX: limits of plate theory") {
+    if !have(
+        &[CALCULIX],
+        "shims compared with CalculiX: limits of plate theory",
+    ) {
         return;
     }
     let discs = [0.405, 0.405, 0.405, 0.410, 0.410, 0.410, 0.410];
@@ -109,7 +112,7 @@ fn plate_theory_fails_for_thick_discs_and_large_deflections() {
     let thickness = 0.305;
     let stack = stack_of(16e-3, 29e-3, &[thickness * 1e-3], Stacking::Sliding);
     let mm_per_mpa = stack.uniform_edge_lift_m_per_pa() * 1e9;
-    // Lift by plate theory over the thickness, and the fraction of it that CalculiX finds.
+    // Lift by plate theory divided by the thickness, and the fraction of this lift that CalculiX finds.
     for (lift, left) in [(0.25, 0.993), (0.5, 0.970), (1.0, 0.908)] {
         let pressure_mpa = lift * thickness / mm_per_mpa;
         let bent = over_ours(
@@ -125,7 +128,7 @@ fn plate_theory_fails_for_thick_discs_and_large_deflections() {
 
 #[test]
 fn bosses_are_within_half_a_percent_and_their_stress_within_one() {
-    if !have(&[CALCULIX], "shims beside CalculiX: bosses") {
+    if !have(&[CALCULIX], "shims compared with CalculiX: bosses") {
         return;
     }
     let (thickness, pressure_mpa) = (0.305, 1e-3);

@@ -7,11 +7,11 @@ use super::deck::{Deck, Geometry};
 /// Number of elements outwards and around the quarter.
 const OUT: usize = 30;
 const ROUND: usize = 60;
-/// Nodes that refine the first element next to the clamp, as fractions of its length: a solid has a boundary layer
-/// there about as wide as the disc is thick.
+/// Nodes that refine the first element next to the clamp, as fractions of its length: there a solid has a boundary
+/// layer about as wide as the thickness of the disc.
 const LAYER: [f64; 5] = [0.0, 0.1, 0.2, 0.4, 0.7];
 
-/// Von Mises equivalent (MPa) of the bending stress at a point within the disc.
+/// Von Mises equivalent stress (MPa) due to bending at a point within the disc.
 pub struct Point {
     pub radius: f64,
     pub angle: f64,
