@@ -36,8 +36,10 @@ Commands:
   search [--evaluations N] [--seed S]
                          search for the damper and motion that come closest to the accuracy promise of docs/numerics.md,
                          with 4000 motions and seed 1 by default; write the worst case to target/search
-  mutants [NAME]...      change the code that must not break and list the changes that no test notices (hours; installs
+  mutants [NAME]... [OPTION]...
+                         change the code that must not break and list the changes that no test notices (hours; installs
                          cargo-mutants). Names: step, health, engine, track, indices, recordings; all by default.
+                         Options are those of cargo-mutants, such as --jobs 2, or --shard 0/8 for an eighth.
   kalker-book            compute the tables of the recommended creep law from exact theory (about fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md and write it (about six minutes)
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
@@ -119,13 +121,17 @@ fn main() -> ExitCode {
         ["ci"] => ci(),
         ["timings"] => timings(Build::Command),
         ["timings", "--tests"] => timings(Build::Tests),
-        ["mutants", ref names @ ..] => match mutants::select(names) {
-            Ok(_) => mutants::mutants(names),
-            Err(message) => {
-                eprintln!("usage error: {message}");
-                return ExitCode::from(2);
+        ["mutants", ref words @ ..] => {
+            let options = words.iter().position(|word| word.starts_with('-'));
+            let (names, options) = words.split_at(options.unwrap_or(words.len()));
+            match mutants::select(names) {
+                Ok(_) => mutants::mutants(names, options),
+                Err(message) => {
+                    eprintln!("usage error: {message}");
+                    return ExitCode::from(2);
+                }
             }
-        },
+        }
         _ => {
             eprintln!("usage error: `{}`\n\n{HELP}", words.join(" "));
             return ExitCode::from(2);

@@ -58,13 +58,10 @@ impl Factor {
         }
     }
 
-    /// Sets the steady state for a constant input and returns its output.
-    fn settle(&mut self, value: f64) -> f64 {
-        let ([_, b1, b2], [a1, a2]) = (self.numerator, self.denominator);
-        let out = self.numerator.iter().sum::<f64>() / (1.0 + a1 + a2) * value;
-        let last = b2 * value - a2 * out;
-        self.state = [b1 * value - a1 * out + last, last];
-        out
+    /// Sets the steady state for a constant input of a high-pass, whose output is then 0.
+    fn settle(&mut self, value: f64) {
+        let [_, b1, b2] = self.numerator;
+        self.state = [b1 * value + b2 * value, b2 * value];
     }
 
     fn next(&mut self, value: f64) -> f64 {
@@ -104,11 +101,11 @@ impl WeightingFilter {
     pub fn next(&mut self, value: f64) -> f64 {
         if !self.has_started {
             self.has_started = true;
-            let mut out = value;
-            for factor in &mut self.factors {
-                out = factor.settle(out);
+            // The first factor is the high-pass of the band, so the others rest at 0.
+            if let Some(high_pass) = self.factors.first_mut() {
+                high_pass.settle(value);
             }
-            return out;
+            return 0.0;
         }
         let factors = self.factors.iter_mut();
         factors.fold(value, |value, factor| factor.next(value))

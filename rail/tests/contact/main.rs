@@ -3,7 +3,6 @@
 mod book;
 mod cache;
 mod common;
-mod conicity;
 mod creep;
 mod derivatives;
 mod fastsim;

@@ -14,12 +14,21 @@ fn a_cone_has_its_own_conicity_at_every_amplitude() {
         assert!((conicity - 0.05).abs() < 1e-6, "{conicity}");
     }
     assert_eq!(cone.equivalent_conicity(10.2e-3, RADIUS), None);
+    assert_eq!(
+        (cone.lateral_m().len(), cone.difference_m().len()),
+        (401, 401)
+    );
+    assert_eq!(
+        (cone.lateral_m()[0], cone.difference_m()[0]),
+        (-10e-3, -1e-3)
+    );
 }
 
 #[test]
 fn a_shifted_cone_oscillates_about_its_own_equilibrium() {
-    let cone = RollingRadiusDifference::from_fn(10e-3, 400, |y| 2.0 * 0.1 * (y - 1.3e-3)).unwrap();
-    assert!((cone.rolling_line_m().unwrap() - 1.3e-3).abs() < 1e-12);
+    // The equilibrium lies between two samples.
+    let cone = RollingRadiusDifference::from_fn(10e-3, 400, |y| 2.0 * 0.1 * (y - 1.31e-3)).unwrap();
+    assert!((cone.rolling_line_m().unwrap() - 1.31e-3).abs() < 1e-12);
     assert!((cone.equivalent_conicity(3e-3, RADIUS).unwrap() - 0.1).abs() < 1e-6);
 }
 
