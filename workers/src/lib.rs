@@ -11,7 +11,7 @@ pub fn threads() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Runs `work` on the items with a pool of threads and passes each result to `on_result` as soon as it is complete.
+/// Runs `work` on the items with a pool of threads. Passes each completed result to `on_result` at once.
 /// Items are started in order. The calling thread calls `on_result`, with the index of the item and its result.
 ///
 /// After `on_result` returns an error, no further item is started, and `is_cancelled`, the closure that `work`

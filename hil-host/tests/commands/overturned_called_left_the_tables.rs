@@ -1,5 +1,5 @@
-//! Regression: the locomotive in a curve of 200 m at 130 km/h was reported as having left the tables of the contact when it
-//! overturned.
+//! Regression: the locomotive in a curve of 200 m at 130 km/h was reported as having left the tables of the contact
+//! when it overturned.
 
 use std::fs;
 

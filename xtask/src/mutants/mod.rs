@@ -49,14 +49,16 @@ fn run(area: &Area, options: &[&str]) -> Outcome {
             fs::read_to_string(folder.join("mutants.out").join(name))
                 .map_err(|_| format!("{}: {error}", area.name))
         };
-        let survivors: Vec<String> = [read("missed.txt")?, read("timeout.txt")?]
-            .iter()
-            .flat_map(|text| text.lines().map(str::to_owned))
-            .collect();
-        // A failure without survivors is one of cargo-mutants, such as tests that fail without any change.
-        if survivors.is_empty() {
-            return Err(format!("{}: {error}", area.name));
+        let (missed, endless) = (read("missed.txt")?, read("timeout.txt")?);
+        // A change that makes a test endless is noticed. A failure without either is one of cargo-mutants, such as
+        // tests that fail without any change.
+        if missed.is_empty() {
+            let noticed = !endless.is_empty();
+            return noticed
+                .then_some(())
+                .ok_or_else(|| format!("{}: {error}", area.name));
         }
+        let survivors = missed.lines().map(str::to_owned).collect();
         changes = Changes::Survivors(survivors);
     }
     match changes {
