@@ -126,7 +126,7 @@ fn a_lost_link_makes_the_outputs_safe_until_run() {
     let reported = rig.text(&["loss-of-link", "--after-ticks", "50", "--output", "zero"]);
     assert_eq!(
         reported,
-        "lost after 50 ticks without a displacement; outputs after that: zero\n"
+        "the link is lost after 50 ticks without a displacement; outputs after that: zero\n"
     );
     let run = ["run", "--displacement-m", "0"];
     let displace = ["displace", "--displacement-m", "0.005"];

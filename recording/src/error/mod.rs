@@ -79,7 +79,7 @@ pub enum RecordingError {
     },
     /// The name of a column is the number of another column.
     #[error(
-        "{quantity}: `{text}` is the name of column #{named} and the number of another column; write #{named} or #{text}"
+        "{quantity}: `{text}` is the name of column #{named} and the number of another; write #{named} or #{text}"
     )]
     NameOrNumber {
         /// Quantity that the column measures.

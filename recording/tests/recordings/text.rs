@@ -235,8 +235,7 @@ fn chosen_options_replace_detected_properties() {
     chosen.text.header = Some(true);
     // pandas names unnamed columns 0, 1, 2 and so on.
     let error = error_of("0,1,2\n1,2,3\n", &chosen);
-    let expected =
-        "time: `1` is the name of column #2 and the number of another column; write #2 or #1";
+    let expected = "time: `1` is the name of column #2 and the number of another; write #2 or #1";
     assert!(error.contains(expected), "{error}");
     let mut chosen = channels(Choice("#1", "s"), Choice("#2", "m"), Choice("#3", "N"));
     chosen.text.header = Some(true);

@@ -15,8 +15,8 @@ pub use areas::{AREAS, Area, Round};
 
 /// Runs the areas with these names, or all areas without names.
 ///
-/// This takes hours. The results are in `target/mutants/NAME`. Options are those of cargo-mutants, such as `--jobs 2` or
-/// `--shard 0/8`.
+/// This takes hours. The results are in `target/mutants/NAME`. Options are those of cargo-mutants, such as `--jobs 2`
+/// or `--shard 0/8`.
 ///
 /// # Errors
 /// An area is unknown, cargo-mutants cannot be installed or run, or a change survived all rounds.

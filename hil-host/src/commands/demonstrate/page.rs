@@ -46,7 +46,8 @@ pub(super) fn write(shown: &Demonstration) -> Outcome<String> {
                 b { "Two errata of the source paper." }
                 " " (description::erratum(&shown.benches)?)
                 " Second, the paper's equations with those tables do not reproduce its Table 5. The equations are \
-                 progressive in velocity, but the published energy per cycle requires a digressive curve. The " b { "paper" }
+                 progressive in velocity, but the published energy per cycle requires a digressive curve. The "
+                b { "paper" }
                 " preset nevertheless follows the paper exactly and is not tuned, hence the difference in the table \
                  above. docs/validation.md gives the details of both errata."
             }
