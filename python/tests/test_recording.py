@@ -62,7 +62,7 @@ class Recordings(Test):
             ("time_s,x\n0,1\n1,2\n", {}, "displacement=NAME"),
             ("0,1\n1,2\n", {}, "header=True or header=False"),
             ("0,1\n1,2\n", {"header": False}, "choose one of 1 to 2 with time, and its unit with time_unit"),
-            ("time_s,x --force\n0,1\n1,2\n", names, "displacement_unit with"),
+            ("time_s,x --force\n0,1\n1,2\n", names, "give it with displacement_unit: "),
             ("time_s,displacement_m\n0,1\n1,\n2,3\n", {}, "use skip_invalid=True to skip rows"),
             ("1;2\n1.5;2,5\n", {"time": "1", "displacement": "2", "time_unit": "s", "displacement_unit": "m",
                                 "header": False}, "decimal_mark="),
