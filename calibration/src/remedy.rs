@@ -81,7 +81,9 @@ impl Remedy {
                 "the damper differs from the start in more parameters than those varied".into()
             }
             Self::OtherDamper { name, .. } => {
-                format!("the start is the wrong kind of damper; `{name}` explains the recordings")
+                format!(
+                    "the starting damper is of the wrong kind; `{name}` explains the recordings"
+                )
             }
             _ => return None,
         })

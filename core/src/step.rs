@@ -103,7 +103,7 @@ fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
         && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
 }
 
-/// Steps if anything is unusual. This is a separate copy of the step, so that the usual step calls no function.
+/// Steps a damper whose input or state is unusual. This separate copy lets the usual step call no function.
 #[cold]
 #[inline(never)]
 fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(

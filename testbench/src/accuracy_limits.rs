@@ -6,7 +6,7 @@ use dashpot_reference::deviation::root_mean_square;
 
 use dashpot_files::Scalar;
 
-/// Maximum NRMSE of the fixed step, for shipped dampers on shipped motions whose relaxation time is above a minimum.
+/// Maximum NRMSE of the fixed step on shipped motions, for shipped dampers whose relaxation time is above a minimum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AccuracyLimits {
     /// Minimum relaxation time (s), see [`relaxation_time_s`].

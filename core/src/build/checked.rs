@@ -71,7 +71,7 @@ impl DamperParameters {
                 let range = &Limits::RANGES.force_n;
                 let min = 2.0 * laws.friction_n;
                 let max = laws.max_force_n().unwrap_or(f64::INFINITY);
-                // The error contains the bound only if the limit violates it.
+                // The error names a bound that depends on other parameters only if the force limit violates it.
                 let bound = if range.contains(limit) && limit <= min {
                     Some(min)
                 } else {

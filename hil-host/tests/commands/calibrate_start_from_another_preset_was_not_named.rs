@@ -16,7 +16,7 @@ fn is_named(preset: &str, vary: &[&str]) {
         dashpot(&line, folder)
     };
     let text = error_of(&run(&line).code(1));
-    let words = "the start is the wrong kind of damper; `in-service` explains the recordings: \
+    let words = "the starting damper is of the wrong kind; `in-service` explains the recordings: \
                  use `--damper in-service";
     assert!(text.contains(words), "{text}");
     assert_eq!(files_in(folder), ["run.csv"]);

@@ -66,7 +66,7 @@ pub(super) struct WheelLengths<T> {
 }
 
 impl WheelLengths<f64> {
-    /// Lengths of the wheels of `geometry`, on a wheelset whose centre is `height_m` above the rails.
+    /// Returns these lengths for the wheels of `geometry` on a wheelset whose centre is `height_m` above the rails.
     pub fn new(geometry: &ContactGeometry, height_m: f64) -> Self {
         let pair = geometry.pair();
         let offset = pair.installation().datum_offset_m();

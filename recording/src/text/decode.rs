@@ -24,8 +24,8 @@ pub(super) fn decoded(stream: Stream, encoding: Option<&'static Encoding>) -> Bo
     }
 }
 
-/// Detects UTF-16 by its byte order mark or its first characters. Without a mark, text is UTF-16 if these characters,
-/// read as UTF-16, are all Latin-1.
+/// Detects UTF-16 by its byte order mark or its first bytes. Without a mark, text is UTF-16 if these bytes, read as
+/// UTF-16, contain only characters of Latin-1.
 fn utf_16(head: &[u8]) -> Option<&'static Encoding> {
     if let Some((encoding, _)) = Encoding::for_bom(head) {
         return Some(encoding).filter(|encoding| [UTF_16LE, UTF_16BE].contains(encoding));

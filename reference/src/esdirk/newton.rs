@@ -17,7 +17,7 @@ const NEW_FACTORS: f64 = 20.0;
 /// convergence.
 const NEW_LENGTH: f64 = 100.0;
 
-/// Exponent that reduces the assumed ratio from one stage to the next.
+/// Exponent that moves the assumed ratio towards 1 from one stage to the next.
 const TRUST: f64 = 0.8;
 
 /// Smallest assumed ratio of error to last change.

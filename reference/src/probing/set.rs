@@ -11,7 +11,7 @@ const OCTAVES: i32 = 11;
 /// The set includes the steady speeds at these forces, given as fractions of the range from the closed force to the
 /// force limit.
 const FORCE_SHARES: [f64; 6] = [0.003, 0.03, 0.15, 0.4, 0.8, 1.0];
-/// Times between two turns of a saw, as fractions of the settling time of the force.
+/// Times between two reversals of a sawtooth motion, as fractions of the settling time of the force.
 const SAW_SHARES: [f64; 3] = [1.0, 0.35, 0.12];
 /// Maximum settling time in ticks. Forces that would take longer to settle are reached by faster motions of the set.
 const MAX_SETTLING_TICKS: usize = 150;

@@ -51,8 +51,8 @@ const MAX_SWEEPS: usize = 1000;
 /// ```
 pub struct RollingContact {
     elements: Vec<Element>,
-    /// Slip at each element that the traction of each element causes: longitudinal slip by longitudinal traction,
-    /// lateral by lateral, longitudinal by lateral.
+    /// Influence coefficients, slip at one element per traction at another: longitudinal slip per longitudinal
+    /// traction, lateral per lateral, longitudinal per lateral.
     slip: [Vec<f64>; 3],
 }
 

@@ -108,7 +108,7 @@ fn two_chambers_balance() {
     }
 }
 
-/// A saw at constant speed alternates between the two static forces.
+/// In a sawtooth motion the force settles at the static force of each direction.
 #[test]
 fn saw_settles_on_each_leg() {
     let velocity = 0.05;

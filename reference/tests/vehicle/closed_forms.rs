@@ -19,8 +19,8 @@ fn body_on_springs() -> VehicleParameters {
     on_track(places.into_iter().map(spring_at).collect())
 }
 
-/// Yaw: the frame rotates at `V/R`, so `psi = -V/(R w) sin w t`. Lateral and roll: a step of `-m V^2/R`; both motions
-/// are coupled by `-m g/2`, because the weight rotates by half the roll.
+/// Yaw: the frame rotates at `V/R`, so `psi = -V/(R w) sin w t`. Lateral and roll: a step of `-m V^2/R`. The weight
+/// couples the two motions by `-m g/2`.
 #[test]
 fn free_oscillations_after_an_abrupt_curve() {
     let vehicle = body_on_springs();

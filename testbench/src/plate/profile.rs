@@ -45,7 +45,7 @@ impl Profile {
     pub(super) fn check(&self, clamp_m: f64, free_m: f64) -> Result<(), PlateError> {
         let ([inner, outer], [start, end]) = (self.full_m, self.ends_m);
         let listed = |radii: [f64; 2]| format!("{} to {} m", radii[0], radii[1]);
-        // The slack absorbs rounding: a radius given as 0.029 equals the free radius.
+        // The slack absorbs rounding, so that a radius given as 0.029 counts as equal to a free radius of 0.029.
         let (clamp, free) = (clamp_m * (1.0 - 1e-12), free_m * (1.0 + 1e-12));
         if !(clamp <= inner && inner < outer && outer <= free) {
             return Err(invalid(

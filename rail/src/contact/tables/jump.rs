@@ -51,8 +51,8 @@ impl Jump {
         (self.jump_n - self.allowed_n) / self.load_n
     }
 
-    /// Returns the largest jump of a turned wheel over `nodes`, which are rising shifts with their patches. `None` if
-    /// the stiffness explains the change between all neighbouring nodes.
+    /// Returns the largest jump of the force of a turned wheel between neighbouring `nodes`: shifts in increasing
+    /// order, each with its patches. `None` if the stiffness explains every change.
     pub(super) fn largest(
         geometry: &ContactGeometry,
         wheel: &TurnedWheel<'_>,

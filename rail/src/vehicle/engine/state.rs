@@ -44,7 +44,7 @@ pub struct VehicleState {
     pub(super) outside_forces_n: Vec<Option<f64>>,
     pub(super) stop_forces_n: Vec<f64>,
     pub(super) is_diverged: bool,
-    /// True after another vehicle was asked to step the state.
+    /// True once the state was passed to the step of a vehicle that it does not belong to.
     pub(super) met_other_vehicle: bool,
     pub(super) work: Work,
 }
