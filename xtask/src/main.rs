@@ -85,17 +85,11 @@ fn main() -> ExitCode {
         ["bench", "--instructions"] => count_instructions(),
         ["c-library", ref options @ ..] => match Options::parse(options) {
             Ok(options) => c_library(&options),
-            Err(message) => {
-                eprintln!("usage error: {message}");
-                return ExitCode::from(2);
-            }
+            Err(message) => return usage_error(&message),
         },
         ["search", ref options @ ..] => match search::Options::parse(options) {
             Ok(options) => search::search(options),
-            Err(message) => {
-                eprintln!("usage error: {message}");
-                return ExitCode::from(2);
-            }
+            Err(message) => return usage_error(&message),
         },
         ["kalker-book"] => cargo(&[
             "run",
@@ -113,8 +107,9 @@ fn main() -> ExitCode {
         ["fuzz", "--seconds", text] => match text.parse() {
             Ok(seconds @ 1..=86_400) => nightly::fuzz(seconds),
             _ => {
-                eprintln!("usage error: --seconds {text}: must be a whole number of 1 to 86400");
-                return ExitCode::from(2);
+                return usage_error(&format!(
+                    "--seconds {text}: must be a whole number of 1 to 86400"
+                ));
             }
         },
         ["slurm"] => slurm::slurm(),
@@ -125,17 +120,11 @@ fn main() -> ExitCode {
             let options = words.iter().position(|word| word.starts_with('-'));
             let (names, options) = words.split_at(options.unwrap_or(words.len()));
             match mutants::select(names) {
-                Ok(_) => mutants::mutants(names, options),
-                Err(message) => {
-                    eprintln!("usage error: {message}");
-                    return ExitCode::from(2);
-                }
+                Ok(areas) => mutants::mutants(&areas, options),
+                Err(message) => return usage_error(&message),
             }
         }
-        _ => {
-            eprintln!("usage error: `{}`\n\n{HELP}", words.join(" "));
-            return ExitCode::from(2);
-        }
+        _ => return usage_error(&format!("`{}`\n\n{HELP}", words.join(" "))),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -155,6 +144,11 @@ fn build_wheel() -> Outcome {
     let path = wheel("dist", &repository().join("target/wheels"))?;
     println!("python3 -m pip install {}", path.display());
     Ok(())
+}
+
+fn usage_error(message: &str) -> ExitCode {
+    eprintln!("usage error: {message}");
+    ExitCode::from(2)
 }
 
 /// Installs the library for the named platforms. Without names, installs it for all platforms whose tools are present

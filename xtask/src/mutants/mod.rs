@@ -13,15 +13,12 @@ mod areas;
 
 pub use areas::{AREAS, Area, Round};
 
-/// Runs the areas with these names, or all areas without names.
-///
-/// This takes hours. The results are in `target/mutants/NAME`. Options are those of cargo-mutants, such as `--jobs 2`
-/// or `--shard 0/8`.
+/// Runs the areas, which takes hours for all of them. The results are in `target/mutants/NAME`. Options are those of
+/// cargo-mutants, such as `--jobs 2` or `--shard 0/8`.
 ///
 /// # Errors
-/// An area is unknown, cargo-mutants cannot be installed or run, or a change survived all rounds.
-pub fn mutants(names: &[&str], options: &[&str]) -> Outcome {
-    let areas = select(names)?;
+/// Cargo-mutants cannot be installed or run, or a change survived all rounds.
+pub fn mutants(areas: &[&Area], options: &[&str]) -> Outcome {
     CARGO_MUTANTS.install()?;
     let failures: Vec<String> = areas
         .iter()
@@ -38,45 +35,26 @@ pub fn mutants(names: &[&str], options: &[&str]) -> Outcome {
 fn run(area: &Area, options: &[&str]) -> Outcome {
     let folder = output(area);
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let mut changes = Changes::All(options);
+    let mut survivors = String::new();
     for round in area.rounds {
-        let arguments = arguments(area, round, &changes);
+        let arguments = arguments(area, round, options, &survivors);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
         let Err(error) = cargo(&arguments) else {
             return Ok(());
         };
+        let failure = format!("{}: {error}", area.name);
         let read = |name| {
-            fs::read_to_string(folder.join("mutants.out").join(name))
-                .map_err(|_| format!("{}: {error}", area.name))
+            fs::read_to_string(folder.join("mutants.out").join(name)).map_err(|_| failure.clone())
         };
-        let (missed, endless) = (read("missed.txt")?, read("timeout.txt")?);
-        // A change that makes a test endless is noticed. A failure without either is one of cargo-mutants, such as
-        // tests that fail without any change.
-        if missed.is_empty() {
-            let noticed = !endless.is_empty();
-            return noticed
-                .then_some(())
-                .ok_or_else(|| format!("{}: {error}", area.name));
+        survivors = read("missed.txt")?;
+        if survivors.is_empty() {
+            // A change that makes a test endless is noticed. A failure without either is one of cargo-mutants, such as
+            // tests that fail without any change.
+            let is_noticed = !read("timeout.txt")?.is_empty();
+            return is_noticed.then_some(()).ok_or(failure);
         }
-        let survivors = missed.lines().map(str::to_owned).collect();
-        changes = Changes::Survivors(survivors);
     }
-    match changes {
-        Changes::All(_) => Ok(()),
-        Changes::Survivors(lines) => Err(format!(
-            "{}: no test noticed\n{}",
-            area.name,
-            lines.join("\n")
-        )),
-    }
-}
-
-/// Changes that a round tries.
-enum Changes<'a> {
-    /// All that the options of cargo-mutants select.
-    All(&'a [&'a str]),
-    /// Those that the last round did not notice, as cargo-mutants prints them.
-    Survivors(Vec<String>),
+    Err(format!("{}: no test noticed\n{survivors}", area.name))
 }
 
 /// Returns the areas with these names, or all areas without names.
@@ -101,37 +79,31 @@ fn output(area: &Area) -> PathBuf {
     repository().join("target/mutants").join(area.name)
 }
 
-/// Returns the arguments of cargo for a round.
-fn arguments(area: &Area, round: &Round, changes: &Changes<'_>) -> Vec<String> {
+/// Returns the arguments of cargo for a round. The first round, without survivors, tries what the options of
+/// cargo-mutants select; a later one tries the `survivors`, one per line as cargo-mutants prints them.
+fn arguments(area: &Area, round: &Round, options: &[&str], survivors: &str) -> Vec<String> {
     let output = output(area);
-    let fixed = [
-        "mutants",
-        "--no-shuffle",
-        "--package",
-        area.package,
-        "--output",
-    ];
-    let mut arguments: Vec<String> = fixed.map(str::to_owned).into();
-    arguments.push(output.to_string_lossy().into_owned());
-    let mut add =
-        |option: &str, value: &str| arguments.extend([option.to_owned(), value.to_owned()]);
-    for file in area.files {
-        add("--file", file);
+    let output = output.to_string_lossy();
+    let mut arguments = vec!["mutants", "--no-shuffle", "--package", area.package];
+    arguments.extend(["--output", &*output]);
+    arguments.extend(area.files.iter().flat_map(|file| ["--file", file]));
+    arguments.extend(
+        round
+            .packages
+            .iter()
+            .flat_map(|package| ["--test-package", package]),
+    );
+    let changes: Vec<String> = survivors
+        .lines()
+        .map(|line| format!("^{}$", escaped(line)))
+        .collect();
+    if changes.is_empty() {
+        arguments.extend(options);
     }
-    for package in round.packages {
-        add("--test-package", package);
-    }
-    match changes {
-        Changes::All(options) => arguments.extend(options.iter().map(|&option| option.to_owned())),
-        Changes::Survivors(lines) => {
-            for line in lines {
-                add("--re", &format!("^{}$", escaped(line)));
-            }
-        }
-    }
-    arguments.push("--".to_owned());
-    arguments.extend(round.tests.iter().map(|&argument| argument.to_owned()));
-    arguments
+    arguments.extend(changes.iter().flat_map(|change| ["--re", change.as_str()]));
+    arguments.push("--");
+    arguments.extend(round.tests);
+    arguments.into_iter().map(str::to_owned).collect()
 }
 
 /// Returns a regular expression that matches this text only.
@@ -147,7 +119,7 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{AREAS, Changes, arguments, select};
+    use super::{AREAS, arguments, select};
     use crate::run::repository;
 
     #[test]
@@ -167,8 +139,7 @@ mod tests {
     #[test]
     fn tests_come_after_the_files_and_packages() {
         let area = &AREAS[2];
-        let all = Changes::All(&["--jobs", "2"]);
-        let line = arguments(area, &area.rounds[0], &all).join(" ");
+        let line = arguments(area, &area.rounds[0], &["--jobs", "2"], "").join(" ");
         let expected = "--file rail/src/vehicle/engine/**/*.rs --test-package dashpot-rail --jobs 2 \
                         -- --lib --test vehicle";
         assert!(line.ends_with(expected), "{line}");
@@ -177,8 +148,8 @@ mod tests {
     #[test]
     fn later_rounds_try_the_survivors() {
         let area = &AREAS[2];
-        let survivors = Changes::Survivors(vec!["a.rs:1:2: replace * with + in f".to_owned()]);
-        let line = arguments(area, &area.rounds[1], &survivors).join(" ");
+        let survivors = "a.rs:1:2: replace * with + in f\n";
+        let line = arguments(area, &area.rounds[1], &["--jobs", "2"], survivors).join(" ");
         assert!(
             line.contains(r"--re ^a\.rs:1:2: replace \* with \+ in f$ --"),
             "{line}"
