@@ -53,8 +53,8 @@ use dashpot_core::CheckedParameters;
 
 use dashpot_files::damper::Keyed;
 
-/// Number of rounds, each of which estimates the scatter and then the parameters. The second round changes both by
-/// about a percent.
+/// Number of rounds. A round estimates the scatter and then the parameters; the second round changes both by about a
+/// percent.
 const ROUNDS: usize = 3;
 
 /// Distance from a bound, as a share of the range, within which a parameter counts as at the bound regardless of its

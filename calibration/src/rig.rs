@@ -24,7 +24,7 @@ const MAX_FORCE_OFFSET_N: f64 = 1e7;
 pub struct HeldRig {
     /// Delay of the recorded force relative to the displacement (s).
     pub skew_s: f64,
-    /// What the force sensor reads at zero force (N).
+    /// Reading of the force sensor at zero force (N).
     pub force_offset_n: f64,
 }
 

@@ -341,7 +341,7 @@ fn recorded(number: usize, [time_s, displacement_m, force_n]: &Samples<'_>) -> O
     )?)
 }
 
-/// Reads tests of which only the indices are known.
+/// Reads tests that give only their indices.
 fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
     let Some(indices) = indices else {
         return Ok(Vec::new());

@@ -42,7 +42,7 @@ impl Contact {
         self.conicity.clone_ref(py)
     }
 
-    /// The force jump because of which contact tables of this pair are refused; `None` without such a jump.
+    /// The force jump that makes contact tables of this pair impossible; `None` without such a jump.
     ///
     /// It is a dictionary with the position (`lateral_m`, `roll_rad`, `yaw_rad`), the load `load_n`, the jump `jump_n`,
     /// and `allowed_n`, the jump that the stiffness of the contact allows.

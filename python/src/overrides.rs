@@ -50,7 +50,7 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(quoted(&text.to_cow()?));
     }
-    // Most numpy numbers are not Python floats, but they convert to them.
+    // Numbers of numpy are usually not Python floats, but they convert to them.
     let is_number = value.is_instance_of::<PyFloat>() || value.is_instance_of::<PyInt>();
     if is_number || value.hasattr("__float__")? {
         let number = match value.extract::<f64>() {

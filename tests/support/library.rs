@@ -65,7 +65,7 @@ struct Sections {
     defined: HashMap<String, usize>,
 }
 
-/// What a reference points to.
+/// The target of a reference.
 enum Target {
     Section(usize),
     /// A symbol of another member, or outside the library.

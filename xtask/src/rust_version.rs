@@ -42,7 +42,7 @@ const PROMISES: [Promise; 2] = [
     },
 ];
 
-/// What to do about a promised version.
+/// The check of a promised version.
 #[derive(Debug, PartialEq, Eq)]
 enum Check {
     /// Nothing, because all other checks already run with this version.

@@ -108,7 +108,7 @@ impl SheetTables {
 }
 
 impl TestTable {
-    /// Computes the motion from amplitude, frequency and peak velocity, of which exactly two are given.
+    /// Computes the motion from two of amplitude, frequency and peak velocity. Exactly two must be given.
     fn motion(&self) -> Result<Harmonic, String> {
         let velocity = self.velocity_m_per_s;
         if let Some(velocity) = velocity.filter(|velocity| velocity.is_nan() || *velocity <= 0.0) {

@@ -1,5 +1,5 @@
-//! Digests. The digest of a study's cases tells its rows from those of other studies; the digest of a row's cells
-//! reveals altered cells.
+//! Digests. The digest of a study's cases distinguishes its rows from those of other studies; the digest of a row's
+//! cells reveals altered cells.
 
 use std::fmt::Debug;
 
