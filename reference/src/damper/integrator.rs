@@ -1,8 +1,8 @@
-//! Integration of segments by this crate's solver, ESDIRK 3/4.
+//! Integration of segments by this crate's solver, ESDIRK of order 5.
 
 use super::segment::{Arrival, Integrator, STATES, Segment};
 use crate::error::ReferenceError;
-use crate::esdirk::{Equations, Esdirk, StepEnd, Tolerances};
+use crate::esdirk::{ESDIRK5, Equations, Esdirk, StepEnd, Tolerances};
 use crate::linear::Matrix;
 
 /// Tolerance per step, relative to the states and to a segment's scales.
@@ -32,7 +32,7 @@ impl Default for EsdirkIntegrator {
             min_length: MIN_STEP,
         };
         Self {
-            solver: Esdirk::new(tolerances, 2),
+            solver: Esdirk::new(&ESDIRK5, tolerances, 2),
             natural_step: FIRST_STEP,
         }
     }
@@ -76,11 +76,12 @@ impl Integrator for EsdirkIntegrator {
                 source: error.into(),
             })?;
             self.natural_step = self.solver.wanted_length();
-            if let StepEnd::Event { time, index } = end {
-                let mut state = [0.0; STATES];
-                self.solver.interpolate(time, &mut state);
+            if let StepEnd::Event { time, index } = end
+                && let StepEnd::Event { index, .. } =
+                    self.solver.end_at_event(&mut equations, (time, index))
+            {
                 return Ok(Arrival {
-                    state,
+                    state: fixed(self.solver.state()),
                     at_bound: index == BOUND,
                 });
             }

@@ -26,7 +26,9 @@ impl Esdirk {
     pub(crate) fn interpolate(&self, time: f64, state: &mut [f64]) {
         let share = (time - self.start_time) / (self.time - self.start_time);
         let left = 1.0 - share;
-        let [first, .., last] = &self.increments;
+        let [first, .., last] = self.increments.as_slice() else {
+            return;
+        };
         for (k, state) in state.iter_mut().enumerate() {
             let (start, end) = (self.start[k], self.state[k]);
             let bend = (left - share) * (end - start) - left * first[k] + share * last[k];

@@ -1,7 +1,6 @@
 //! The iteration matrix `I - gamma h J` of simplified Newton, with factors that are kept over several steps.
 
 use super::interface::Equations;
-use super::tableau::GAMMA;
 use crate::linear::{Factors, Matrix};
 
 /// Maximum age of the Jacobian and of the factors, in steps.
@@ -26,6 +25,7 @@ pub(super) enum Cause {
 
 /// Jacobian and factors, with their ages.
 pub(super) struct IterationMatrix {
+    gamma: f64,
     jacobian: Matrix,
     factors: Factors,
     jacobian_age: u32,
@@ -35,8 +35,9 @@ pub(super) struct IterationMatrix {
 
 impl IterationMatrix {
     /// Builds a matrix for a number of states; [`Self::update`] sets it.
-    pub(super) fn new(size: usize) -> Self {
+    pub(super) fn new(gamma: f64, size: usize) -> Self {
         Self {
+            gamma,
             jacobian: Matrix::zeros(size),
             factors: Factors::new(Matrix::zeros(size)),
             jacobian_age: 0,
@@ -86,7 +87,7 @@ impl IterationMatrix {
         if !is_due {
             return false;
         }
-        let factor = GAMMA * length;
+        let factor = self.gamma * length;
         let jacobian = &self.jacobian;
         self.factors.replace(|matrix| {
             for row in 0..jacobian.size() {

@@ -1,5 +1,5 @@
-//! Adaptive solver of stiff differential equations `dx/dt = f(t, x)` with events: ESDIRK 3/4 with simplified Newton
-//! iterations, cubic Hermite interpolation and located events.
+//! Adaptive solver of stiff differential equations `dx/dt = f(t, x)` with events: ESDIRK methods of order 3 or 5 with
+//! simplified Newton iterations, cubic Hermite interpolation and located events.
 //!
 //! A step is accepted if the root mean square of its error estimate, divided by the tolerances, is below 1. The
 //! iteration matrix filters the estimate, so that stiff components do not dominate it (Shampine 1984).
@@ -9,13 +9,17 @@ mod dense;
 mod interface;
 mod matrix;
 mod newton;
+mod predictor;
+mod refinement;
 mod tableau;
 
 use self::crossing::Bracket;
 pub(crate) use self::interface::{Counts, Equations, StepEnd, StepTooSmall, Tolerances};
 use self::matrix::{Cause, IterationMatrix};
 use self::newton::{Convergence, MAX_ITERATIONS, Verdict};
-use self::tableau::{COEFFICIENTS, ERROR_WEIGHTS, GAMMA, ORDER, STAGES, TIMES};
+use self::predictor::Predictor;
+use self::tableau::Tableau;
+pub(crate) use self::tableau::{ESDIRK3, ESDIRK5};
 
 /// Safety factor of a new step length.
 const SAFETY: f64 = 0.9;
@@ -32,8 +36,19 @@ const CHANGE_AFTER_DIVERGENCE: f64 = 0.3;
 /// Fraction by which a step may be lengthened to reach a stop time, so that no tiny step remains.
 const APPENDED: f64 = 1e-3;
 
+/// Starting values of the stages' iterations.
+#[derive(Clone, Copy)]
+enum Guess {
+    /// Predicted from the earlier stages.
+    EarlierStages,
+    /// The last increments times the ratio of the step lengths.
+    Last { scale: f64 },
+}
+
 /// Solver with the state at the end of its last step and the stages of that step.
 pub(crate) struct Esdirk {
+    tableau: &'static Tableau,
+    predictor: Predictor,
     tolerances: Tolerances,
     time: f64,
     state: Vec<f64>,
@@ -43,7 +58,7 @@ pub(crate) struct Esdirk {
     start_time: f64,
     start: Vec<f64>,
     /// Derivatives at the stages, times the step length; the first and last stages are at the ends of the step.
-    increments: [Vec<f64>; STAGES],
+    increments: Vec<Vec<f64>>,
     known: Vec<f64>,
     stage: Vec<f64>,
     residual: Vec<f64>,
@@ -56,10 +71,12 @@ pub(crate) struct Esdirk {
 
 impl Esdirk {
     /// Builds a solver with one state per absolute tolerance. Call [`Self::restart`] before the first step.
-    pub(crate) fn new(tolerances: Tolerances, events: usize) -> Self {
+    pub(crate) fn new(tableau: &'static Tableau, tolerances: Tolerances, events: usize) -> Self {
         let size = tolerances.absolute.len();
         let zeros = || vec![0.0; size];
         Self {
+            tableau,
+            predictor: Predictor::new(tableau.times, tableau.predicting),
             tolerances,
             time: 0.0,
             state: zeros(),
@@ -67,13 +84,13 @@ impl Esdirk {
             wanted: 0.0,
             start_time: 0.0,
             start: zeros(),
-            increments: std::array::from_fn(|_| zeros()),
+            increments: vec![zeros(); tableau.stages()],
             known: zeros(),
             stage: zeros(),
             residual: zeros(),
             bracket: Bracket::new(events),
             interpolated: zeros(),
-            matrix: IterationMatrix::new(size),
+            matrix: IterationMatrix::new(tableau.gamma, size),
             convergence: Convergence::new(),
             counts: Counts::default(),
         }
@@ -136,7 +153,7 @@ impl Esdirk {
                     min_length: self.tolerances.min_length,
                 });
             }
-            if !self.solve_stages(equations, length) {
+            if !self.solve_stages(equations, length, Guess::EarlierStages) {
                 if has_diverged {
                     length *= CHANGE_AFTER_DIVERGENCE;
                     to_stop = false;
@@ -173,32 +190,23 @@ impl Esdirk {
     }
 
     /// Solves all stages; false if an iteration diverges.
-    fn solve_stages(&mut self, equations: &mut impl Equations, length: f64) -> bool {
+    fn solve_stages(&mut self, equations: &mut impl Equations, length: f64, guess: Guess) -> bool {
         for (increment, rate) in self.increments[0].iter_mut().zip(&self.rates) {
             *increment = length * rate;
         }
-        (1..STAGES).all(|stage| {
+        (1..self.tableau.stages()).all(|stage| {
             let mut increment = std::mem::take(&mut self.increments[stage]);
-            self.predict(stage, &mut increment);
+            match guess {
+                Guess::EarlierStages => {
+                    let earlier = &self.increments[..stage];
+                    self.predictor.predict(earlier, &mut increment);
+                }
+                Guess::Last { scale } => increment.iter_mut().for_each(|x| *x *= scale),
+            }
             let converged = self.solve_stage(equations, length, stage, &mut increment);
             self.increments[stage] = increment;
             converged
         })
-    }
-
-    /// Predicts a stage by linear extrapolation from the two stages before it.
-    fn predict(&self, stage: usize, increment: &mut [f64]) {
-        let before = &self.increments[stage - 1];
-        if stage == 1 {
-            increment.copy_from_slice(before);
-            return;
-        }
-        let (last, first) = (TIMES[stage - 1], TIMES[stage - 2]);
-        let share = (TIMES[stage] - first) / (last - first);
-        let earlier = &self.increments[stage - 2];
-        for (guess, (earlier, before)) in increment.iter_mut().zip(earlier.iter().zip(before)) {
-            *guess = (1.0 - share) * earlier + share * before;
-        }
     }
 
     /// Solves `k = h f(known + gamma k)` for one stage; false if the iteration diverges.
@@ -210,14 +218,15 @@ impl Esdirk {
         increment: &mut [f64],
     ) -> bool {
         self.known.copy_from_slice(&self.state);
-        for (earlier, coefficient) in self.increments.iter().zip(&COEFFICIENTS[stage][..stage]) {
+        for (earlier, coefficient) in self.increments.iter().zip(self.tableau.coefficients[stage]) {
             add_multiple(&mut self.known, *coefficient, earlier);
         }
-        let time = self.time + TIMES[stage] * length;
+        let time = self.time + self.tableau.times[stage] * length;
+        let gamma = self.tableau.gamma;
         self.convergence.start();
         loop {
             self.stage.copy_from_slice(&self.known);
-            add_multiple(&mut self.stage, GAMMA, increment);
+            add_multiple(&mut self.stage, gamma, increment);
             equations.rates(time, &self.stage, &mut self.residual);
             for (residual, increment) in self.residual.iter_mut().zip(increment.iter()) {
                 *residual = increment - length * *residual;
@@ -237,15 +246,15 @@ impl Esdirk {
             }
         }
         self.stage.copy_from_slice(&self.known);
-        add_multiple(&mut self.stage, GAMMA, increment);
+        add_multiple(&mut self.stage, gamma, increment);
         true
     }
 
     /// Mean square of the estimated error, divided by the tolerances.
     fn error(&mut self) -> f64 {
         self.residual.fill(0.0);
-        for (increment, weight) in self.increments.iter().zip(ERROR_WEIGHTS) {
-            add_multiple(&mut self.residual, weight, increment);
+        for (increment, weight) in self.increments.iter().zip(self.tableau.error_weights) {
+            add_multiple(&mut self.residual, *weight, increment);
         }
         self.matrix.solve(&mut self.residual);
         self.tolerances.mean_square(&self.residual, &self.state)
@@ -258,7 +267,7 @@ impl Esdirk {
             f64::from(self.convergence.iterations()),
         );
         let safety = SAFETY * (2.0 * max + 1.0) / (2.0 * max + used);
-        let change = safety * error.powf(-0.5 / f64::from(ORDER + 1));
+        let change = safety * error.powf(-0.5 / f64::from(self.tableau.error_order));
         let [smallest, largest] = LENGTH_CHANGE;
         if change > UNCHANGED[0] && change < UNCHANGED[1] {
             1.0
@@ -275,7 +284,8 @@ impl Esdirk {
         self.time += length;
         std::mem::swap(&mut self.start, &mut self.state);
         self.state.copy_from_slice(&self.stage);
-        for (rate, increment) in self.rates.iter_mut().zip(&self.increments[STAGES - 1]) {
+        let last = self.increments.last().into_iter().flatten();
+        for (rate, increment) in self.rates.iter_mut().zip(last) {
             *rate = increment / length;
         }
         let before = self.wanted;

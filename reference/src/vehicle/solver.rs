@@ -6,7 +6,7 @@ use dashpot_rail::creep::CreepLaw;
 use super::Statistics;
 use super::equations::{Equations, N, Outcome, Situation};
 use crate::error::ReferenceError;
-use crate::esdirk::{self, Esdirk, StepEnd, StepTooSmall, Tolerances};
+use crate::esdirk::{self, ESDIRK3, Esdirk, StepEnd, StepTooSmall, Tolerances};
 use crate::linear::Matrix;
 
 /// Displacements (m or rad) and velocities (m/s or rad/s) below which the tolerance is absolute.
@@ -145,7 +145,7 @@ pub(super) fn run<'a, L: CreepLaw, S: PatchSource>(
             .collect(),
         min_length: MIN_STEP_S,
     };
-    let mut solver = Esdirk::new(tolerances, 2 * equations.ranged.len());
+    let mut solver = Esdirk::new(&ESDIRK3, tolerances, 2 * equations.ranged.len());
     let mut statistics = Statistics::default();
     let mut waiting = times.iter().copied().peekable();
     while let Some(time) = waiting.next_if(|time| *time <= 0.0) {

@@ -58,7 +58,7 @@ fn hard_motions() -> Vec<(&'static str, Motion)> {
     ]
 }
 
-/// Largest normalised difference allowed between ESDIRK34 and Radau5; 2.3e-7 is the largest seen.
+/// Largest normalised difference allowed between ESDIRK5 and Radau5; 2.3e-7 is the largest seen.
 const AGREEMENT: f64 = 1e-6;
 
 fn survives(parameters: &DamperParameters) {
