@@ -99,3 +99,49 @@ impl Check {
         }
     }
 }
+
+#[cfg(all(test, feature = "builder"))]
+mod tests {
+    use super::{Check, Corrupted, SLICES};
+    use crate::damper::Damper;
+    use crate::status::Status;
+
+    fn damper() -> Damper<f32> {
+        crate::example::reduced_vertical()
+            .build(1e-3)
+            .expect("a valid damper")
+    }
+
+    #[test]
+    fn a_round_starts_before_its_first_slice_and_after_its_last() {
+        let damper = damper();
+        let mut check = Check::START;
+        for call in 0..=2 * SLICES {
+            assert_eq!(check.is_at_start(), call % SLICES == 0, "call {call}");
+            assert_eq!(check.slice(&damper), Ok(()));
+        }
+    }
+
+    #[test]
+    fn a_damper_checks_the_numbers_of_its_own_states_only() {
+        let damper = damper();
+        let mut own = damper.at_rest(0.0);
+        damper.step(&mut own, 1e-3);
+        let mut own_too_long = own;
+        own_too_long.stretch = 1.0;
+        // The step adopts this state, whatever its stretch.
+        let mut from_other = own_too_long;
+        from_other.revision = damper.revision().wrapping_add(1);
+        let states = [
+            (own, Ok(())),
+            (own_too_long, Err(Corrupted)),
+            (from_other, Ok(())),
+        ];
+        for (mut state, expected) in states {
+            assert_eq!(Check::state(&damper, &state), expected, "{state:?}");
+            // With every bit set, the status word has no mark.
+            state.latch(Status::from_bits_retain(u16::MAX));
+            assert_eq!(Check::state(&damper, &state), Err(Corrupted), "no mark");
+        }
+    }
+}

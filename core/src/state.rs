@@ -168,4 +168,30 @@ mod tests {
         }
         assert!(DamperState::<f32>::default().is_marked());
     }
+
+    #[test]
+    fn a_state_tells_its_numbers_and_the_damper_of_its_last_step() {
+        let numbers = [0.75, 0.25, 3.0, -2400.0];
+        let state = DamperState::new(numbers, 7, Status::SATURATED, 2);
+        assert_eq!(state.displacement_m(), 0.75);
+        assert_eq!(state.piston_displacement_m(), 0.5, "without the stretch");
+        assert_eq!(state.force_n(), -2400.0);
+        assert_eq!(state.revision(), 7);
+        assert_eq!(state.status(), Status::SATURATED);
+        assert_eq!(state.rejected_inputs(), 2);
+        assert_eq!(DamperState::<f64>::default().revision(), 0, "no step yet");
+    }
+
+    #[test]
+    fn a_state_is_finite_if_each_of_its_numbers_is() {
+        assert!(DamperState::<f64>::default().is_finite());
+        for index in 0..4 {
+            for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut numbers = [0.0; 4];
+                numbers[index] = number;
+                let state = DamperState::new(numbers, 1, Status::empty(), 0);
+                assert!(!state.is_finite(), "{number} at {index}");
+            }
+        }
+    }
 }

@@ -31,9 +31,9 @@ impl<T: Real> Damper<T> {
     /// The step never fails: bad input is held or limited, and the status of the state latches it. The force is finite
     /// and at most [`Damper::force_limit_n`] in magnitude, even if the damper or the state is damaged.
     ///
-    /// A state that another damper stepped before is adopted first and keeps its force. An impossible state (a number
-    /// that is not finite, a stretch beyond the reach of the damper, a displacement outside its range) restarts at rest
-    /// and latches [`Status::CORRUPTED`].
+    /// A state that another damper stepped before is adopted first and keeps its force. An impossible state (a stretch
+    /// or displacement that is not finite, a stretch beyond the reach of the damper, a displacement outside its range)
+    /// restarts at rest and latches [`Status::CORRUPTED`].
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
         let [force] = step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
@@ -170,4 +170,71 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
         state.latch(Status::SATURATED.only_if(yields[lane]));
     }
     forces
+}
+
+#[cfg(all(test, feature = "builder"))]
+mod tests {
+    use crate::damper::Damper;
+    use crate::state::DamperState;
+    use crate::status::Status;
+
+    /// A damper with a clearance of 1 mm that yields at 3600 N.
+    fn damper() -> Damper<f64> {
+        crate::example::reduced_vertical()
+            .build(1e-3)
+            .expect("a valid damper")
+    }
+
+    /// A state of another damper, adopted.
+    fn adopted(displacement: f64, stretch: f64, force: f64) -> DamperState<f64> {
+        let numbers = [displacement, stretch, 1e-9, force];
+        let mut state = DamperState::new(numbers, 1, Status::empty(), 0);
+        damper().adopt(&mut state);
+        assert_eq!(state.revision(), damper().revision());
+        assert_eq!(state.status(), Status::DAMPER_SWAPPED);
+        state
+    }
+
+    #[test]
+    fn a_state_without_force_keeps_its_stretch_within_the_clearance() {
+        let stretches = [
+            (0.2e-3, 0.2e-3),
+            (-0.2e-3, -0.2e-3),
+            (0.8e-3, 0.5e-3),
+            (-0.8e-3, -0.5e-3),
+        ];
+        for (stretch, expected) in stretches {
+            let state = adopted(0.01, stretch, 0.0);
+            assert_eq!(state.numbers(), [0.01, expected, 0.0, 0.0]);
+        }
+    }
+
+    #[test]
+    fn an_adopted_state_is_limited_to_the_range_of_its_damper() {
+        let end = damper().largest_displacement_m();
+        for sign in [1.0, -1.0] {
+            let state = adopted(sign * 2.0 * end, 0.0, sign * 5000.0);
+            assert_eq!(state.displacement_m(), sign * end);
+            assert_eq!(state.force_n(), sign * 3600.0);
+            let inside = adopted(sign * 0.01, 0.0, sign * 1000.0);
+            assert_eq!(inside.displacement_m(), sign * 0.01);
+            assert_eq!(inside.force_n(), sign * 1000.0);
+        }
+    }
+
+    #[test]
+    fn a_usual_step_does_not_read_the_last_force() {
+        let damper = damper();
+        let mut sound = damper.at_rest(0.0);
+        for tick in 1..100 {
+            damper.step(&mut sound, 2e-5 * f64::from(tick));
+        }
+        for force in [f64::NAN, 1e30, -1000.0] {
+            let (mut right, mut wrong) = (sound, sound);
+            wrong.force = force;
+            assert!(damper.step(&mut right, 2e-3) > 1000.0);
+            damper.step(&mut wrong, 2e-3);
+            assert_eq!(wrong, right);
+        }
+    }
 }

@@ -90,3 +90,110 @@ fn restart<T: Real>(
     state.rejected_inputs = count;
     state.latch(status | cause);
 }
+
+#[cfg(all(test, feature = "builder"))]
+mod tests {
+    use super::travel;
+    use crate::damper::Damper;
+    use crate::state::DamperState;
+    use crate::status::Status;
+
+    const STEP_S: f64 = 1e-3;
+
+    /// A damper of 120 kN s/m and 8 MN/m that yields at 3600 N and follows 2 m/s, so 2 mm in a tick.
+    fn damper() -> Damper<f64> {
+        crate::example::reduced_vertical()
+            .build(STEP_S)
+            .expect("a valid damper")
+    }
+
+    /// A state of the damper that extended at 0.025 m/s for a second, or compressed if `sign` is negative; 3000 N.
+    fn moving(damper: &Damper<f64>, sign: f64) -> DamperState<f64> {
+        let mut state = damper.at_rest(0.0);
+        for tick in 1..=1000 {
+            damper.step(&mut state, sign * 25e-6 * f64::from(tick));
+        }
+        assert!((state.force_n() - sign * 3000.0).abs() < 0.01);
+        state
+    }
+
+    #[test]
+    fn a_force_falls_by_a_tenth_of_its_limit_per_millisecond_before_a_restart() {
+        let damper = damper();
+        // With the ends held, the force relaxes with the time constant C/k of 15 ms.
+        let relaxation = libm::exp(-STEP_S * 8e6 / 120e3);
+        for sign in [1.0, -1.0] {
+            let mut state = moving(&damper, sign);
+            let held_m = state.displacement_m();
+            let mut expected = 3000.0;
+            let mut count = 0;
+            while expected > 360.0 {
+                expected = relaxation * (expected - 360.0);
+                count += 1;
+                let force = damper.step(&mut state, sign * 0.4);
+                assert!((sign * force - expected).abs() < 0.5, "{force} N");
+                assert_eq!(state.displacement_m(), held_m);
+                assert_eq!(state.status(), Status::INPUT_HELD);
+                assert_eq!(state.rejected_inputs(), count);
+            }
+            assert_eq!(damper.step(&mut state, sign * 0.4), 0.0);
+            assert_eq!(state.displacement_m(), sign * 0.4);
+            assert_eq!(state.status(), Status::INPUT_HELD | Status::RESTARTED);
+            assert_eq!(state.rejected_inputs(), count + 1);
+        }
+    }
+
+    #[test]
+    fn a_second_restart_leaves_the_status_latched() {
+        let damper = damper();
+        let mut state = damper.at_rest(0.0);
+        for displacement in [0.4, -0.4, 0.4] {
+            assert_eq!(travel(&damper, &mut state, displacement), 0.0);
+            assert_eq!(state.displacement_m(), displacement);
+            assert_eq!(state.status(), Status::RESTARTED);
+        }
+        assert_eq!(state.rejected_inputs(), 3);
+    }
+
+    /// Steps a state to a displacement of 1 mm beyond its own; returns the status and the force (N).
+    fn stepped(damper: &Damper<f64>, mut state: DamperState<f64>) -> (Status, f64) {
+        let force = damper.step(&mut state, 0.026);
+        assert_eq!(state.displacement_m(), 0.026);
+        assert_eq!(state.revision(), damper.revision());
+        (state.status(), force)
+    }
+
+    #[test]
+    fn an_impossible_state_restarts_at_rest_even_if_it_is_of_another_damper() {
+        let damper = damper();
+        let sound = moving(&damper, 1.0);
+        for number in 0..4 {
+            for value in [f64::NAN, f64::INFINITY] {
+                let mut numbers = sound.numbers();
+                numbers[number] = value;
+                let state = DamperState::new(numbers, 1, Status::empty(), 0);
+                assert_eq!(stepped(&damper, state), (Status::CORRUPTED, 0.0));
+            }
+        }
+        let mut without_mark = sound;
+        without_mark.revision = 1;
+        without_mark.latch(Status::from_bits_retain(u16::MAX));
+        assert_eq!(stepped(&damper, without_mark), (Status::CORRUPTED, 0.0));
+    }
+
+    #[test]
+    fn numbers_beyond_the_range_are_impossible_for_the_damper_but_not_for_another() {
+        let damper = damper();
+        let sound = moving(&damper, 1.0);
+        let mut too_long = sound;
+        too_long.stretch = 1.0;
+        assert_eq!(stepped(&damper, too_long), (Status::CORRUPTED, 0.0));
+
+        let (mut from_other, mut long_from_other) = (sound, too_long);
+        from_other.revision = 1;
+        long_from_other.revision = 1;
+        let adopted = stepped(&damper, from_other);
+        assert!(adopted.0.contains(Status::DAMPER_SWAPPED) && adopted.1 >= 3000.0);
+        assert_eq!(stepped(&damper, long_from_other), adopted);
+    }
+}

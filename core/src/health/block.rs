@@ -183,3 +183,6 @@ impl Gathered {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -249,3 +249,6 @@ fn line(law: &dyn Fn(f64) -> f64, from: f64, to: f64) -> (f32, f32) {
     let moved = (2.0 / 3.0) * (middle - 0.5 * (first + last));
     ((first - slope * from + moved) as f32, slope as f32)
 }
+
+#[cfg(test)]
+mod tests;

@@ -337,3 +337,6 @@ impl Health {
         self.rejected = 0;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -195,3 +195,6 @@ impl Filter {
 const fn index(row: usize, column: usize) -> usize {
     row * (2 * STATES - 3 - row) / 2 + column - 1
 }
+
+#[cfg(test)]
+mod tests;

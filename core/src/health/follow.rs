@@ -123,3 +123,6 @@ impl Follow {
         self.highest - self.lowest > model.still_m
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -210,3 +210,6 @@ impl HealthModel {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

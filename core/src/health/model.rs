@@ -257,3 +257,6 @@ impl HealthModel {
         &self.pieces[(bits >> 31) as usize][number]
     }
 }
+
+#[cfg(test)]
+mod tests;

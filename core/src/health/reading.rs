@@ -122,3 +122,6 @@ impl HealthReading {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

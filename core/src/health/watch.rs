@@ -223,3 +223,6 @@ impl Watch {
         self.changed += u32::from(has_changed);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -227,3 +227,33 @@ fn signs_f64(v: f64x4<Baseline>) -> [usize; 4] {
 
 group!(f32, f32x4, bins_f32, signs_f32);
 group!(f64, f64x4, bins_f64, signs_f64);
+
+#[cfg(test)]
+mod tests {
+    use super::GROUP;
+    use crate::math::Lanes;
+    use crate::real::Real;
+
+    /// Compares the results of a group with those of each of its numbers alone.
+    fn lanes_equal_numbers<T: Real>() {
+        let any = [1e-3, -2.5e-4, 0.0, 7.75e-3, f64::NAN, -1.0, 3.1e-2, 1e30].map(T::from_f64);
+        let group = T::Group::new(any);
+        assert_eq!(group.bins(), any.map(|x| x.bins()[0]));
+        assert_eq!(group.sign_bits(), any.map(|x| x.sign_bits()[0]));
+        let limit = T::from_f64(1e-3);
+        let limits = T::Group::new([limit; GROUP]);
+        assert_eq!(group.reaches(limits), any.map(|x| x.reaches(limit)[0]));
+
+        let positive = [1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5].map(T::from_f64);
+        let knots = [1.0, 2.0, 3.0, 0.0].map(T::from_f64);
+        let passed = T::Group::new(positive).knots_passed([knots; GROUP]);
+        assert_eq!(passed, [0, 0, 0, 1, 1, 2, 2, 2]);
+        assert_eq!(passed, positive.map(|x| x.knots_passed([knots])[0]));
+    }
+
+    #[test]
+    fn lanes_of_a_group_equal_single_numbers() {
+        lanes_equal_numbers::<f32>();
+        lanes_equal_numbers::<f64>();
+    }
+}

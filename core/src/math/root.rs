@@ -38,6 +38,10 @@ pub(crate) fn bracketed_root(low: f64, high: f64, function: impl Fn(f64) -> f64)
 
 #[cfg(test)]
 mod tests {
+    use core::cell::RefCell;
+
+    use heapless::Vec;
+
     use super::bracketed_root;
 
     #[test]
@@ -48,5 +52,35 @@ mod tests {
         assert!((bracketed_root(0.0, 1e9, |x| 3.0 - libm::sqrt(x)) - 9.0).abs() < 1e-12);
         assert_eq!(bracketed_root(0.0, 1.0, |x| x + 1.0), 0.0);
         assert_eq!(bracketed_root(0.0, 1.0, |x| x - 2.0), 1.0);
+    }
+
+    /// Finds a root and checks that each point is within the bracket and that no point is tried twice.
+    fn root_without_wasted_points(low: f64, high: f64, function: impl Fn(f64) -> f64) -> f64 {
+        let points = RefCell::new(Vec::<f64, 256>::new());
+        let root = bracketed_root(low, high, |x| {
+            let mut points = points.borrow_mut();
+            assert!((low..=high).contains(&x), "{x} is outside {low} to {high}");
+            assert!(!points.contains(&x), "{x} came twice in {points:?}");
+            points.push(x).expect("few points");
+            function(x)
+        });
+        assert!((low..=high).contains(&root));
+        root
+    }
+
+    #[test]
+    fn every_point_is_new_even_if_the_secant_hits_an_end() {
+        // In double precision, the secant through both ends meets the axis at the lower end.
+        assert!(root_without_wasted_points(0.0, 1.0, |x| x - 1e-300) < 1e-15);
+        // Here it meets the axis at the upper end.
+        let root = root_without_wasted_points(0.0, 1.0, |x| (x - 1.0) + 1e-17);
+        assert!((root - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_secant_that_overflows_does_not_leave_the_bracket() {
+        // The value at the upper end times the width exceeds the largest number.
+        let root = root_without_wasted_points(0.0, 1e6, |x| 1e302 * (x - 3.0));
+        assert!((root - 3.0).abs() < 1e-14);
     }
 }
