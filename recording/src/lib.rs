@@ -146,7 +146,7 @@ impl Recording {
         self.rows.read_all(Sample::from_row)
     }
 
-    /// Number of bytes read so far, for a progress bar.
+    /// Number of bytes read so far, or of rows if the recording was made of samples, for a progress bar.
     pub fn position(&self) -> u64 {
         self.rows.position()
     }

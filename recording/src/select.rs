@@ -163,9 +163,8 @@ fn find(
     let all = || (0..found.len()).filter(|&index| group.is_none_or(|g| found[index].group == g));
     let option = channels.channel(quantity).name.as_deref();
     let name = option.unwrap_or(quantity.column());
-    let mut candidates: Vec<usize> = all()
-        .filter(|&index| found[index].name == name || found[index].whole == name)
-        .collect();
+    let is_named = |index: &usize| found[*index].name == name || found[*index].whole == name;
+    let mut candidates: Vec<usize> = all().filter(is_named).collect();
     if candidates.is_empty() && option.is_none() {
         if quantity == Quantity::Time {
             candidates = all().filter(|&index| found[index].is_master).collect();
@@ -202,8 +201,7 @@ fn find(
     match candidates[..] {
         [index] => Ok(index),
         [] => {
-            let elsewhere =
-                (0..found.len()).find(|&i| found[i].name == name || found[i].whole == name);
+            let elsewhere = (0..found.len()).find(is_named);
             Err(match (elsewhere, group) {
                 (Some(index), Some(group)) => RecordingError::OtherGroup {
                     quantity,

@@ -169,3 +169,26 @@ impl Stream {
         Box::new(Cursor::new(self.head).chain(self.rest))
     }
 }
+
+#[cfg(all(test, any(feature = "mdf", feature = "parquet")))]
+mod tests {
+    use std::io::Write;
+
+    use flate2::Compression;
+    use flate2::write::GzEncoder;
+
+    use super::*;
+
+    /// Compressed files need a temporary copy for random access; others must not be copied, however large they are.
+    #[test]
+    fn only_gzip_is_compressed() {
+        let mut gzip = GzEncoder::new(Vec::new(), Compression::default());
+        gzip.write_all(b"PAR1").expect("memory");
+        let gzip = gzip.finish().expect("memory");
+        for (bytes, is_compressed) in [(b"PAR1".to_vec(), false), (gzip, true)] {
+            let stream = Stream::new(Box::new(Cursor::new(bytes))).expect("memory");
+            assert_eq!(stream.kind(), Kind::Parquet);
+            assert_eq!(stream.is_compressed(), is_compressed);
+        }
+    }
+}

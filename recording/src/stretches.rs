@@ -41,4 +41,14 @@ mod tests {
         assert_eq!(stretches(&times), [0..3, 3..7]);
         assert!(stretches(&[1.0]).is_empty());
     }
+
+    #[test]
+    fn a_gap_is_longer_than_five_medians() {
+        // The median is 0.5 s.
+        let before = [0.0, 0.5, 1.0, 1.5];
+        let times = |gap_s: f64| [&before[..], &before.map(|t| 1.5 + gap_s + t)].concat();
+        assert_eq!(stretches(&times(2.5)).first(), Some(&(0..8)));
+        assert_eq!(stretches(&times(2.75)), [0..4, 4..8]);
+        assert_eq!(stretches(&times(20.0)), [0..4, 4..8]);
+    }
 }

@@ -100,7 +100,7 @@ impl Mdf {
                     whole: channel.name.clone(),
                     unit: Some(unit(channel)).filter(|unit| !unit.is_empty()),
                     group: number,
-                    is_master: channel.is_master() && channel.is_time_channel(),
+                    is_master: channel.is_time_channel(),
                     kind: kind(channel),
                     is_number: is_number(channel) && reading.is_ok(),
                     unread: reading.err().filter(|_| is_number(channel)),
@@ -271,7 +271,7 @@ fn damaged(path: &Path, error: &Mf4Error) -> FileError {
 
 /// Returns the unit. According to the standard, a time master without a unit is in seconds.
 fn unit(channel: &Channel) -> String {
-    if channel.unit.is_empty() && channel.is_master() && channel.is_time_channel() {
+    if channel.unit.is_empty() && channel.is_time_channel() {
         "s".into()
     } else {
         channel.unit.trim_end_matches('\0').trim().to_owned()

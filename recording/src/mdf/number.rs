@@ -112,3 +112,30 @@ fn from_half(bits: u16) -> f64 {
         magnitude
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of IEEE 754.
+    #[test]
+    fn halves_have_their_value() {
+        for (bits, value) in [
+            (0x0000, 0.0),
+            (0x0001, 2.0_f64.powi(-24)),
+            (0x03ff, 1023.0 * 2.0_f64.powi(-24)),
+            (0x0400, 2.0_f64.powi(-14)),
+            (0x3555, 1365.0 / 4096.0),
+            (0x3c00, 1.0),
+            (0xc000, -2.0),
+            (0x7bff, 65504.0),
+            (0x7c00, f64::INFINITY),
+            (0xfc00, f64::NEG_INFINITY),
+        ] {
+            assert_eq!(from_half(bits), value, "{bits:#x}");
+        }
+        for bits in [0x7c01, 0x7e00, 0x7fff, 0xfe00] {
+            assert!(from_half(bits).is_nan(), "{bits:#x}");
+        }
+    }
+}

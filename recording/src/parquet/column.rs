@@ -108,35 +108,26 @@ impl Column {
     }
 }
 
-/// Reads up to `count` values, NaN for null; returns the number of values read.
+/// Reads up to `count` values, NaN for null; returns the number of values read, which is lower only at the end of the
+/// row group.
 fn take<T: DataType>(
     reader: &mut ColumnReaderImpl<T>,
     present: i16,
     count: usize,
     values: &mut Vec<f64>,
-    mut number: impl FnMut(&T::T) -> f64,
+    number: impl FnMut(&T::T) -> f64,
 ) -> Result<usize, ParquetError> {
     let (mut levels, mut numbers) = (Vec::new(), Vec::new());
-    let mut total = 0;
-    while total < count {
-        levels.clear();
-        numbers.clear();
-        let (read, ..) =
-            reader.read_records(count - total, Some(&mut levels), None, &mut numbers)?;
-        if read == 0 {
-            break;
-        }
-        total += read;
-        let mut numbers = numbers.iter().map(&mut number);
-        if present == 0 {
-            values.extend(numbers);
-        } else {
-            let at = |level: &i16| match *level == present {
-                true => numbers.next().unwrap_or(f64::NAN),
-                false => f64::NAN,
-            };
-            values.extend(levels.iter().map(at));
-        }
+    let (read, ..) = reader.read_records(count, Some(&mut levels), None, &mut numbers)?;
+    let mut numbers = numbers.iter().map(number);
+    if present == 0 {
+        values.extend(numbers);
+    } else {
+        let at = |level: &i16| match *level == present {
+            true => numbers.next().unwrap_or(f64::NAN),
+            false => f64::NAN,
+        };
+        values.extend(levels.iter().map(at));
     }
-    Ok(total.min(values.len()))
+    Ok(read.min(values.len()))
 }

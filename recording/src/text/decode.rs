@@ -50,3 +50,28 @@ pub(super) fn characters(cell: &[u8]) -> Cow<'_, str> {
         Err(_) => WINDOWS_1252.decode_without_bom_handling(cell).0,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_characters_of_latin_1_in_two_bytes_are_utf_16() {
+        for (head, expected) in [
+            (&b"t\0i\0m\0e\0"[..], Some(UTF_16LE)),
+            (b"\0t\0i\0m\0e", Some(UTF_16BE)),
+            (b"\xff\xfet\0", Some(UTF_16LE)),
+            (b"\xfe\xff\0t", Some(UTF_16BE)),
+            (b"\xef\xbb\xbfti", None),
+            (b"time", None),
+            (b"t", None),
+            (b"", None),
+            // Zeros are not characters: a file of zeros is damaged.
+            (b"\0\0\0\0\0\0\0\0", None),
+            (b"t\0\0\0", None),
+            (b"\0t\0\0", None),
+        ] {
+            assert_eq!(utf_16(head), expected, "{head:?}");
+        }
+    }
+}

@@ -59,3 +59,18 @@ pub(super) fn skip_lines(source: &mut dyn Read, count: u64) -> io::Result<u64> {
     }
     Ok(skipped)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Line numbers in errors count the skipped lines, so that only lines of the text may count.
+    #[test]
+    fn lines_are_skipped_up_to_the_end_of_the_text() {
+        for (count, skipped, rest) in [(0, 0, "a\nb\n"), (1, 1, "b\n"), (2, 2, ""), (9, 2, "")] {
+            let mut source = &b"a\nb\n"[..];
+            assert_eq!(skip_lines(&mut source, count).expect("memory"), skipped);
+            assert_eq!(source, rest.as_bytes());
+        }
+    }
+}

@@ -53,3 +53,36 @@ impl<R: Read> Read for LineEnds<R> {
         Ok(length)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Source that returns one byte at a time, like a slow pipe.
+    struct Bytes(&'static [u8]);
+
+    impl Read for Bytes {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+            let length = self.0.len().min(1);
+            self.0.read(&mut buffer[..length])
+        }
+    }
+
+    /// At byte 3 of these texts, a reader has passed a line end. Only line ends of two bytes have a line feed left.
+    #[test]
+    fn line_ends_are_found_across_blocks() {
+        for (text, two_bytes) in [
+            (&b"ab\ncd\n"[..], false),
+            (b"ab\r\ncd\r\n", true),
+            (b"\nab\ncd\n", false),
+        ] {
+            let blocks: [Box<dyn Read>; 2] = [Box::new(text), Box::new(Bytes(text))];
+            for block in blocks {
+                let mut ends = LineEnds::new(block);
+                io::copy(&mut ends, &mut io::sink()).expect("memory");
+                assert_eq!(ends.has_passed_line_feed(3), !two_bytes, "{text:?}");
+                assert!(!ends.ends_unended(text.len() as u64), "{text:?}");
+            }
+        }
+    }
+}

@@ -54,7 +54,7 @@ impl Numbers {
 
 /// Parses a number with one decimal comma.
 fn parse_decimal_comma(text: &str) -> Option<f64> {
-    if text.len() > 64 || text.contains('.') || !text.contains(',') {
+    if text.len() > 64 {
         return None;
     }
     text.replacen(',', ".", 1).parse().ok()
@@ -64,4 +64,38 @@ fn parse_decimal_comma(text: &str) -> Option<f64> {
 pub(super) fn is_number(cell: &[u8]) -> bool {
     let text = std::str::from_utf8(cell.trim_ascii());
     text.is_ok_and(|text| text.parse::<f64>().is_ok() || parse_decimal_comma(text).is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_one_decimal_mark() {
+        for (cell, expected) in [
+            ("-0,25", Ok(-0.25)),
+            ("1,5e3", Ok(1500.0)),
+            ("0.25", Ok(0.25)),
+            ("1.234,5", Err(NotNumber::Text)),
+            ("1,234.5", Err(NotNumber::Text)),
+            ("1,234,5", Err(NotNumber::Text)),
+            ("1,5 mm", Err(NotNumber::Text)),
+        ] {
+            assert_eq!(
+                Numbers::new(None).parse(cell.as_bytes()),
+                expected,
+                "{cell}"
+            );
+            assert_eq!(is_number(cell.as_bytes()), expected.is_ok(), "{cell}");
+        }
+    }
+
+    /// A number with a decimal comma is copied, so its length is limited: a cell may be as long as a file.
+    #[test]
+    fn numbers_with_a_decimal_comma_have_at_most_64_characters() {
+        for (length, is_allowed) in [(63, true), (64, true), (65, false), (66, false)] {
+            let cell = format!("0,{}", "5".repeat(length - 2));
+            assert_eq!(is_number(cell.as_bytes()), is_allowed, "{length}");
+        }
+    }
 }

@@ -11,7 +11,6 @@ use std::path::Path;
 use serde::Serialize;
 
 use dashpot_files::FileError;
-use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::cannot_write_rows;
 
 /// Name and unit of a column.
@@ -62,8 +61,8 @@ impl FileFormat {
     /// Returns an error message if this build cannot write the format.
     pub fn from_path(path: &Path) -> Result<Self, String> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        // The name `-` of standard output has no extension.
         match extension.to_str() {
-            _ if is_standard_stream(path) => Ok(Self::Text),
             #[cfg(feature = "parquet")]
             Some("parquet") => Ok(Self::Parquet),
             #[cfg(feature = "mdf")]

@@ -1,4 +1,18 @@
-//! Tests of recordings in text files.
+//! Tests of recordings: text files, intervals, ticks, and binary files.
 
+#[cfg(feature = "parquet")]
+mod columns;
+mod force_history;
+mod gaps;
 mod header;
+#[cfg(feature = "mdf")]
+mod mdf;
+mod overview;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod position;
+mod remedies;
+mod separators;
 mod text;
+mod ticks;
+mod writer;

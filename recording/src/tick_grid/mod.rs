@@ -1,7 +1,10 @@
 //! Recordings resampled to the ticks of a fixed step.
 
+mod rows;
+
 use std::collections::VecDeque;
 
+use self::rows::{Row, Rows};
 use crate::{GAP_IN_MEDIANS, MAX_GAP_TICKS, MAX_TICKS, Measurement, Recording, RecordingError};
 use dashpot_files::FileError;
 
@@ -32,62 +35,12 @@ const LOOK_AHEAD_TICKS: f64 = 1e3;
 /// Number of rows to check after a long gap: one second of a logger at 1 kHz.
 const LOOK_AHEAD_ROWS: usize = 1000;
 
-/// One row: a time and `N` values.
-#[derive(Clone, Copy)]
-struct Row<const N: usize> {
-    time_s: f64,
-    values: [f64; N],
-}
-
 /// One tick: values interpolated between two rows.
 struct GridTick<const N: usize> {
     time_s: f64,
     values: [f64; N],
     /// Interval between the surrounding rows (s); 0 if the tick is at a row.
     interval_s: f64,
-}
-
-/// Source of rows with `N` values.
-trait Rows<const N: usize> {
-    fn next_row(&mut self) -> Result<Option<Row<N>>, FileError>;
-    fn in_file(&self, error: RecordingError) -> FileError;
-    fn in_time(&self, error: RecordingError) -> FileError;
-}
-
-impl Rows<1> for Recording {
-    fn next_row(&mut self) -> Result<Option<Row<1>>, FileError> {
-        let sample = self.next_sample()?;
-        Ok(sample.map(|sample| Row {
-            time_s: sample.time_s,
-            values: [sample.displacement_m],
-        }))
-    }
-
-    fn in_file(&self, error: RecordingError) -> FileError {
-        Recording::in_file(self, error)
-    }
-
-    fn in_time(&self, error: RecordingError) -> FileError {
-        Recording::in_time(self, error)
-    }
-}
-
-impl Rows<2> for Measurement {
-    fn next_row(&mut self) -> Result<Option<Row<2>>, FileError> {
-        let sample = self.next_sample()?;
-        Ok(sample.map(|sample| Row {
-            time_s: sample.time_s,
-            values: [sample.displacement_m, sample.force_n],
-        }))
-    }
-
-    fn in_file(&self, error: RecordingError) -> FileError {
-        Measurement::in_file(self, error)
-    }
-
-    fn in_time(&self, error: RecordingError) -> FileError {
-        Measurement::in_time(self, error)
-    }
 }
 
 /// Returns the maximum rounding error (s) between a tick at `time_s` (s) with step `step_s` (s) and a sample recorded
