@@ -108,7 +108,7 @@ impl Irregularity {
             return [Channels::default(); 2];
         }
         // For a NaN distance, the index is 0 and `t` is NaN.
-        let index = (position as usize).min(last - 1);
+        let index = position as usize;
         let (from, to) = (&self.nodes[index], &self.nodes[index + 1]);
         let t = position - index as f64;
         let (mut values, mut slopes) = ([0.0; 4], [0.0; 4]);

@@ -33,6 +33,23 @@ fn a_shifted_cone_oscillates_about_its_own_equilibrium() {
 }
 
 #[test]
+fn a_wheelset_rolls_straight_at_the_rising_zero_nearest_to_the_centre() {
+    let rolling_line_m = |difference_m: &[f64]| {
+        let middle = (difference_m.len() / 2) as f64;
+        let lateral = (0..difference_m.len()).map(|i| i as f64 - middle).collect();
+        let samples = RollingRadiusDifference::new(lateral, difference_m.to_vec()).unwrap();
+        samples.rolling_line_m()
+    };
+    // Three zeros: rising at -1.5 and 1.25, falling at 0.
+    let three = [-1.0, -0.5, 0.5, 0.0, -0.25, 0.75, 1.0];
+    assert_eq!(rolling_line_m(&three), Some(1.25));
+    assert_eq!(rolling_line_m(&[2.0, 1.0, 0.5]), None);
+    assert_eq!(rolling_line_m(&[-2.0, -1.0, -0.5]), None);
+    // Both differences of a cell are zero: its middle.
+    assert_eq!(rolling_line_m(&[0.0, 0.0]), Some(-0.5));
+}
+
+#[test]
 fn a_step_has_the_wavelength_of_constant_acceleration() {
     // With a constant difference c on either side, a quarter of the wavelength is sqrt(2 A e r / c), so tan g = pi^2 c
     // / (16 A).

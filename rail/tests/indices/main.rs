@@ -2,3 +2,4 @@
 
 mod conicity;
 mod ride;
+mod windows;

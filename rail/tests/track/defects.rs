@@ -149,6 +149,34 @@ fn deviations_are_continuous_everywhere() {
 }
 
 #[test]
+fn rails_are_exact_before_and_after_a_defect() {
+    // The corners of these lengths add up to zero only approximately.
+    let kink = Defect::AlignmentKink {
+        rails: Rails::Both,
+        start_m: 30.1,
+        length_m: 9.7,
+        offset_m: 8e-3,
+        rounding_m: 0.5,
+    };
+    let twist = Defect::Twist {
+        start_m: 50.3,
+        base_m: 2.7,
+        plateau_m: 4.1,
+        cross_level_m: 12e-3,
+        rounding_m: 0.2,
+    };
+    for (defect, ends_m) in [(kink, [29.84, 40.06]), (twist, [50.19, 59.91])] {
+        let track = track(vec![defect]);
+        for i in 0..1000 {
+            let away_m = 0.37 * f64::from(i);
+            for distance_m in [ends_m[0] - away_m, ends_m[1] + away_m] {
+                assert_eq!(track.rails(distance_m), [RailDeviation::default(); 2]);
+            }
+        }
+    }
+}
+
+#[test]
 fn slopes_are_the_derivatives_of_the_deviations() {
     let step_m = 1e-5;
     for defect in [DIP, BUMP, KINK, TWIST] {

@@ -1,6 +1,8 @@
 //! Measured tracks: valid and damaged files.
 
-use dashpot_rail::track::measured::{self, MeasuredTrackError, Options, Reading};
+use dashpot_rail::track::measured::{
+    self, MAX_INTERVAL_M, MIN_INTERVAL_M, MIN_ROWS, MeasuredTrackError, Options, Reading,
+};
 use dashpot_rail::track::{Irregularity, RailDeviation};
 use proptest::prelude::*;
 
@@ -70,6 +72,46 @@ fn rows_at_equal_and_unequal_distances_are_read() {
 }
 
 #[test]
+fn distances_may_start_anywhere() {
+    let rows = |first_m: f64| file((0..=400).map(|i| first_m + 0.25 * f64::from(i)));
+    let (irregularity, reading) = read(&rows(1200.0)).unwrap();
+    assert_eq!(reading.distances_m, [1200.0, 1300.0]);
+    for distance_m in [1215.0, 1250.1, 1284.9] {
+        let found = irregularity.channels(distance_m)[0];
+        let [vertical, lateral, ..] = waves(distance_m);
+        assert!((found.vertical - vertical).abs() < 1e-6, "{distance_m}");
+        assert!((found.lateral - lateral).abs() < 1e-6, "{distance_m}");
+    }
+}
+
+#[test]
+fn the_shortest_and_longest_intervals_and_the_fewest_rows_are_allowed() {
+    let with_interval = |interval_m: f64| {
+        let text = file((0..MIN_ROWS).map(|i| 1.0 + interval_m * i as f64));
+        let ramped = Options::default().with_ramp_m(2.0 * interval_m);
+        measured::parse(&text, &ramped).map(|(_, reading)| reading.rows)
+    };
+    for interval_m in [MIN_INTERVAL_M, MAX_INTERVAL_M] {
+        assert_eq!(with_interval(interval_m).unwrap(), MIN_ROWS);
+    }
+    // Decimals are rounded, but not by a thousandth of an interval.
+    for interval_m in [0.999 * MIN_INTERVAL_M, 1.001 * MAX_INTERVAL_M] {
+        let error = with_interval(interval_m).unwrap_err();
+        let is_interval = matches!(error, MeasuredTrackError::Interval { line: 3, .. });
+        assert!(is_interval, "{error}");
+    }
+}
+
+#[test]
+fn a_file_with_more_samples_than_fit_is_refused_with_their_number() {
+    // Rows 5 m apart over 40 010 m, sampled every centimetre.
+    let text = file((0..=8002).map(|i| 5.0 * f64::from(i)));
+    let options = Options::default().with_spacing_m(Some(MIN_INTERVAL_M));
+    let error = measured::parse(&text, &options).unwrap_err().to_string();
+    assert!(error.contains("4001001"), "{error}");
+}
+
+#[test]
 fn columns_may_be_in_any_order_in_mm_or_absent() {
     let mut text = String::from("\u{feff}# made\r\n gauge_mm , distance_m\r\n");
     for i in 0..=200 {
@@ -82,6 +124,15 @@ fn columns_may_be_in_any_order_in_mm_or_absent() {
     let [left, right] = irregularity.at(125.0);
     assert!((left.lateral_m + 1.25e-3).abs() < 1e-15 && (right.lateral_m - 1.25e-3).abs() < 1e-15);
     assert_eq!((left.vertical_m, right.vertical_m), (0.0, 0.0));
+}
+
+#[test]
+fn distances_are_in_metres_only() {
+    let text = even().replace("distance_m,", "distance_mm,");
+    let error = read(&text).unwrap_err();
+    assert_eq!(error.line(), Some(1));
+    let text = error.to_string();
+    assert!(text.starts_with("unknown column \"distance_mm\""), "{text}");
 }
 
 #[test]
