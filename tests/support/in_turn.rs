@@ -15,7 +15,7 @@ pub const RETRY_LIMITS: RetryLimits = RetryLimits {
     tries: 50,
 };
 /// Timeout for a target that will never answer; any answer ends the wait.
-const STUCK: Duration = Duration::from_secs(300);
+pub const STUCK: Duration = Duration::from_secs(300);
 /// Maximum number of answers for a target that counts its own ticks; each tick has time for a hundred.
 pub const MAX_ANSWERS: u32 = 1_000_000;
 
