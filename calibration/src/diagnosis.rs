@@ -7,7 +7,7 @@ use super::model::Model;
 use super::remedy::{Advice, Remedy};
 use super::varied::Varied;
 use super::{Calibration, CalibrationError};
-use dashpot_files::damper::{Keyed, PRESETS, load};
+use dashpot_files::damper::{KeyedParameters, PRESETS, load};
 
 /// Penalty per change, as a misfit (1): of two causes that explain the recordings equally well, the simpler one wins.
 const COST_PER_CHANGE: f64 = 0.02;
@@ -211,7 +211,7 @@ impl Calibration {
     }
 
     /// Returns the usual parameters of `damper` that are not in `varied`.
-    fn usual(damper: &Keyed, varied: &[Varied]) -> Vec<Varied> {
+    fn usual(damper: &KeyedParameters, varied: &[Varied]) -> Vec<Varied> {
         let usual: &[&str] = match damper.number(REDUCED[0]) {
             Ok(_) => &REDUCED,
             Err(_) => &PHYSICAL,
@@ -261,7 +261,7 @@ impl Calibration {
     /// Returns a candidate that starts from another preset and varies the same parameters; if the preset lacks one of
     /// them, its usual parameters are varied instead.
     fn started_from_preset(&self, name: &str) -> Option<Candidate> {
-        let damper = Keyed::new(name, &*load(name, &[]).ok()?).ok()?;
+        let damper = KeyedParameters::new(name, &*load(name, &[]).ok()?).ok()?;
         if damper.name() == self.damper.name() {
             return None;
         }
@@ -322,7 +322,8 @@ impl Candidate {
                 .cloned()
                 .collect(),
         };
-        linear.calibration.damper = Keyed::new(self.calibration.damper.name(), &damper).ok()?;
+        linear.calibration.damper =
+            KeyedParameters::new(self.calibration.damper.name(), &damper).ok()?;
         linear.calibration.varied.retain(|varied| varied.key != key);
         linear.update_advice();
         linear.advice.push(Remedy::Set {

@@ -51,7 +51,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_core::CheckedParameters;
 
-use dashpot_files::damper::Keyed;
+use dashpot_files::damper::KeyedParameters;
 
 /// Number of rounds. A round estimates the scatter and then the parameters; the second round changes both by about a
 /// percent.
@@ -80,7 +80,7 @@ const INVALID_COMBINATION: &str = "the combination of parameters is invalid for 
 #[derive(Clone, Debug)]
 pub struct Calibration {
     /// Damper at the start.
-    pub damper: Keyed,
+    pub damper: KeyedParameters,
     /// Parameters that vary.
     pub varied: Vec<Varied>,
     /// Recorded loops.

@@ -9,7 +9,7 @@ use super::keys::{FORCE_OFFSET, SKEW};
 use super::loops::LoopTest;
 use super::rig::HeldRig;
 use super::varied::Varied;
-use dashpot_files::damper::Keyed;
+use dashpot_files::damper::KeyedParameters;
 use dashpot_testbench::bench_test;
 
 /// Step of the central differences, as a share of the tolerance. It changes a force by some percent, far more than the
@@ -18,7 +18,7 @@ const DIFFERENCE: f64 = 0.3;
 
 /// A damper, its varied parameters and the tests.
 pub(super) struct Model<'a> {
-    pub(super) damper: Keyed,
+    pub(super) damper: KeyedParameters,
     pub(super) varied: Vec<Varied>,
     /// Rig parameters that are not varied.
     pub(super) rig: HeldRig,

@@ -80,13 +80,13 @@ pub(super) fn plausible(table: &str, key: &str) -> Option<Plausible> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use dashpot_files::damper::{Keyed, PRESETS, load, range};
+    use dashpot_files::damper::{KeyedParameters, PRESETS, load, range};
 
     #[test]
     fn plausible_ranges_are_allowed_and_contain_the_presets() {
         let mut found = 0;
         for (preset, _) in PRESETS {
-            let damper = Keyed::new(preset, &load(preset, &[]).unwrap()).unwrap();
+            let damper = KeyedParameters::new(preset, &load(preset, &[]).unwrap()).unwrap();
             for key in damper.keys() {
                 let (table, last) = key.rsplit_once('.').unwrap();
                 let Some(plausible) = plausible(table, last) else {

@@ -6,7 +6,7 @@ use super::prior::Prior;
 use super::rig::{HeldRig, is_rig_parameter};
 use super::varied::Varied;
 use super::{CalibrationError, plausible};
-use dashpot_files::damper::Keyed;
+use dashpot_files::damper::KeyedParameters;
 
 /// A user's request: parameters to vary, priors and rig parameters to hold.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,7 +26,7 @@ impl Request {
     ///
     /// # Errors
     /// Same errors as [`Request::varied`].
-    pub fn check(&self, damper: &Keyed) -> Result<(), CalibrationError> {
+    pub fn check(&self, damper: &KeyedParameters) -> Result<(), CalibrationError> {
         self.check_names()?;
         self.damper_parameters(damper).map(|_| ())
     }
@@ -38,7 +38,7 @@ impl Request {
     /// are not in order, for a prior of a parameter that does not vary, or for a rig parameter without recorded loops.
     pub fn varied(
         &self,
-        damper: &Keyed,
+        damper: &KeyedParameters,
         loops: &[LoopTest],
     ) -> Result<(Vec<Varied>, HeldRig), CalibrationError> {
         self.check_names()?;
@@ -74,7 +74,7 @@ impl Request {
     }
 
     /// Returns the damper parameters that vary.
-    fn damper_parameters(&self, damper: &Keyed) -> Result<Vec<Varied>, CalibrationError> {
+    fn damper_parameters(&self, damper: &KeyedParameters) -> Result<Vec<Varied>, CalibrationError> {
         let named = self.vary.iter().filter(|(key, _)| !is_rig_parameter(key));
         let varied = named.map(|(key, bounds)| {
             let prior = self.prior(key);

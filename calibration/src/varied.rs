@@ -9,7 +9,7 @@ use super::loops::LoopTest;
 use super::prior::Prior;
 use super::rig;
 use super::{CalibrationError, plausible};
-use dashpot_files::damper::{Keyed, range};
+use dashpot_files::damper::{KeyedParameters, range};
 
 /// A parameter that is varied.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,7 +49,7 @@ impl Varied {
     /// Returns an error for an unknown parameter, a parameter that cannot be calibrated from forces, invalid bounds, or
     /// a start or prior mean outside the bounds.
     pub fn new(
-        damper: &Keyed,
+        damper: &KeyedParameters,
         key: &str,
         bounds: Option<[f64; 2]>,
         prior: Option<Prior>,

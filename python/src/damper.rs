@@ -2,7 +2,7 @@
 
 use dashpot_core::CheckedParameters;
 use dashpot_core::characteristic::Characteristic;
-use dashpot_files::damper::{self, Keyed};
+use dashpot_files::damper::{self, KeyedParameters};
 use dashpot_testbench::verification::reference_forces_cancellable;
 use numpy::{Ix1, PyArray1};
 use pyo3::prelude::*;
@@ -31,13 +31,13 @@ pub struct Damper {
     /// Name of the damper, followed by its overrides.
     pub name: String,
     pub parameters: CheckedParameters,
-    keyed: Keyed,
+    keyed: KeyedParameters,
 }
 
 impl Damper {
     /// Creates a damper from checked parameters; errors call the damper `name`.
     pub fn of(name: String, parameters: CheckedParameters) -> Outcome<Self> {
-        let keyed = Keyed::new(&name, &parameters)?;
+        let keyed = KeyedParameters::new(&name, &parameters)?;
         Ok(Self {
             name,
             parameters,
@@ -46,7 +46,7 @@ impl Damper {
     }
 
     /// Parameters by key.
-    pub fn keyed(&self) -> &Keyed {
+    pub fn keyed(&self) -> &KeyedParameters {
         &self.keyed
     }
 

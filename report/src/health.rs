@@ -49,7 +49,7 @@ pub fn page(title: &str, history: &History) -> Result<String, DrawError> {
     let plots = Figure {
         panels: panels.collect(),
         height: 260,
-        shares: Some("time"),
+        cursor_group: Some("time"),
     };
     let caption = html! {
         "Blue: estimate with a band of two standard deviations. Dashed: baseline. Amber: alarm limits. An alarm is \

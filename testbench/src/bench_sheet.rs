@@ -5,7 +5,7 @@ use dashpot_core::parameters::Element;
 
 use super::bench_test::{Cycle, check_steps, run_until_periodic};
 use super::response::Response;
-use dashpot_files::damper::Keyed;
+use dashpot_files::damper::KeyedParameters;
 use dashpot_files::sheet::{Index, SheetFileError, SheetParameters, Test};
 
 /// Key of the oil temperature in a damper file.
@@ -94,7 +94,7 @@ fn at_temperature(
         );
         return Err(sheet.test_error(test, message));
     }
-    let changed =
-        Keyed::new(name, damper).and_then(|keyed| keyed.with(&[(TEMPERATURE, temperature_c)]));
+    let changed = KeyedParameters::new(name, damper)
+        .and_then(|keyed| keyed.with(&[(TEMPERATURE, temperature_c)]));
     changed.map_err(|error| sheet.test_error(test, format!("temperature_c: {error}")))
 }

@@ -8,7 +8,7 @@ use dashpot_calibration::{
     Recorded, SKEW, Varied,
 };
 use dashpot_core::CheckedParameters;
-use dashpot_files::damper::{Keyed, load};
+use dashpot_files::damper::{KeyedParameters, load};
 use dashpot_files::harmonic::Harmonic;
 use dashpot_testbench::health::Noise;
 use dashpot_testbench::verification::reference_forces;
@@ -70,7 +70,7 @@ fn calibration(
 ) -> Calibration {
     let step_s = 5e-4;
     let mut rng = Rng::with_seed(seed);
-    let damper = Keyed::new("start", start).unwrap();
+    let damper = KeyedParameters::new("start", start).unwrap();
     let loops = MOTIONS.iter().flat_map(|motion| {
         let recorded = recorded(truth, *motion, noise, &mut rng);
         LoopTest::from_recording(&recorded, step_s).unwrap()
@@ -188,7 +188,7 @@ fn confounded_parameters_are_rejected_with_the_reason() {
     // Without a transition the flow depends only on the product of the coefficient and the area.
     calibration.damper = {
         let turbulent = load("in-service", &["orifice.transition_reynolds=0.0".into()]).unwrap();
-        Keyed::new("turbulent", &turbulent).unwrap()
+        KeyedParameters::new("turbulent", &turbulent).unwrap()
     };
     for varied in &mut calibration.varied {
         varied.prior = None;
@@ -259,7 +259,7 @@ fn calibration_recovers_the_preset_and_table_5() {
         ("orifice.diameter_m", 2e-3, Some((2e-3, 5e-5))),
     ];
     let start = keys.map(|(key, start, _)| format!("{key}={start:?}"));
-    let damper = Keyed::new("paper", &load("paper", &start).unwrap()).unwrap();
+    let damper = KeyedParameters::new("paper", &load("paper", &start).unwrap()).unwrap();
     let varied = keys.iter().map(|(key, _, prior)| {
         let prior = prior.map(|(mean, standard_deviation)| Prior {
             mean,
@@ -280,7 +280,7 @@ fn calibration_recovers_the_preset_and_table_5() {
     };
     let found = calibration.run(&|_| {}).unwrap();
     let preset = load("calibrated", &[]).unwrap();
-    let shipped = Keyed::new("calibrated", &preset).unwrap();
+    let shipped = KeyedParameters::new("calibrated", &preset).unwrap();
     for ((key, ..), found) in keys.iter().zip(&found.values) {
         let number = shipped.number(key).unwrap();
         assert!(
@@ -329,7 +329,7 @@ fn intervals_of_95_percent_contain_the_truth() {
     let truths = [110e3, 7e6, 0.8e-3];
     let truth = with("reduced-vertical", keys, truths);
     let start = load("reduced-vertical", &[]).unwrap();
-    let damper = Keyed::new("start", &start).unwrap();
+    let damper = KeyedParameters::new("start", &start).unwrap();
     let (seeds, step_s) = (12, 2.5e-4);
     let mut within = [0; 4];
     for seed in 0..seeds {

@@ -4,7 +4,7 @@
 use dashpot_calibration::{
     Assumed, Calibration, FORCE_OFFSET, HeldRig, LoopTest, Recorded, SKEW, Varied,
 };
-use dashpot_files::damper::{Keyed, load};
+use dashpot_files::damper::{KeyedParameters, load};
 use fastrand::Rng;
 
 use crate::fits::{recorded, with};
@@ -23,7 +23,7 @@ const OFFSETS: (f64, f64) = (200.0, 0.35);
 #[test]
 fn intervals_of_95_percent_contain_the_truth_with_offsets() {
     let truth = with("reduced-vertical", KEYS, TRUTHS);
-    let damper = Keyed::new("start", &load("reduced-vertical", &[]).unwrap()).unwrap();
+    let damper = KeyedParameters::new("start", &load("reduced-vertical", &[]).unwrap()).unwrap();
     let (seeds, step_s) = (12, 2.5e-4);
     let mut within = [0; 5];
     for seed in 0..seeds {

@@ -9,20 +9,20 @@ use crate::overrides::{did_you_mean, explain};
 /// A damper whose numbers are read and set by key, `table.key`.
 ///
 /// ```
-/// use dashpot_files::damper::{Keyed, load};
-/// let damper = Keyed::new("reduced", &*load("reduced-vertical", &[])?)?;
+/// use dashpot_files::damper::{KeyedParameters, load};
+/// let damper = KeyedParameters::new("reduced", &*load("reduced-vertical", &[])?)?;
 /// assert_eq!(damper.number("mount.stiffness_n_per_m")?, 8e6);
 /// let softer = damper.with(&[("mount.stiffness_n_per_m", 4e6)])?;
 /// assert_eq!(softer.mount.stiffness_n_per_m, 4e6);
 /// # Ok::<(), dashpot_files::damper::DamperError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Keyed {
+pub struct KeyedParameters {
     name: String,
     tree: toml::Table,
 }
 
-impl Keyed {
+impl KeyedParameters {
     /// Wraps `damper`; error messages call it `name`.
     ///
     /// # Errors

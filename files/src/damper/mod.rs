@@ -10,7 +10,7 @@ use dashpot_core::parameters::{
 };
 pub use error::FORM;
 pub use error::{ContentError, DamperError};
-pub use keyed::{Keyed, range, text};
+pub use keyed::{KeyedParameters, range, text};
 use serde::{Deserialize, Serialize};
 
 use crate::overrides::{self, Override, explain};

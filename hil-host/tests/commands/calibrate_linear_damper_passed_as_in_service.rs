@@ -67,7 +67,7 @@ fn a_linear_damper_is_refused_with_a_start_that_explains_it() {
         run(&advised).success();
         let found = std::fs::read_to_string(folder.join("found.toml")).unwrap();
         let found = dashpot_files::damper::parse("found", &found, &[]).unwrap();
-        let found = dashpot_files::damper::Keyed::new("found", &found).unwrap();
+        let found = dashpot_files::damper::KeyedParameters::new("found", &found).unwrap();
         let damping = found.number("reduced.damping_n_s_per_m").unwrap();
         assert!((damping / LINEAR.0 - 1.0).abs() < 0.03, "{damping}");
     }

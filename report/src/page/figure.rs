@@ -19,7 +19,7 @@ pub struct Figure {
     pub height: u32,
     /// Name of a group of figures with the same abscissa, which share the cursor across the page; `None` to share it
     /// only within this figure.
-    pub shares: Option<&'static str>,
+    pub cursor_group: Option<&'static str>,
 }
 
 /// Data of a panel for the page's script.
@@ -64,7 +64,7 @@ impl Figure {
             count => count.min(3),
         };
         Ok(html! {
-            figure data-shares=[self.shares] {
+            figure data-cursor-group=[self.cursor_group] {
                 div class=(format!("panels columns-{columns}")) {
                     @for panel in &panels { (panel) }
                 }

@@ -227,7 +227,7 @@
     const columns = panel.columns.map(column);
     for (const curve of panel.curves) curve.columns = curve.columns.map(place => columns[place]);
     const figure = plot.closest("figure");
-    const name = figure.dataset.shares ?? figure;
+    const name = figure.dataset.cursorGroup ?? figure;
     panel.group = groups.get(name) ?? [];
     groups.set(name, panel.group);
     panel.head = plot.previousElementSibling;

@@ -22,7 +22,7 @@ use dashpot_calibration::{
     TEMPERATURE_UNCERTAINTY_K,
 };
 use dashpot_files::FileError;
-use dashpot_files::damper::Keyed;
+use dashpot_files::damper::KeyedParameters;
 use dashpot_files::output::{cannot_write, write_bytes, write_whole_if};
 
 /// Identify damper parameters from bench tests: force-displacement loops or tables of their indices.
@@ -139,7 +139,7 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
         ));
     }
     refuse_same_streams(arguments)?;
-    let damper = Keyed::new(&arguments.damper.damper, &*arguments.damper.load()?)?;
+    let damper = KeyedParameters::new(&arguments.damper.damper, &*arguments.damper.load()?)?;
     let given = arguments.given();
     let in_words = |error: CalibrationError| words::failure(error, &given);
     let request = numbers::request(arguments);

@@ -158,7 +158,7 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
             .map(panel_of)
             .collect(),
         height: 200,
-        shares: None,
+        cursor_group: None,
     };
     figure(
         &profiles,
@@ -248,7 +248,7 @@ fn loop_figures(
     let loops = Figure {
         panels: loops::panels(curves(&x, 1e3), curves(&v, 1.0)),
         height: HEIGHT,
-        shares: None,
+        cursor_group: None,
     };
     let times = test.counted_times_s(step_s);
     let missed = times.iter().zip(measured).zip(&fit.after_n).step_by(every);
@@ -260,7 +260,7 @@ fn loop_figures(
             vec![Curve::new("", RED_LINE, missed).wide(FINE)],
         )],
         height: 200,
-        shares: None,
+        cursor_group: None,
     };
     let caption = html! {
         "Force against displacement (first) and velocity (second), with the noise of the displacement removed: "

@@ -14,7 +14,7 @@ fn single(x: &str, y: &str, height: u32, curves: Vec<Curve>) -> Figure {
     Figure {
         panels: vec![panel(x, y, curves)],
         height,
-        shares: None,
+        cursor_group: None,
     }
 }
 
@@ -23,7 +23,7 @@ fn loop_figure(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Figure {
     Figure {
         panels: loops::panels(displacement, velocity),
         height: 380,
-        shares: None,
+        cursor_group: None,
     }
 }
 

@@ -66,7 +66,7 @@ pub(super) fn forces(history: &History, slot: &Forces) -> Figure {
     Figure {
         panels,
         height: 280,
-        shares: Some(TIME),
+        cursor_group: Some(TIME),
     }
 }
 
@@ -82,7 +82,7 @@ pub(super) fn clock_ticks(history: &History) -> Figure {
             over_time(history, "clock ticks", Scale::Linear, vec![over]),
         ],
         height: 340,
-        shares: Some(TIME),
+        cursor_group: Some(TIME),
     }
 }
 
@@ -123,6 +123,6 @@ pub(super) fn round_trip(history: &History, paced: bool) -> Figure {
     Figure {
         panels: vec![over_time(history, "round trip, ms", Scale::Decades, curves)],
         height: 300,
-        shares: Some(TIME),
+        cursor_group: Some(TIME),
     }
 }

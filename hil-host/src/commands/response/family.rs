@@ -6,7 +6,7 @@ use dashpot_core::CheckedParameters;
 
 use super::ResponseArguments;
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_files::damper::{DamperError, Keyed};
+use dashpot_files::damper::{DamperError, KeyedParameters};
 
 /// A parameter with values, written `KEY=VALUE,VALUE,...`.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +49,7 @@ pub(super) fn dampers(arguments: &ResponseArguments) -> Outcome<Vec<Member>> {
         }]);
     };
     let refused = |error: DamperError| Failure::wrong_use(format!("--over {key}: {error}"));
-    let keyed = Keyed::new(&arguments.damper.damper, &damper).map_err(refused)?;
+    let keyed = KeyedParameters::new(&arguments.damper.damper, &damper).map_err(refused)?;
     let member = |&value: &f64| {
         let damper = keyed.with(&[(key, value)]).map_err(refused)?;
         let value = Some(value);

@@ -93,7 +93,7 @@ fn part(report: &Report, series: &[&Series]) -> Result<Markup, DrawError> {
     let drawing = Figure {
         panels: panels.into(),
         height: HEIGHT,
-        shares: Some("frequency"),
+        cursor_group: Some("frequency"),
     };
     let caption = html! {
         "Lines: harmonic, periodic at each frequency. Dashes: linearised, at a peak velocity of 0.1 mm/s with the "

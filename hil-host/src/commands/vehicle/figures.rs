@@ -29,7 +29,7 @@ pub(super) fn accelerations(history: &History, body: &str) -> Figure {
     Figure {
         panels: vec![one("lateral", BLUE_LINE), one("vertical", RED_LINE)],
         height: HEIGHT,
-        shares: Some(TIME),
+        cursor_group: Some(TIME),
     }
 }
 
@@ -62,7 +62,7 @@ fn of_both(history: &History, names: &[String], signals: [(&str, f64, &str); 2])
     Figure {
         panels: panels.into(),
         height: HEIGHT,
-        shares: Some(TIME),
+        cursor_group: Some(TIME),
     }
 }
 
@@ -124,7 +124,7 @@ pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
             panel("time, s", "external minus internal, N", vec![difference]),
         ],
         height: HEIGHT,
-        shares: Some(TIME),
+        cursor_group: Some(TIME),
     }
 }
 
@@ -152,6 +152,6 @@ pub(super) fn loops(history: &History, dampers: &[&str]) -> Figure {
     Figure {
         panels: panels.collect(),
         height: HEIGHT + 40,
-        shares: None,
+        cursor_group: None,
     }
 }

@@ -119,7 +119,7 @@ fn panels(panels: Vec<Panel>) -> Figure {
     Figure {
         panels,
         height: 300,
-        shares: None,
+        cursor_group: None,
     }
 }
 

@@ -146,6 +146,6 @@ fn figure(panels: Vec<Panel>) -> Figure {
     Figure {
         panels,
         height: HEIGHT,
-        shares: None,
+        cursor_group: None,
     }
 }

@@ -67,7 +67,7 @@ pub(super) fn part(
     let drawn = Figure {
         panels: panels.into(),
         height: HEIGHT,
-        shares: None,
+        cursor_group: None,
     };
     Ok(figure(&drawn, &html! { (caption) })?)
 }

@@ -59,7 +59,7 @@ pub(super) fn part(
     let drawing = Figure {
         panels,
         height: HEIGHT,
-        shares: None,
+        cursor_group: None,
     };
     Ok(html! {
         @if !plotted.is_empty() { (figure(&drawing, &html! { (caption) })?) }

@@ -48,7 +48,7 @@ pub(super) fn part(
     let drawing = Figure {
         panels: vec![stiffness, damping],
         height: HEIGHT,
-        shares: None,
+        cursor_group: None,
     };
     Ok(figure(
         &drawing,

@@ -75,7 +75,7 @@ pub(super) fn part(
     let drawing = Figure {
         panels,
         height: HEIGHT,
-        shares: None,
+        cursor_group: None,
     };
     let spread = match seeds.len() {
         1 => String::new(),
