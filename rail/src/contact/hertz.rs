@@ -76,7 +76,7 @@ impl Steel {
     }
 
     /// Contact modulus of the pair of bodies, `E* = E / (2 (1 - nu^2))`, Pa.
-    fn contact_modulus_pa(&self) -> f64 {
+    pub(super) fn contact_modulus_pa(&self) -> f64 {
         self.young_modulus_pa / (2.0 * (1.0 - self.poisson_ratio * self.poisson_ratio))
     }
 }

@@ -16,6 +16,7 @@
 //! Axes: x forward, y right, z down. Quantities of a single wheel refer to the right wheel, whose field side is at
 //! positive y; the left wheel is its mirror image.
 
+pub mod elastic;
 mod forces;
 mod frame;
 mod geometry;

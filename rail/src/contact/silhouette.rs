@@ -45,12 +45,45 @@ pub struct TurnedWheel<'a> {
 
 /// One point of the silhouette of a turned wheel.
 #[derive(Debug, Clone, Copy)]
-struct TurnedPoint {
+pub(super) struct TurnedPoint {
     /// Lateral and vertical position relative to the tread datum of a centred wheel at the height of the rail's top, m.
-    y: f64,
-    z: f64,
-    slope: f64,
-    cos: f64,
+    pub y: f64,
+    pub z: f64,
+    pub slope: f64,
+    pub cos: f64,
+}
+
+/// Rotation of a wheel by its yaw and then its roll.
+pub(super) struct Turn {
+    roll: [f64; 2],
+    yaw: [f64; 2],
+    radius: f64,
+}
+
+impl Turn {
+    pub fn new(roll_rad: f64, yaw_rad: f64, radius: f64) -> Self {
+        let (roll, yaw) = (roll_rad.sin_cos().into(), yaw_rad.sin_cos().into());
+        Self { roll, yaw, radius }
+    }
+
+    /// Where the circle of `point`, at which the wheel's surface has `slope`, touches the silhouette.
+    pub fn point(&self, point: &ProfilePoint, slope: f64) -> TurnedPoint {
+        let ([sin_roll, cos_roll], [sin_yaw, cos_yaw]) = (self.roll, self.yaw);
+        let (tan_roll, tan_yaw) = (sin_roll / cos_roll, sin_yaw / cos_yaw);
+        let r = self.radius + point.z_m;
+        let sin_behind = slope * tan_yaw;
+        let cos_behind = (1.0 - sin_behind * sin_behind).max(0.01).sqrt();
+        let across = point.y_m * cos_yaw - r * sin_behind * sin_yaw;
+        let down = r * cos_behind - self.radius;
+        let unrolled_slope = slope / (cos_yaw * cos_behind);
+        let slope = (unrolled_slope + tan_roll) / (1.0 - unrolled_slope * tan_roll);
+        TurnedPoint {
+            y: across * cos_roll - down * sin_roll,
+            z: across * sin_roll + down * cos_roll,
+            slope,
+            cos: 1.0 / (1.0 + slope * slope).sqrt(),
+        }
+    }
 }
 
 impl Pair {
@@ -61,30 +94,14 @@ impl Pair {
     /// `r t tan(yaw) sin(yaw)` inward and `r sqrt(1 - t^2 tan(yaw)^2)` below the axle. This is exact for this order of
     /// rotations.
     pub fn turned(&self, roll_rad: f64, yaw_rad: f64) -> TurnedWheel<'_> {
-        let (sin_roll, cos_roll) = roll_rad.sin_cos();
-        let (sin_yaw, cos_yaw) = yaw_rad.sin_cos();
-        let radius = self.installation().wheel_radius_m;
-        let (tan_roll, tan_yaw) = (sin_roll / cos_roll, sin_yaw / cos_yaw);
-        let turn = |(point, slope): (&ProfilePoint, &f64)| {
-            let r = radius + point.z_m;
-            let sin_behind = slope * tan_yaw;
-            let cos_behind = (1.0 - sin_behind * sin_behind).max(0.01).sqrt();
-            let across = point.y_m * cos_yaw - r * sin_behind * sin_yaw;
-            let down = r * cos_behind - radius;
-            let unrolled_slope = slope / (cos_yaw * cos_behind);
-            let slope = (unrolled_slope + tan_roll) / (1.0 - unrolled_slope * tan_roll);
-            TurnedPoint {
-                y: across * cos_roll - down * sin_roll,
-                z: across * sin_roll + down * cos_roll,
-                slope,
-                cos: 1.0 / (1.0 + slope * slope).sqrt(),
-            }
-        };
+        let turn = Turn::new(roll_rad, yaw_rad, self.installation().wheel_radius_m);
         let points = self.wheel().points().iter().zip(&self.wheel_slopes);
         TurnedWheel {
             pair: self,
             roll_rad,
-            points: points.map(turn).collect(),
+            points: points
+                .map(|(point, slope)| turn.point(point, *slope))
+                .collect(),
         }
     }
 
@@ -105,11 +122,7 @@ impl<'a> TurnedWheel<'a> {
     pub fn silhouette(&self, lateral_m: f64, silhouette: &mut Vec<SilhouettePoint>) {
         silhouette.clear();
         let datum = self.pair.installation().datum_offset_m() + lateral_m;
-        let mut rail = Cursor {
-            points: self.pair.rail().points(),
-            slopes: &self.pair.rail_slopes,
-            i: 0,
-        };
+        let mut rail = Cursor::new(self.pair);
         let on_wheel = self.pair.wheel().points();
         let (mut height, mut last) = (0.0, None);
         for (index, point) in self.points.iter().enumerate() {
@@ -135,15 +148,24 @@ impl<'a> TurnedWheel<'a> {
 }
 
 /// Interpolates a profile at mostly rising positions, without a search from the start.
-struct Cursor<'a> {
+pub(super) struct Cursor<'a> {
     points: &'a [ProfilePoint],
     slopes: &'a [f64],
     i: usize,
 }
 
-impl Cursor<'_> {
+impl<'a> Cursor<'a> {
+    /// A cursor on the rail of `pair`.
+    pub fn new(pair: &'a Pair) -> Self {
+        Self {
+            points: pair.rail().points(),
+            slopes: &pair.rail_slopes,
+            i: 0,
+        }
+    }
+
     /// Depth (cubic Hermite interpolation) and curvature at `y`; `None` beyond the ends.
-    fn at(&mut self, y: f64) -> Option<(f64, f64)> {
+    pub fn at(&mut self, y: f64) -> Option<(f64, f64)> {
         let points = self.points;
         if !(points[0].y_m..=points[points.len() - 1].y_m).contains(&y) {
             return None;

@@ -5,6 +5,7 @@ mod cache;
 mod common;
 mod creep;
 mod derivatives;
+mod elastic;
 mod fastsim;
 mod force_jumped;
 mod geometry;

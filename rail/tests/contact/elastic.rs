@@ -1,0 +1,141 @@
+//! The elastic contact on strips against exact theory, and its continuity.
+
+use dashpot_rail::contact::elastic::{ElasticPatch, Fineness, Given, NormalContact, TurnedStrips};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel};
+
+/// Cases of an independent solver of the three-dimensional half-space, under 100 kN and 30 kN.
+const EXACT: [&str; 2] = [
+    include_str!("../../data/contact_exact_100kn.csv"),
+    include_str!("../../data/contact_exact_30kn.csv"),
+];
+
+/// S1002 of 0.625 m radius on UIC 60, with the steel of the exact cases.
+fn geometry() -> ContactGeometry {
+    let installation = Installation::default().with_wheel_radius_m(0.625);
+    let steel = Steel::default()
+        .with_young_modulus_pa(2.0 * 82e9 * 1.28)
+        .with_poisson_ratio(0.28);
+    ContactGeometry::new(Pair::standard(installation).unwrap(), steel, 100e3).unwrap()
+}
+
+struct Case {
+    lateral_m: f64,
+    depth_m: f64,
+    normal_n: f64,
+    place_m: f64,
+    peak_pressure_pa: f64,
+}
+
+fn cases(text: &str) -> Vec<Case> {
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| names.iter().position(|other| *other == name).unwrap();
+    let columns = ["y_mm", "z_ws_mm", "fn_n", "ycp_mm", "pmax_mpa"].map(column);
+    let case = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let [y, z, normal, place, peak] = columns.map(|k| fields[k].parse::<f64>().unwrap());
+        Case {
+            lateral_m: 1e-3 * y,
+            depth_m: 1e-3 * z,
+            normal_n: normal,
+            place_m: 1e-3 * place,
+            peak_pressure_pa: 1e6 * peak,
+        }
+    };
+    lines.map(case).collect()
+}
+
+fn total(patches: &[ElasticPatch], quantity: impl Fn(&ElasticPatch) -> f64) -> f64 {
+    patches.iter().map(quantity).sum()
+}
+
+/// Lateral position of the patches from the track centre, weighted by their loads, m.
+fn place_m(patches: &[ElasticPatch], lateral_m: f64) -> f64 {
+    let sum = total(patches, |patch| patch.load_n * patch.wheel_y_m);
+    0.750 + lateral_m + sum / total(patches, |patch| patch.load_n)
+}
+
+#[test]
+fn depth_place_and_pressure_are_those_of_exact_theory() {
+    let geometry = geometry();
+    let wheel = TurnedStrips::new(geometry.pair(), 0.0, 0.0, Fineness::Medium);
+    for text in EXACT {
+        let (mut squares, mut count) = (0.0, 0.0);
+        for case in cases(text) {
+            let mut contact = NormalContact::default();
+            let given = Given::LoadN(case.normal_n);
+            let patches = geometry.elastic_patches(&wheel, case.lateral_m, given, &mut contact);
+            let peak = patches
+                .iter()
+                .map(|patch| patch.peak_pressure_pa)
+                .fold(0.0, f64::max);
+            let name = format!("{} mm, {} N", 1e3 * case.lateral_m, case.normal_n);
+            let deeper_um = 1e6 * (contact.depth_m - case.depth_m);
+            let pressure = peak / case.peak_pressure_pa;
+            // Beyond 6 mm, a hundredth of a millimetre of shift moves the contact by millimetres.
+            let is_steady = case.lateral_m.abs() < 6.1e-3;
+            let (allowed_um, allowed) = if is_steady { (5.0, 0.1) } else { (50.0, 0.15) };
+            assert!(
+                deeper_um.abs() < allowed_um,
+                "{name}: {deeper_um} um deeper"
+            );
+            assert!(
+                (pressure - 1.0).abs() < allowed,
+                "{name}: {pressure} of the pressure"
+            );
+            if is_steady {
+                squares += (place_m(&patches, case.lateral_m) - case.place_m).powi(2);
+                count += 1.0;
+            }
+        }
+        let rms_um = 1e6 * f64::sqrt(squares / count);
+        assert!(rms_um < 60.0, "{rms_um} um");
+    }
+}
+
+#[test]
+fn forces_are_continuous_where_the_contact_of_rigid_bodies_jumps() {
+    let geometry = geometry();
+    let wheel = TurnedStrips::new(geometry.pair(), 0.0, 5e-3, Fineness::Medium);
+    for load_n in [10e3, 100e3] {
+        let mut contact = NormalContact::default();
+        let mut before: Option<[f64; 3]> = None;
+        for step in 0..2600 {
+            let lateral_m = 4.4e-3 + 1e-6 * f64::from(step);
+            let patches =
+                geometry.elastic_patches(&wheel, lateral_m, Given::LoadN(load_n), &mut contact);
+            let lateral = |patch: &ElasticPatch| patch.load_n * patch.slope.atan().sin();
+            let now = [
+                contact.depth_m,
+                total(&patches, lateral),
+                place_m(&patches, lateral_m),
+            ];
+            if let Some(before) = before {
+                let [depth, lateral, place] = [0, 1, 2].map(|k| (now[k] - before[k]).abs());
+                // The steepest slope of the yawed flange is 3, and 1.8 kN the largest change by exact theory.
+                let name = format!("{load_n} N, {lateral_m} m: {before:?} {now:?}");
+                assert!(depth < 3.1e-6, "{name}");
+                assert!(lateral < 1.8e3, "{name}");
+                assert!(place < 0.5e-3, "{name}");
+            }
+            before = Some(now);
+        }
+    }
+}
+
+#[test]
+fn a_wheel_beside_the_rail_has_no_patch() {
+    let geometry = geometry();
+    let wheel = TurnedStrips::new(geometry.pair(), 0.0, 0.0, Fineness::Coarse);
+    for lateral_m in [-1.0, 1.0] {
+        let mut contact = NormalContact::default();
+        for given in [Given::LoadN(100e3), Given::DepthM(1e-3)] {
+            let patches = geometry.elastic_patches(&wheel, lateral_m, given, &mut contact);
+            assert!(
+                patches
+                    .iter()
+                    .all(|patch| *patch == ElasticPatch::default())
+            );
+        }
+    }
+}
