@@ -115,3 +115,126 @@ impl Guidance {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::track::Part;
+
+    const SPEED: f64 = 30.0;
+    const POSITIONS: [BodyPosition; 3] = [
+        BodyPosition {
+            x_m: 0.0,
+            height_m: 1.5,
+        },
+        BodyPosition {
+            x_m: 9.0,
+            height_m: 0.6,
+        },
+        BodyPosition {
+            x_m: -7.0,
+            height_m: 2.0,
+        },
+    ];
+
+    /// A transition of 100 m from 1000 m to 250 m, with cant from 0.06 m to 0.15 m.
+    fn clothoid() -> Layout {
+        let circular = |radius_m: f64, cant_m: f64| Part::Circular {
+            radius_m,
+            length_m: 50.0,
+            cant_m,
+        };
+        let transition = Part::Transition { length_m: 100.0 };
+        Layout::new(&[circular(1000.0, 0.06), transition, circular(250.0, 0.15)]).unwrap()
+    }
+
+    fn at(layout: &Layout, distance_m: f64) -> Guidance {
+        let mut guidance = Guidance::new(POSITIONS.len());
+        guidance.update(layout, distance_m, SPEED, &POSITIONS);
+        guidance
+    }
+
+    /// The first omitted term is `35/1152 sine^9`.
+    #[test]
+    fn the_cant_angle_is_the_arc_sine() {
+        for i in -20..=20 {
+            let sine = 0.01 * f64::from(i);
+            let error = (cant_angle(sine) - sine.asin()).abs();
+            assert!(
+                error <= 0.04 * sine.abs().powi(9) + 1e-16,
+                "{sine}: {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_pose_follows_the_heading_and_the_cant_under_its_body() {
+        let layout = clothoid();
+        let guidance = at(&layout, 90.0);
+        for (position, pose) in POSITIONS.iter().zip(&guidance.pose) {
+            let under = layout.course(90.0 + position.x_m);
+            let roll = (under.alignment.cant_m / 1.5).asin();
+            let expected = [position.height_m * roll, 0.0, roll, 0.0, under.heading_rad];
+            for (found, expected) in pose.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-9, "{pose:?}");
+            }
+        }
+    }
+
+    /// Along a clothoid the curvature changes by `c` per metre. Ahead by x, the frame is turned by `k x + c x^2/2` and
+    /// lies `k x^2/2 + c x^3/6` to the side.
+    #[test]
+    fn a_relative_frame_lies_on_the_clothoid() {
+        let layout = clothoid();
+        let guidance = at(&layout, 90.0);
+        let k = layout.at(90.0).curvature_per_m;
+        let c = (1.0 / 250.0 - 1.0 / 1000.0) / 100.0;
+        let roll = |x: f64| (layout.at(90.0 + x).cant_m / 1.5).asin();
+        for (position, relative) in POSITIONS.iter().zip(&guidance.relative) {
+            let x = position.x_m;
+            let roll = roll(x) - roll(0.0);
+            let lateral = k * x * x / 2.0 + c * x * x * x / 6.0 + position.height_m * roll;
+            let expected = [lateral, 0.0, roll, 0.0, k * x + c * x * x / 2.0];
+            for (found, expected) in relative.iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-9, "{x}: {relative:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn rates_are_the_derivatives_of_the_poses() {
+        let layout = clothoid();
+        let half_s = 1e-4;
+        let guidance = at(&layout, 90.0);
+        let [before, after] = [-half_s, half_s].map(|s| at(&layout, 90.0 + SPEED * s));
+        for body in 0..POSITIONS.len() {
+            for i in 0..N {
+                let slope =
+                    |from: &[Vector], to: &[Vector]| (to[body][i] - from[body][i]) / (2.0 * half_s);
+                let pose = slope(&before.pose, &after.pose);
+                assert!((guidance.pose_rate[body][i] - pose).abs() < 1e-6, "{i}");
+                let relative = slope(&before.relative, &after.relative);
+                let found = guidance.relative_rate[body][i];
+                assert!((found - relative).abs() < 1e-6, "{i}: {found} {relative}");
+            }
+        }
+    }
+
+    /// Gravity acts in the frame at the middle of the vehicle. The centrifugal acceleration is horizontal.
+    #[test]
+    fn each_body_feels_the_curvature_under_it() {
+        let layout = clothoid();
+        let guidance = at(&layout, 90.0);
+        let middle = (layout.at(90.0).cant_m / 1.5).asin();
+        for (position, found) in POSITIONS.iter().zip(&guidance.acceleration) {
+            let under = layout.at(90.0 + position.x_m);
+            let outward = SPEED * SPEED * under.curvature_per_m;
+            let (sin, cos) = (under.cant_m / 1.5).asin().sin_cos();
+            let lateral = GRAVITY_M_PER_S2 * middle.sin() - outward * cos;
+            let vertical = GRAVITY_M_PER_S2 * (middle.cos() - 1.0) + outward * sin;
+            assert!((found[0] - lateral).abs() < 1e-12, "{found:?}");
+            assert!((found[1] - vertical).abs() < 1e-12, "{found:?}");
+            assert_eq!(found[2..], [0.0; 3]);
+        }
+    }
+}
