@@ -115,3 +115,6 @@ fn creep_coefficient_n(patch: &PatchForces, shear_modulus_pa: f64) -> f64 {
 fn magnitude(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
+
+#[cfg(test)]
+mod tests;
