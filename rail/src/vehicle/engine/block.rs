@@ -184,3 +184,46 @@ impl Block {
         is_positive
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+
+    use super::*;
+
+    /// Two directions with their weights, and two others.
+    const ROWS: [(Vector, f64); 2] = [
+        ([1.0, -2.0, 3.0, 0.5, -4.0], 2.0),
+        ([0.0, 5.0, -1.0, 2.0, 1.0], -3.0),
+    ];
+    const COLUMNS: [Vector; 2] = [[2.0, 1.0, -1.0, 4.0, 0.5], [-3.0, 2.0, 1.0, 1.0, 6.0]];
+
+    #[test]
+    fn a_pair_of_directions_adds_its_weighted_outer_product() {
+        let start = |i: usize, j: usize| (3 * i + 7 * j) as f64;
+        let expected = Block::new(|i, j| {
+            let pairs = ROWS.iter().zip(&COLUMNS);
+            let added = pairs.map(|((row, weight), column)| weight * row[i] * column[j]);
+            start(i, j) + added.sum::<f64>()
+        });
+        let rows = ROWS.map(|(row, weight)| Weighted::new(row, weight));
+        // Only the weights of the rows count.
+        let columns = COLUMNS.map(|column| Weighted::new(column, 100.0));
+        let mut block = Block::new(start);
+        dispatch!(Level::new(), simd => block.add_between(simd, &rows, &columns));
+        assert_eq!(block, expected);
+    }
+
+    #[test]
+    fn a_block_with_a_zero_pivot_is_not_positive_definite() {
+        let diagonal = |last: f64| {
+            let entries = [1.0, 2.0, 3.0, 4.0, last];
+            Block::new(|i, j| if i == j { entries[i] } else { 0.0 })
+        };
+        for (last, expected) in [(1e-3, true), (0.0, false), (-1e-3, false)] {
+            let mut block = diagonal(last);
+            let found = dispatch!(Level::new(), simd => block.invert(simd));
+            assert_eq!(found, expected, "{last}");
+        }
+    }
+}

@@ -103,4 +103,17 @@ mod tests {
         dispatch!(Level::new(), simd => springs.add(simd, -1.0, &q, &v, &mut forces));
         assert!((dense(&forces) - expected).amax() < 1e-13);
     }
+
+    #[test]
+    fn only_coupled_bodies_act_on_each_other() {
+        let diagonal = DMatrix::from_diagonal_element(3 * N, 3 * N, 2.0);
+        let mut damping = DMatrix::zeros(3 * N, 3 * N);
+        damping[(0, 2 * N)] = 1.0;
+        let acting = |springs: &Springs| -> Vec<Vec<usize>> {
+            let bodies = |row: &Vec<Acting>| row.iter().map(|acting| acting.body).collect();
+            springs.rows.iter().map(bodies).collect()
+        };
+        let springs = Springs::new(&diagonal, &damping);
+        assert_eq!(acting(&springs), [vec![0, 2], vec![1], vec![2]]);
+    }
 }
