@@ -125,3 +125,113 @@ impl Hasher {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use dashpot_core::DamperParameters;
+    use dashpot_core::parameters::Mount;
+
+    use super::*;
+    use crate::vehicle::body::Wheelset;
+    use crate::vehicle::element::End;
+
+    fn damper(damping: f64, direction: Direction) -> Law {
+        Law::Damper {
+            direction,
+            parameters: Box::new(DamperParameters::reduced(damping, 1.0, Mount::new(4e6))),
+        }
+    }
+
+    fn stop(direction: Direction) -> Law {
+        Law::BumpStop {
+            direction,
+            points: vec![[0.01, 0.0], [0.02, 3e3]],
+        }
+    }
+
+    /// Two bodies with the names `b` and `ab` over a wheelset, with one element.
+    fn vehicle(name: &str, on: &str, law: Law) -> VehicleParameters {
+        let body = |name: &str| Body::new(name, 20e3, [20e3, 200e3, 200e3], 1.5);
+        VehicleParameters::new("vehicle")
+            .with_bodies([body("b"), body("ab")])
+            .with_wheelsets([Wheelset::new("w", 1e3, [500.0, 50.0, 500.0], 0.46)])
+            .with_elements([Element::new(
+                name,
+                [End::body(on, [0.0; 3]), End::track([0.0; 3])],
+                law,
+            )])
+    }
+
+    fn identity(parameters: &VehicleParameters) -> Identity {
+        Identity::new(parameters, 1e-3, None)
+    }
+
+    #[test]
+    fn every_part_of_a_vehicle_is_part_of_its_identity() {
+        let rods = [1e6, 2e6].map(|stiffness_n_per_m| Law::TractionRod {
+            stiffness_n_per_m,
+            damping_n_s_per_m: 0.0,
+        });
+        let [rod, stiffer_rod] = rods;
+        let usual = vehicle("e", "b", stop(Direction::Lateral));
+        let mut heavier = usual.clone();
+        heavier.bodies[1].mass_kg += 1.0;
+        let mut wider = usual.clone();
+        wider.elements[0].ends[0].at_m[1] = 1e-3;
+        let mut larger = usual.clone();
+        larger.wheelsets[0].radius_m = 0.5;
+        let mut renamed = usual.clone();
+        renamed.bodies[0].name = "c".to_owned();
+        let mut without = usual.clone();
+        without.elements.clear();
+        let vehicles = [
+            usual,
+            heavier,
+            wider,
+            larger,
+            renamed,
+            without,
+            vehicle("other", "b", stop(Direction::Lateral)),
+            vehicle("e", "ab", stop(Direction::Lateral)),
+            vehicle("e", "b", stop(Direction::Vertical)),
+            vehicle("e", "b", damper(10e3, Direction::Lateral)),
+            vehicle("e", "b", damper(10e3, Direction::Vertical)),
+            vehicle("e", "b", rod),
+            vehicle("e", "b", stiffer_rod),
+        ];
+        for (number, vehicle) in vehicles.iter().enumerate() {
+            for other in &vehicles[..number] {
+                assert_ne!(identity(vehicle), identity(other), "{vehicle:?} {other:?}");
+            }
+        }
+        let rails = RailSupport::new(60.0);
+        let stiffer = rails.with_vertical(80e6, 0.0);
+        let on =
+            |step_s: f64, rails: Option<&RailSupport>| Identity::new(&vehicles[0], step_s, rails);
+        let others = [
+            on(1e-3, Some(&rails)),
+            on(1e-3, Some(&stiffer)),
+            on(2e-3, None),
+        ];
+        assert_ne!(others[0], others[1]);
+        assert!(!others.contains(&identity(&vehicles[0])));
+    }
+
+    /// An element `ea` on the body `b` is not an element `e` on the body `ab`, although the texts in a row are equal.
+    #[test]
+    fn names_are_told_apart_by_their_lengths() {
+        let law = || stop(Direction::Lateral);
+        assert_ne!(
+            identity(&vehicle("ea", "b", law())),
+            identity(&vehicle("e", "ab", law()))
+        );
+    }
+
+    #[test]
+    fn dampers_may_change_in_motion() {
+        assert_eq!(
+            identity(&vehicle("e", "b", damper(10e3, Direction::Lateral))),
+            identity(&vehicle("e", "b", damper(20e3, Direction::Lateral)))
+        );
+    }
+}

@@ -69,3 +69,51 @@ impl Method {
         now + EXTRAPOLATION * (now - before)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Newmark's method with `gamma = 1/2 - am + af` and `beta = (1 - am + af)^2/4` is of second order and has the
+    /// greatest dissipation of high frequencies (Chung and Hulbert, equations 17 and 20).
+    #[test]
+    fn the_constants_are_those_of_chung_and_hulbert() {
+        let rho = 0.8;
+        let (am, af) = ((2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0));
+        let h = 0.2e-3;
+        let method = Method::new(3.0 * h);
+        assert_eq!(method.substeps, 3);
+        for (found, expected) in [
+            (method.step_s, h),
+            (method.new_force * (1.0 - am), 1.0 - af),
+            (method.old_force * (1.0 - am), af),
+            (method.old_inertia * (1.0 - am), am),
+            (method.to_velocity, h * (0.5 - am + af)),
+            (
+                method.to_displacement,
+                h * h * (1.0 - am + af).powi(2) / 4.0,
+            ),
+            (
+                method.damping_weight(),
+                method.new_force * method.to_velocity,
+            ),
+            (
+                method.stiffness_weight(),
+                method.new_force * method.to_displacement,
+            ),
+        ] {
+            assert!(
+                (found / expected - 1.0).abs() < 1e-12,
+                "{found} for {expected}"
+            );
+        }
+    }
+
+    #[test]
+    fn half_the_last_change_of_acceleration_is_extrapolated() {
+        let method = Method::new(1e-3);
+        assert_eq!(method.predicted(3.0, 3.0), 3.0);
+        assert_eq!(method.predicted(3.0, 1.0), 4.0);
+        assert_eq!(method.predicted(1.0, 3.0), 0.0);
+    }
+}

@@ -120,3 +120,80 @@ impl BlocksShape {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::{Arc, OnceLock};
+
+    use super::*;
+    use crate::contact::{
+        ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
+    };
+    use crate::creep::{Friction, KalkerBook};
+    use crate::track::Track;
+    use crate::vehicle::{Body, Element, End, Law, Stop, Vehicle, VehicleParameters, Wheelset};
+
+    /// A body on a wheelset, with coarse tables.
+    fn vehicle() -> Vehicle<KalkerBook> {
+        static CONTACT: OnceLock<Arc<WheelsetContact<KalkerBook>>> = OnceLock::new();
+        let contact = CONTACT.get_or_init(|| {
+            let mut grid = Grid::default();
+            grid.roll_rad.cells = [1, 2, 1];
+            grid.yaw_squared_rad2.cells = [0, 1, 1];
+            let pair = Pair::standard(Installation::default()).unwrap();
+            let geometry = ContactGeometry::new(pair, Steel::default(), 75e3).unwrap();
+            let tables = Arc::new(Tables::new(geometry, grid).unwrap());
+            let friction = Friction::default();
+            Arc::new(WheelsetContact::new(tables, KalkerBook::new(), friction).unwrap())
+        });
+        let at = [0.0, 0.0, 0.46];
+        let law = Law::Bush {
+            stiffness_n_per_m: [1e6; 3],
+            damping_n_s_per_m: [0.0; 3],
+            stiffness_n_m_per_rad: [1e6; 3],
+            damping_n_m_s_per_rad: [0.0; 3],
+        };
+        let ends = [End::body("wheelset", at), End::body("body", at)];
+        let parameters = VehicleParameters::new("small")
+            .with_bodies([Body::new("body", 13e3, [20e3; 3], 0.5)])
+            .with_wheelsets([Wheelset::new("wheelset", 2e3, [800.0, 100.0, 800.0], 0.46)])
+            .with_elements([Element::new("bush", ends, law)]);
+        Vehicle::new(&parameters, Arc::clone(contact), 1e-3).unwrap()
+    }
+
+    #[test]
+    fn a_state_with_a_list_of_another_length_is_not_stepped() {
+        type Change = fn(&mut VehicleState);
+        let (vehicle, track) = (vehicle(), Track::default());
+        let state = vehicle.at_rest(&track, 0.0, 20.0).unwrap();
+        assert!(vehicle.can_step(&state));
+        let changes: [Change; 8] = [
+            |state| state.bodies += 1,
+            |state| state.coordinates.clear(),
+            |state| state.forces.push([0.0; 5]),
+            |state| state.contacts.clear(),
+            |state| state.damper_forces_n.push(0.0),
+            |state| state.work.residual.clear(),
+            |state| state.work.guidance.pose_rate.clear(),
+            |state| state.work.system.diagonal.clear(),
+        ];
+        for (number, change) in changes.iter().enumerate() {
+            let mut damaged = state.clone();
+            change(&mut damaged);
+            assert!(!vehicle.can_step(&damaged), "{number}");
+            vehicle.step(&mut damaged, &track);
+            assert_eq!(damaged.stop(), Some(Stop::OtherVehicle), "{number}");
+        }
+    }
+
+    /// Creep drives a wheelset that runs backward in a damaged state, so the equations of a step are not positive
+    /// definite.
+    #[test]
+    fn a_state_that_creep_drives_has_diverged() {
+        let (vehicle, track) = (vehicle(), Track::default());
+        let mut state = vehicle.at_rest(&track, 0.0, 20.0).unwrap();
+        state.speed_m_per_s = -1.0;
+        vehicle.step(&mut state, &track);
+        assert_eq!(state.stop(), Some(Stop::Diverged));
+    }
+}
