@@ -2,8 +2,10 @@
 
 mod between_bodies;
 mod closed_forms;
+mod curves;
 mod errors;
 mod flange;
+mod limits;
 mod modes_turned_in_a_circle;
 mod random;
 mod running;
@@ -11,3 +13,5 @@ mod states;
 mod support;
 mod suspended;
 mod track;
+mod wagon;
+mod wheelset;
