@@ -12,6 +12,8 @@
 //! 5. [`WheelsetContact`] reads the tables, or the geometry itself, in every time step. The input is the [`Motion`] of
 //!    the wheelset and the [`RailDisplacement`] of both rails. The output is [`WheelsetForces`] with a [`Status`], and
 //!    optionally [`WheelDerivatives`].
+//! 6. [`elastic`] computes the contact at any load from the elasticity of both bodies, and [`load_tables`] holds its
+//!    results over pose and load. The step does not read them yet.
 //!
 //! Axes: x forward, y right, z down. Quantities of a single wheel refer to the right wheel, whose field side is at
 //! positive y; the left wheel is its mirror image.
@@ -23,6 +25,7 @@ mod geometry;
 mod hertz;
 mod installation;
 mod laid_rail;
+pub mod load_tables;
 mod loaded_contact;
 mod loaded_zones;
 mod motion;

@@ -9,10 +9,13 @@
 mod connection;
 mod equations;
 mod half_space;
+mod lengths;
 mod normal;
 mod octave_table;
 mod patch;
 mod strips;
+#[cfg(test)]
+mod tests;
 
 pub use normal::{Given, NormalContact};
 pub use patch::ElasticPatch;

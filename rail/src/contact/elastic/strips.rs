@@ -6,7 +6,7 @@ use crate::contact::silhouette::{Cursor, Turn};
 /// Contact angle, as a slope, beyond which patches may be narrow and strips are fine.
 const STEEP: f64 = 0.1;
 /// Width of fine, medium and coarse strips on flat and on steep parts of a wheel, in samples of its profile.
-const SAMPLES: [[usize; 2]; 3] = [[4, 1], [6, 2], [9, 3]];
+const SAMPLES: [[usize; 2]; 3] = [[4, 1], [6, 2], [10, 3]];
 
 /// How finely a wheel is divided. Small loads have small patches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
