@@ -1,6 +1,6 @@
 //! Averages and doubts against numbers computed by hand, most of them exact in single precision.
 
-use super::super::filter::{Filter, LAG, Prepared, STATES};
+use super::super::filter::{FLOW, Filter, LAG, Prepared, STATES};
 use super::super::model::{Baseline, HealthLimits, HealthModel};
 use super::super::reading::HealthStatus;
 use super::Watch;
@@ -154,6 +154,18 @@ fn a_misfit_begins_above_a_correlation_of_a_half_and_ends_at_a_fifth() {
             ..started()
         };
         assert_eq!(compared(&mut watch, &model, &filter, true, before), after);
+    }
+}
+
+#[test]
+fn a_latched_alarm_remains_while_its_cause_is_found_again() {
+    let model = model();
+    let beyond = changed(FLOW, 2.0, 0.0);
+    let mut watch = started();
+    let mut found = status(&mut watch, &model, &beyond);
+    for _ in 0..3 {
+        assert_eq!(found, HealthStatus::FLOW);
+        found = compared(&mut watch, &model, &beyond, true, found);
     }
 }
 

@@ -133,6 +133,27 @@ fn samples_that_are_not_credible_are_counted_and_make_their_block_incomplete() {
 }
 
 #[test]
+fn the_move_between_two_samples_counts_not_their_place() {
+    let model = model();
+    // Largest move 10 m.
+    for (start_m, end_m, is_credible) in [
+        (100.0, 110.0, true),
+        (-100.0, -110.0, true),
+        (6.0, -6.0, false),
+        (-6.0, 6.0, false),
+    ] {
+        let mut health = Health::new(&model);
+        health.tick(&model, start_m, 0.0);
+        health.tick(&model, end_m, 0.0);
+        assert_eq!(
+            health.rejected,
+            u32::from(!is_credible),
+            "{start_m} m to {end_m} m"
+        );
+    }
+}
+
+#[test]
 fn a_block_without_samples_counts_as_the_longest_crossing() {
     let model = model();
     let mut health = Health::new(&model);
