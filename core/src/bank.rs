@@ -52,3 +52,52 @@ pub fn step_bank<T: Real, const N: usize>(
         *force = damper.step(state, *displacement);
     }
 }
+
+#[cfg(test)]
+#[cfg(feature = "builder")]
+mod tests {
+    use super::step_bank;
+    use crate::damper::Damper;
+    use crate::math::group::GROUP;
+    use crate::real::Real;
+
+    const DAMPERS: usize = GROUP + 3;
+
+    /// Ends that move across the clearance, in contact, beyond the yield force and too fast.
+    fn displacements<T: Real>(tick: u32) -> [T; DAMPERS] {
+        core::array::from_fn(|index| {
+            let (number, t) = (index as f64, 1e-3 * f64::from(tick));
+            let slow = 1e-3 * number * libm::sin((5.0 + number) * t);
+            T::from_f64(slow + 3e-4 * libm::sin(300.0 * t + number))
+        })
+    }
+
+    fn compare<T: Real>() {
+        let damper: Damper<T> = crate::example::reduced_vertical()
+            .build(1e-3)
+            .expect("a valid damper");
+        let mut states = [damper.at_rest(T::ZERO); DAMPERS];
+        let mut expected = states;
+        for tick in 1..=1000 {
+            let displacements = displacements(tick);
+            let mut forces = [T::from_f64(f64::NAN); DAMPERS];
+            step_bank(
+                &[&damper; DAMPERS],
+                &mut states,
+                &displacements,
+                &mut forces,
+            );
+            for (index, state) in expected.iter_mut().enumerate() {
+                let force = damper.step(state, displacements[index]);
+                assert!(forces[index] == force, "damper {index}, tick {tick}");
+            }
+            assert!(states == expected, "tick {tick}");
+        }
+    }
+
+    #[test]
+    fn a_bank_gives_the_same_states_and_forces_as_single_steps() {
+        compare::<f32>();
+        compare::<f64>();
+    }
+}

@@ -171,7 +171,8 @@ impl<T: Real> Damper<T> {
 #[non_exhaustive]
 pub struct ClearanceError;
 
-#[cfg(all(test, feature = "builder"))]
+#[cfg(test)]
+#[cfg(feature = "builder")]
 mod tests {
     use super::Damper;
     use crate::scalars::SCALARS;

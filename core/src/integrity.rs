@@ -100,7 +100,8 @@ impl Check {
     }
 }
 
-#[cfg(all(test, feature = "builder"))]
+#[cfg(test)]
+#[cfg(feature = "builder")]
 mod tests {
     use super::{Check, Corrupted, SLICES};
     use crate::damper::Damper;
@@ -119,6 +120,39 @@ mod tests {
         for call in 0..=2 * SLICES {
             assert_eq!(check.is_at_start(), call % SLICES == 0, "call {call}");
             assert_eq!(check.slice(&damper), Ok(()));
+        }
+    }
+
+    #[test]
+    fn a_damper_loaded_within_a_round_starts_a_new_round() {
+        let first = damper();
+        let second: Damper<f32> = crate::example::reduced_vertical()
+            .build(0.5e-3)
+            .expect("a valid damper");
+        let mut check = Check::START;
+        for _ in 0..SLICES / 2 {
+            assert_eq!(check.slice(&first), Ok(()));
+        }
+        for _ in 0..SLICES {
+            assert_eq!(check.slice(&second), Ok(()));
+        }
+        assert!(check.is_at_start());
+    }
+
+    #[test]
+    fn a_round_finds_a_change_of_the_table_or_of_the_scalars() {
+        let mut table = damper();
+        let slope = &mut table.table.pieces[9].flow[1];
+        *slope = f32::from_bits(slope.to_bits() ^ 1);
+        let mut scalars = damper();
+        let offset = &mut scalars.scalars.offset;
+        *offset = f32::from_bits(offset.to_bits() ^ 1);
+        for (damper, what) in [(table, "table"), (scalars, "scalars")] {
+            let mut check = Check::START;
+            for _ in 1..SLICES {
+                assert_eq!(check.slice(&damper), Ok(()));
+            }
+            assert_eq!(check.slice(&damper), Err(Corrupted), "{what}");
         }
     }
 

@@ -14,7 +14,8 @@ mod checksum;
 mod damper;
 mod encoding;
 mod error;
-#[cfg(all(test, feature = "builder"))]
+#[cfg(test)]
+#[cfg(feature = "builder")]
 mod example;
 pub mod health;
 #[cfg(feature = "builder")]

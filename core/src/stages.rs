@@ -97,7 +97,8 @@ pub(crate) fn state_at_force<T: Real>(damper: &Damper<T>, force: T) -> (T, T) {
     found
 }
 
-#[cfg(all(test, feature = "builder"))]
+#[cfg(test)]
+#[cfg(feature = "builder")]
 mod tests {
     use super::{GAMMA, state_at_force};
     use crate::damper::Damper;

@@ -154,6 +154,15 @@ mod tests {
     }
 
     #[test]
+    fn clearing_the_status_clears_the_count_and_nothing_else() {
+        let numbers = [1.0, 2.0, 3.0, 4.0];
+        let mut state = DamperState::new(numbers, 7, Status::SATURATED | Status::RESTARTED, 9);
+        state.clear_status();
+        assert_eq!(state, DamperState::new(numbers, 7, Status::empty(), 0));
+        assert!(state.is_marked());
+    }
+
+    #[test]
     fn memory_that_was_never_written_has_no_mark() {
         let patterns = [
             0x0000, 0xffff, 0xa5a5, 0x5a5a, 0xaaaa, 0x5555, 0xcccc, 0xcdcd, 0xdead, 0xbeef, 0xfdfd,

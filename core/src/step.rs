@@ -172,8 +172,11 @@ fn advance<T: Real, V: Lanes<T, L>, const L: usize>(
     forces
 }
 
-#[cfg(all(test, feature = "builder"))]
+#[cfg(test)]
+#[cfg(feature = "builder")]
 mod tests {
+    mod correction;
+
     use crate::damper::Damper;
     use crate::state::DamperState;
     use crate::status::Status;
@@ -235,6 +238,36 @@ mod tests {
             assert!(damper.step(&mut right, 2e-3) > 1000.0);
             damper.step(&mut wrong, 2e-3);
             assert_eq!(wrong, right);
+        }
+    }
+
+    #[test]
+    fn only_a_step_that_reaches_the_yield_force_latches_it() {
+        let damper = damper();
+        let mut state = damper.at_rest(0.0);
+        for tick in 1..=100 {
+            assert!(damper.step(&mut state, 28e-6 * f64::from(tick)) < 3600.0);
+        }
+        assert_eq!(state.status(), Status::empty());
+        for tick in 1..=100 {
+            damper.step(&mut state, 2.8e-3 + 32e-6 * f64::from(tick));
+        }
+        assert_eq!(state.force_n(), 3600.0);
+        assert_eq!(state.status(), Status::SATURATED);
+    }
+
+    /// Each displacement is a multiple of the grid of positions, so the stretch is exactly the displacement.
+    #[test]
+    fn a_piston_at_rest_in_its_clearance_does_not_drift() {
+        let damper: Damper<f32> = crate::example::reduced_vertical()
+            .build(1e-3)
+            .expect("a valid damper");
+        let mut state = damper.at_rest(0.0);
+        for round in 0..100 {
+            for displacement in [0.25, 0.375, -0.25, -0.375].map(|part| part * 2e-3 / 2.048) {
+                assert_eq!(damper.step(&mut state, displacement), 0.0);
+                assert_eq!(state.piston_displacement_m(), 0.0, "round {round}");
+            }
         }
     }
 }

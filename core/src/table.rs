@@ -242,3 +242,43 @@ pub(crate) fn cubic<T: Copy, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 
     let [c0, c1, c2, c3] = V::transpose(coefficients);
     (c3 * z + c2) * (z * z) + (c1 * z + c0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{PIECES, Table, locate};
+
+    /// The knots of a side grow by the same factor, from 1 m on.
+    fn table(growth: [f64; 2]) -> Table<f64> {
+        let mut table = Table::<f64>::ZERO;
+        for (side, growth) in table.pieces.chunks_mut(PIECES).zip(growth) {
+            let mut knot = 1.0;
+            for piece in side {
+                piece.knot = knot;
+                knot *= growth;
+            }
+        }
+        table.index();
+        table
+    }
+
+    #[test]
+    fn every_reach_is_located_in_its_own_piece() {
+        // A bin is at least 1/256 of its reach wide and may contain two knots.
+        for growth in [[1.1, 1.12], [1.004, 1.005]] {
+            let table = table(growth);
+            for (side, direction) in [(0, 1.0), (1, -1.0)] {
+                for number in 0..PIECES {
+                    let piece = &table.pieces[side * PIECES + number];
+                    for share in [0.01, 0.5, 0.99] {
+                        let beyond = share * (growth[side] - 1.0) * piece.knot;
+                        let reach = piece.knot + beyond;
+                        let ([found], z) = locate::<f64, f64, 1>([&table], reach, direction);
+                        assert_eq!(found.knot, piece.knot, "side {side}, share {share}");
+                        assert_eq!(z, reach - piece.knot);
+                        assert!(core::ptr::eq(found, piece));
+                    }
+                }
+            }
+        }
+    }
+}

@@ -91,7 +91,8 @@ fn restart<T: Real>(
     state.latch(status | cause);
 }
 
-#[cfg(all(test, feature = "builder"))]
+#[cfg(test)]
+#[cfg(feature = "builder")]
 mod tests {
     use super::travel;
     use crate::damper::Damper;
@@ -141,6 +142,25 @@ mod tests {
             assert_eq!(state.status(), Status::INPUT_HELD | Status::RESTARTED);
             assert_eq!(state.rejected_inputs(), count + 1);
         }
+    }
+
+    /// The damper follows 2 mm in a tick and catches up with at most ten times as much.
+    #[test]
+    fn a_displacement_that_is_too_fast_is_followed_at_the_largest_rate() {
+        let damper = damper();
+        for (displacement, travel_m) in [(3e-3, 2e-3), (19e-3, 2e-3), (1.5e-3, 1.5e-3)] {
+            for sign in [1.0, -1.0] {
+                let mut state = damper.at_rest(0.0);
+                let found = travel(&damper, &mut state, sign * displacement);
+                assert!((found - sign * travel_m).abs() < 1e-15, "{found} m");
+                let limited = travel_m < displacement;
+                assert_eq!(state.status().contains(Status::INPUT_LIMITED), limited);
+                assert_eq!(state.rejected_inputs(), u16::from(limited));
+            }
+        }
+        let mut state = damper.at_rest(0.0);
+        assert_eq!(travel(&damper, &mut state, 21e-3), 0.0);
+        assert_eq!(state.status(), Status::RESTARTED);
     }
 
     #[test]
