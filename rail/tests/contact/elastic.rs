@@ -9,13 +9,13 @@ fn total(patches: &[ElasticPatch], quantity: impl Fn(&ElasticPatch) -> f64) -> f
 }
 
 /// Lateral position of the patches from the track centre, weighted by their loads, m.
-fn place_m(patches: &[ElasticPatch], lateral_m: f64) -> f64 {
+fn position_m(patches: &[ElasticPatch], lateral_m: f64) -> f64 {
     let sum = total(patches, |patch| patch.load_n * patch.wheel_y_m);
     0.750 + lateral_m + sum / total(patches, |patch| patch.load_n)
 }
 
 #[test]
-fn depth_place_and_pressure_are_those_of_exact_theory() {
+fn depth_position_and_pressure_are_those_of_exact_theory() {
     let geometry = geometry();
     let wheel = TurnedStrips::new(geometry.pair(), 0.0, 0.0, Fineness::Medium);
     for text in LOADS {
@@ -43,7 +43,7 @@ fn depth_place_and_pressure_are_those_of_exact_theory() {
                 "{name}: {pressure} of the pressure"
             );
             if is_steady {
-                squares += (place_m(&patches, case.lateral_m) - case.place_m).powi(2);
+                squares += (position_m(&patches, case.lateral_m) - case.position_m).powi(2);
                 count += 1.0;
             }
         }
@@ -67,15 +67,15 @@ fn forces_are_continuous_where_the_contact_of_rigid_bodies_jumps() {
             let now = [
                 contact.depth_m,
                 total(&patches, lateral),
-                place_m(&patches, lateral_m),
+                position_m(&patches, lateral_m),
             ];
             if let Some(before) = before {
-                let [depth, lateral, place] = [0, 1, 2].map(|k| (now[k] - before[k]).abs());
+                let [depth, lateral, position] = [0, 1, 2].map(|k| (now[k] - before[k]).abs());
                 // The steepest slope of the yawed flange is 3, and 1.8 kN the largest change by exact theory.
                 let name = format!("{load_n} N, {lateral_m} m: {before:?} {now:?}");
                 assert!(depth < 3.1e-6, "{name}");
                 assert!(lateral < 1.8e3, "{name}");
-                assert!(place < 0.5e-3, "{name}");
+                assert!(position < 0.5e-3, "{name}");
             }
             before = Some(now);
         }

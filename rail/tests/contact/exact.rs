@@ -22,7 +22,7 @@ pub struct Case {
     pub lateral_m: f64,
     pub depth_m: f64,
     pub normal_n: f64,
-    pub place_m: f64,
+    pub position_m: f64,
     pub peak_pressure_pa: f64,
 }
 
@@ -33,12 +33,12 @@ pub fn cases(text: &str) -> Vec<Case> {
     let columns = ["y_mm", "z_ws_mm", "fn_n", "ycp_mm", "pmax_mpa"].map(column);
     let case = |line: &str| {
         let fields: Vec<&str> = line.split(',').collect();
-        let [y, z, normal, place, peak] = columns.map(|k| fields[k].parse::<f64>().unwrap());
+        let [y, z, normal, position, peak] = columns.map(|k| fields[k].parse::<f64>().unwrap());
         Case {
             lateral_m: 1e-3 * y,
             depth_m: 1e-3 * z,
             normal_n: normal,
-            place_m: 1e-3 * place,
+            position_m: 1e-3 * position,
             peak_pressure_pa: 1e6 * peak,
         }
     };

@@ -55,8 +55,8 @@ fn one_set_of_tables_serves_every_load() {
                 (pressure - 1.0).abs() < 0.12,
                 "{name}: {pressure} of the pressure"
             );
-            let place_m = 0.750 + case.lateral_m + mean(&wheel, |patch| patch.wheel_y_m);
-            squares += (place_m - case.place_m).powi(2);
+            let position_m = 0.750 + case.lateral_m + mean(&wheel, |patch| patch.wheel_y_m);
+            squares += (position_m - case.position_m).powi(2);
             count += 1.0;
         }
         let rms_mm = 1e3 * f64::sqrt(squares / count);
@@ -65,13 +65,13 @@ fn one_set_of_tables_serves_every_load() {
 }
 
 #[test]
-fn loads_and_places_between_nodes_are_those_of_the_contact() {
+fn loads_and_positions_between_nodes_are_those_of_the_contact() {
     let geometry = geometry();
     let mut random = Pcg64Mcg::seed_from_u64(28);
     let mut within = |low: f64, high: f64| {
         low + (high - low) * (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     };
-    let (mut loads, mut places) = (Vec::new(), Vec::new());
+    let (mut loads, mut positions) = (Vec::new(), Vec::new());
     for _ in 0..300 {
         let pose = WheelPose {
             lateral_m: within(-10e-3, 10e-3),
@@ -92,23 +92,23 @@ fn loads_and_places_between_nodes_are_those_of_the_contact() {
         assert!(wheel.is_inside);
         loads.push((wheel.load_n / load_n - 1.0).abs());
         let total: f64 = patches.iter().map(|patch| patch.load_n).sum();
-        let place = patches
+        let position = patches
             .iter()
             .map(|patch| patch.load_n * patch.wheel_y_m)
             .sum::<f64>()
             / total;
-        places.push((mean(&wheel, |patch| patch.wheel_y_m) - place).abs());
+        positions.push((mean(&wheel, |patch| patch.wheel_y_m) - position).abs());
     }
     loads.sort_by(f64::total_cmp);
-    places.sort_by(f64::total_cmp);
-    let [loads, places] = [&loads, &places].map(|errors| [150, 270, 297].map(|k| errors[k]));
+    positions.sort_by(f64::total_cmp);
+    let [loads, positions] = [&loads, &positions].map(|errors| [150, 270, 297].map(|k| errors[k]));
     assert!(
         loads[0] < 0.01 && loads[1] < 0.04 && loads[2] < 0.15,
         "{loads:?}"
     );
     assert!(
-        places[0] < 0.02e-3 && places[1] < 0.2e-3 && places[2] < 1e-3,
-        "{places:?}"
+        positions[0] < 0.02e-3 && positions[1] < 0.2e-3 && positions[2] < 1e-3,
+        "{positions:?}"
     );
 }
 

@@ -12,8 +12,8 @@ const MIN_LENGTH: f64 = 0.15;
 const VALLEYS: [f64; 2] = [0.5, 0.0];
 
 impl NormalContact {
-    /// Moves the half-lengths of the loaded strips by `part` of the way to those of elliptical patches with the same load and width. Returns
-    /// their relative change.
+    /// Moves the half-lengths of the loaded strips by `part` of the way to those of elliptical patches with the same
+    /// load and width. Returns the relative change that a whole way would be.
     pub(super) fn update_lengths(&mut self, strips: &[Strip], modulus: f64, part: f64) -> f64 {
         let connection = Connection {
             strips: &self.loaded,

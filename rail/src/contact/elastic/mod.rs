@@ -1,10 +1,11 @@
 //! Elastic contact of a wheel, computed on strips of its profile.
 //!
 //! The patch is divided into strips along the rolling direction. Each has a half-ellipse of pressure; together they
-//! deflect wheel and rail like elastic half-spaces. The loads on the strips follow from the condition that loaded strips
-//! touch and others do not enter the rail (Knothe, Le The 1984, "A contribution to the calculation of the contact stress
-//! distribution between two elastic bodies of revolution with non-elliptical contact area"). Such a problem has one
-//! solution, and it is a continuous function of the gaps, so forces do not jump where patches appear, merge or part.
+//! deflect wheel and rail like elastic half-spaces. The loads on the strips follow from the condition that loaded
+//! strips touch and others do not enter the rail (Knothe, Le The 1984, "A contribution to the calculation of the
+//! contact stress distribution between two elastic bodies of revolution with non-elliptical contact area"). Such a
+//! problem has one solution, and it is a continuous function of the gaps, so forces do not jump where patches appear,
+//! merge or part.
 
 mod connection;
 mod equations;

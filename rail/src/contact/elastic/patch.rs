@@ -74,9 +74,9 @@ impl NormalContact {
             heights: &self.line_loads,
             valleys: LOAD_VALLEYS,
         };
-        let place = |entry: usize| self.place(strips, &overlap, entry);
+        let position = |entry: usize| self.position(strips, &overlap, entry);
         let size = |entry: usize| self.size(strips, &load, entry);
-        let one_place = overlap.is_one_patch().then(|| place(0));
+        let one_position = overlap.is_one_patch().then(|| position(0));
         let one_size = load.is_one_patch().then(|| size(0));
         let mut sums = [Sums::default(); ZONES];
         for (k, &i) in self.loaded.iter().enumerate() {
@@ -84,7 +84,7 @@ impl NormalContact {
             if !(first..=last).contains(&i) || self.penetrations_m[i] <= 0.0 {
                 continue;
             }
-            let wheel_y = one_place.unwrap_or_else(|| place(i - first));
+            let wheel_y = one_position.unwrap_or_else(|| position(i - first));
             let size = one_size.unwrap_or_else(|| size(k));
             let load_n = self.line_loads[k] * strips[i].width_m;
             for (sums, share) in sums.iter_mut().zip(shares(i)) {
@@ -96,8 +96,8 @@ impl NormalContact {
         sums.map(|sums| sums.patch(pair))
     }
 
-    /// Place on the wheel of the patch around the strip with number `entry` in `overlap`.
-    fn place(&self, strips: &[Strip], overlap: &Connection<'_>, entry: usize) -> f64 {
+    /// Position on the wheel of the patch around the strip with number `entry` in `overlap`.
+    fn position(&self, strips: &[Strip], overlap: &Connection<'_>, entry: usize) -> f64 {
         let (mut total, mut sum) = (0.0, 0.0);
         overlap.each(entry, |other, degree| {
             let strip = &strips[overlap.strips[other]];
