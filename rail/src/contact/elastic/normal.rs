@@ -9,8 +9,8 @@ use crate::contact::hertz::Steel;
 const MAX_ROUNDS: usize = 200;
 /// Number of rounds after which changes become cautious: one strip at a time, and half of the change of the lengths.
 const CAUTIOUS: usize = 6;
-/// Maximum number of changes of the lengths. In a few conformal contacts, a strip at an end takes load under some lengths
-/// and none under the next ones; the depth then swings by up to half a micrometre.
+/// Maximum number of changes of the lengths. In a few conformal contacts, a strip at an end takes load under some
+/// lengths and none under the next ones; the depth then swings by up to half a micrometre.
 const MAX_LENGTHS: usize = 16;
 /// Relative change of the lengths of the strips below which they have converged. The depth changes by less than a
 /// third of it.
@@ -174,8 +174,8 @@ impl NormalContact {
             .extend(penetrations.map(|(strip, height)| (height + depth_m) * strip.cos));
     }
 
-    /// Adds the strips that would enter the deflected rail, or the deepest of them; false if there is none. Strips enter at the ends of a patch,
-    /// or first where the overlap is greatest.
+    /// Adds the strips that would enter the deflected rail, or the deepest of them; false if there is none. Strips enter
+    /// at the ends of a patch, or first where the overlap is greatest.
     fn add_entering(&mut self, strips: &[Strip], modulus: f64, only_one: bool) -> bool {
         let tables = HalfSpace::tables();
         let overlaps = &self.penetrations_m;

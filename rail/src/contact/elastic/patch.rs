@@ -12,8 +12,8 @@ use crate::contact::zones::ZONES;
 
 /// Valleys of the load that leave two summits one patch, and that divide them.
 const LOAD_VALLEYS: [f64; 2] = [0.5, 0.0];
-/// Valleys of the overlap that leave two summits one patch, and that divide them: overlaps that touch are one patch, and
-/// overlaps that nearly touch are nearly one.
+/// Valleys of the overlap that leave two summits one patch, and that divide them: overlaps that touch are one patch,
+/// and overlaps that nearly touch are nearly one.
 const OVERLAP_VALLEYS: [f64; 2] = [0.0, -0.5];
 
 /// One elastic patch: the part of a contact within one zone of the wheel.
