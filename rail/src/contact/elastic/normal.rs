@@ -174,8 +174,8 @@ impl NormalContact {
             .extend(penetrations.map(|(strip, height)| (height + depth_m) * strip.cos));
     }
 
-    /// Adds the strips that would enter the deflected rail, or the deepest of them; false if there is none. Strips enter
-    /// at the ends of a patch, or first where the overlap is greatest.
+    /// Adds the strips that would enter the deflected rail, or the deepest of them; false if there is none. Strips
+    /// enter at the ends of a patch, or first where the overlap is greatest.
     fn add_entering(&mut self, strips: &[Strip], modulus: f64, only_one: bool) -> bool {
         let tables = HalfSpace::tables();
         let overlaps = &self.penetrations_m;
