@@ -5,7 +5,7 @@ use dashpot_rail::contact::{Installation, Pair, Steel};
 use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
 use dashpot_rail::profile::Body;
 use dashpot_rail::profile::measured::{DEFAULT_SMOOTHING_M, Options};
-use dashpot_study::wheelset_geometry::{ForceJump, Shift, WheelsetGeometry};
+use dashpot_study::wheelset_geometry::{Shift, WheelsetGeometry};
 use numpy::{Ix2, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -30,7 +30,6 @@ type Column = fn(&Shift) -> f64;
 pub struct Contact {
     conicity: Py<PyDict>,
     shifts: Py<PyDict>,
-    force_jump: Option<ForceJump>,
 }
 
 #[pymethods]
@@ -40,33 +39,6 @@ impl Contact {
     #[getter]
     fn conicity(&self, py: Python<'_>) -> Py<PyDict> {
         self.conicity.clone_ref(py)
-    }
-
-    /// The force jump that makes contact tables of this pair impossible; `None` without such a jump.
-    ///
-    /// It is a dictionary with the position (`lateral_m`, `roll_rad`, `yaw_rad`), the load `load_n`, the jump `jump_n`,
-    /// and `allowed_n`, the jump that the stiffness of the contact allows.
-    ///
-    /// >>> import dashpot
-    /// >>> dashpot.contact().force_jump is None
-    /// True
-    #[getter]
-    fn force_jump<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(jump) = &self.force_jump else {
-            return Ok(None);
-        };
-        let numbers = PyDict::new(py);
-        for (name, number) in [
-            ("lateral_m", jump.lateral_m),
-            ("roll_rad", jump.roll_rad),
-            ("yaw_rad", jump.yaw_rad),
-            ("load_n", jump.load_n),
-            ("jump_n", jump.jump_n),
-            ("allowed_n", jump.allowed_n),
-        ] {
-            numbers.set_item(name, number)?;
-        }
-        Ok(Some(numbers))
     }
 
     /// Geometry of the rigid wheelset at lateral shifts (m), positive to the right, in steps of 25 um: arrays of
@@ -122,13 +94,12 @@ pub fn contact(
     let of_rail = options(rail_format, rail_mirror, smoothing_m)?;
     let wheel = wheel.map_or_else(|| Ok("s1002".into()), path)?;
     let rail = rail.map_or_else(|| Ok("uic60".into()), path)?;
-    let (pair, geometry, force_jump) = py.detach(|| {
+    let (pair, geometry) = py.detach(|| {
         let (wheel, _) = profile::load(&wheel, Body::Wheel, &of_wheel)?;
         let (rail, _) = profile::load(&rail, Body::Rail, &of_rail)?;
         let pair = Pair::new(wheel, &rail, installation)?;
         let geometry = WheelsetGeometry::new(&pair)?;
-        let force_jump = ForceJump::find(&pair);
-        Ok::<_, Refusal>((pair, geometry, force_jump))
+        Ok::<_, Refusal>((pair, geometry))
     })?;
     let conicities = geometry.conicities(&pair);
     let conicity = PyDict::new(py);
@@ -157,7 +128,6 @@ pub fn contact(
     Ok(Contact {
         conicity: conicity.unbind(),
         shifts: shifts.unbind(),
-        force_jump,
     })
 }
 

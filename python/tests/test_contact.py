@@ -22,7 +22,6 @@ class Contacts(Test):
             value = geometry.conicity["equivalent_conicity"][place]
             expected = math.nan if row["equivalent_conicity"] is None else row["equivalent_conicity"]
             numpy.testing.assert_equal(value, expected)
-        self.assertEqual(geometry.force_jump, told["force_jump"])
         self.assertEqual(list(geometry.shifts), list(told["shifts"][0]))
         for place, row in enumerate(told["shifts"]):
             self.assertEqual({name: column[40 * place] for name, column in geometry.shifts.items()}, row)
@@ -33,19 +32,6 @@ class Contacts(Test):
             dashpot.contact("S1002", PROFILES / "uic60.ban", gauge_m=1.432, inclination=0.05),
             "--rail", PROFILES / "uic60.ban", "--gauge-m", 1.432, "--inclination", 0.05,
         )
-
-    def test_a_pair_whose_force_jumps_is_that_of_the_command(self):
-        rows = (PROFILES / "s1002.csv").read_text().split("y_mm,z_mm\n")[1].split()
-        points = [tuple(map(float, row.split(","))) for row in rows]
-        # Waves of 10 mm and 0.15 mm worn into the tread.
-        wave = [0.15 * math.sin(0.2 * math.pi * y) * (-20 <= y < 40) for y, _ in points]
-        with tempfile.TemporaryDirectory() as folder:
-            worn = pathlib.Path(folder, "worn.csv")
-            text = "".join(f"{y},{z + by}\n" for (y, z), by in zip(points, wave))
-            worn.write_text("y_mm,z_mm\n" + text)
-            geometry = dashpot.contact(worn)
-            self.assert_is_that_of_the_command(geometry, "--wheel", worn)
-            self.assertGreater(geometry.force_jump["jump_n"], geometry.force_jump["allowed_n"])
 
     def test_errors_have_the_words_of_the_command(self):
         self.assert_refused(refusal("contact", "--wheel", "s1003"), dashpot.contact, "s1003")

@@ -1,10 +1,10 @@
-//! Wheel-rail contact of a vehicle: standard profiles under its mean wheel load.
+//! Wheel-rail contact of a vehicle with standard profiles.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
+    ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact,
 };
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::{Standstill, VehicleError, VehicleParameters};
@@ -16,8 +16,6 @@ use super::VehicleRunError;
 pub struct TablesKey {
     /// Wheel radius of the first wheelset, m.
     pub wheel_radius_m: f64,
-    /// Mean wheel load of the vehicle at standstill, N.
-    pub mean_wheel_load_n: f64,
 }
 
 /// Inputs that determine the contact of a vehicle.
@@ -38,13 +36,11 @@ impl ContactSetup {
         friction: f64,
         normal_damping_s_per_m: f64,
     ) -> Result<Self, VehicleError> {
-        let standstill = Standstill::new(vehicle)?;
-        let loads = standstill.axle_loads_n();
+        Standstill::new(vehicle)?;
         let first = vehicle.wheelsets.first();
         Ok(Self {
             tables: TablesKey {
                 wheel_radius_m: first.ok_or(VehicleError::NoWheelset)?.radius_m,
-                mean_wheel_load_n: loads.iter().sum::<f64>() / (2 * loads.len()) as f64,
             },
             friction,
             normal_damping_s_per_m,
@@ -56,44 +52,41 @@ impl ContactSetup {
         self.tables
     }
 
-    /// Returns the contact tables, about 43 MB. They are computed once and kept in the user's cache folder.
-    ///
-    /// # Errors
-    /// No contact geometry exists for the wheel load, or the cache folder cannot be used.
-    pub fn tables(&self) -> Result<Arc<Tables>, VehicleRunError> {
-        let tables = Tables::cached(&cache_folder(), self.geometry()?, Grid::default())?;
-        Ok(Arc::new(tables))
-    }
-
-    /// Loads the contact tables from another folder, under the file name of [`Self::tables_file`]; computes and writes
-    /// nothing.
-    ///
-    /// # Errors
-    /// The file is missing or contains other tables.
-    pub fn tables_in(&self, folder: &Path) -> Result<Arc<Tables>, VehicleRunError> {
-        let tables = Tables::kept(folder, self.geometry()?, Grid::default())?;
-        Ok(Arc::new(tables))
-    }
-
-    /// File in which [`Self::tables`] keeps the contact tables.
+    /// Returns the contact tables, 4 to 5 MB. They are computed once and kept in the user's cache folder; where it cannot
+    /// be written, they are computed each time, in two seconds of processor time.
     ///
     /// # Errors
     /// See [`Self::geometry`].
-    pub fn tables_file(&self) -> Result<PathBuf, VehicleRunError> {
-        let name = Tables::file_name(&self.geometry()?, &Grid::default());
-        Ok(cache_folder().join(name))
+    pub fn tables(&self) -> Result<Arc<Tables>, VehicleRunError> {
+        let cached = Tables::cached(&cache_folder(), self.geometry()?);
+        Ok(Arc::new(cached.tables))
     }
 
-    /// Builds the contact geometry: S1002 wheels with the first wheelset's radius on UIC 60 rails at 1:40, with the
-    /// elastic deformation at the mean wheel load.
+    /// Reads the contact tables from the bytes of a file.
     ///
     /// # Errors
-    /// No contact geometry exists for the wheel load.
+    /// The bytes are not these tables.
+    pub fn tables_from(&self, bytes: &[u8]) -> Result<Arc<Tables>, VehicleRunError> {
+        let tables = Tables::from_bytes(self.geometry()?, bytes);
+        Ok(Arc::new(tables.map_err(VehicleRunError::Tables)?))
+    }
+
+    /// Name of the file of the contact tables.
+    ///
+    /// # Errors
+    /// See [`Self::geometry`].
+    pub fn tables_file_name(&self) -> Result<String, VehicleRunError> {
+        Ok(Tables::file_name(&self.geometry()?))
+    }
+
+    /// Builds the contact geometry: S1002 wheels with the first wheelset's radius on UIC 60 rails at 1:40.
+    ///
+    /// # Errors
+    /// The wheel radius is out of bounds.
     pub fn geometry(&self) -> Result<ContactGeometry, VehicleRunError> {
         let installation = Installation::default().with_wheel_radius_m(self.tables.wheel_radius_m);
         let pair = Pair::standard(installation)?;
-        let load_n = self.tables.mean_wheel_load_n;
-        Ok(ContactGeometry::new(pair, Steel::default(), load_n)?)
+        Ok(ContactGeometry::new(pair, Steel::default())?)
     }
 }
 

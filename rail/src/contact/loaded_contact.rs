@@ -7,7 +7,8 @@ use fearless_simd::{Simd, f64x4};
 use super::motion::Tangent;
 use super::surface::Surface;
 use crate::creep::{
-    ContactLanes, CreepDerivatives, CreepLaw, Creepage, KalkerCoefficients, LoadedContact,
+    ContactLanes, CreepDerivatives, CreepLaw, Creepage, KalkerCoefficients, KalkerLookup,
+    LoadedContact,
 };
 use crate::math::each::Each;
 use crate::math::number::Number;
@@ -34,6 +35,9 @@ pub(super) trait CreepNumber: Number {
         reference_speed: Self,
         used: [bool; 4],
     ) -> [Self; 3];
+
+    /// Kalker's coefficients of an ellipse.
+    fn kalker(lookup: &KalkerLookup, semi_axes: [Self; 2]) -> KalkerCoefficients<Self>;
 }
 
 impl<S: Simd> CreepNumber for f64x4<S> {
@@ -54,6 +58,11 @@ impl<S: Simd> CreepNumber for f64x4<S> {
         };
         let forces = surface.law.forces_in_lanes(&contacts, used);
         forces.each(|force| force * contact.fraction)
+    }
+
+    #[inline(always)]
+    fn kalker(lookup: &KalkerLookup, semi_axes: [Self; 2]) -> KalkerCoefficients<Self> {
+        lookup.at_lanes(semi_axes)
     }
 }
 
@@ -91,6 +100,10 @@ impl CreepNumber for Tangent {
             Self::function(loaded.friction, [(friction_slope, sliding)])
         };
         contact.differentiated(&derivatives, friction)
+    }
+
+    fn kalker(lookup: &KalkerLookup, semi_axes: [Self; 2]) -> KalkerCoefficients<Self> {
+        lookup.at_dual(semi_axes)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Contact of rigid bodies: the deepest point of a wheel, and a wheelset resting on both rails.
 
+use super::contact_point::ContactPoint;
 use super::pair::Pair;
-use super::patches::Patch;
 use super::silhouette::{SilhouettePoint, WheelPose};
 
 /// A rigid wheelset resting on both rails without penetration.
@@ -15,7 +15,7 @@ pub struct RigidContact {
     /// Depth of the wheelset's centre, m; zero at the height at which the tread datum is level with the rail's top.
     pub vertical_m: f64,
     /// Contact points of the left wheel (as its mirror image on the right side) and of the right wheel.
-    pub sides: [Patch; 2],
+    pub sides: [ContactPoint; 2],
 }
 
 impl RigidContact {
@@ -84,7 +84,7 @@ impl Pair {
     }
 
     /// Finds the deepest point of one wheel at `pose`, for rigid bodies; `scratch` is overwritten.
-    pub fn deepest(&self, pose: &WheelPose, scratch: &mut Vec<SilhouettePoint>) -> Patch {
+    pub fn deepest(&self, pose: &WheelPose, scratch: &mut Vec<SilhouettePoint>) -> ContactPoint {
         self.silhouette(pose, scratch);
         let deepest = (0..scratch.len()).max_by(|&i, &j| {
             scratch[i]
@@ -94,7 +94,7 @@ impl Pair {
         let Some(deepest) = deepest else {
             return self.absent();
         };
-        let at = |i: usize| self.patch_at(&scratch[i]);
+        let at = |i: usize| self.contact_point(&scratch[i]);
         if deepest == 0 || deepest + 1 == scratch.len() {
             return at(deepest);
         }
@@ -103,9 +103,9 @@ impl Pair {
 }
 
 /// The patch at the vertex of the parabola through three neighbouring interpenetrations.
-fn vertex(before: &Patch, deepest: &Patch, after: &Patch) -> Patch {
-    let distance = |other: &Patch| other.track_y_m - deepest.track_y_m;
-    let rise = |other: &Patch| other.interpenetration_m - deepest.interpenetration_m;
+fn vertex(before: &ContactPoint, deepest: &ContactPoint, after: &ContactPoint) -> ContactPoint {
+    let distance = |other: &ContactPoint| other.track_y_m - deepest.track_y_m;
+    let rise = |other: &ContactPoint| other.interpenetration_m - deepest.interpenetration_m;
     let (x0, x2) = (distance(before), distance(after));
     let (f0, f2) = (rise(before), rise(after));
     let quadratic = (f0 / x0 - f2 / x2) / (x0 - x2);
@@ -119,7 +119,7 @@ fn vertex(before: &Patch, deepest: &Patch, after: &Patch) -> Patch {
     } else {
         (before, x0)
     };
-    Patch {
+    ContactPoint {
         interpenetration_m: deepest.interpenetration_m + 0.5 * linear * x,
         ..deepest.zip(neighbour, |value, neighbour| {
             value + x / distance * (neighbour - value)

@@ -44,6 +44,7 @@ pub use derivatives::CreepDerivatives;
 pub use fastsim::Fastsim;
 pub use forces::CreepForces;
 pub use friction::{Friction, FrictionError};
+pub(crate) use kalker::KalkerLookup;
 pub use kalker::{KalkerCoefficients, KalkerError, KalkerTable};
 pub use kalker_book::KalkerBook;
 pub use law::{CreepLaw, linear_forces};

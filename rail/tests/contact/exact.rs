@@ -14,7 +14,7 @@ pub fn geometry() -> ContactGeometry {
     let steel = Steel::default()
         .with_young_modulus_pa(2.0 * 82e9 * 1.28)
         .with_poisson_ratio(0.28);
-    ContactGeometry::new(Pair::standard(installation).unwrap(), steel, 100e3).unwrap()
+    ContactGeometry::new(Pair::standard(installation).unwrap(), steel).unwrap()
 }
 
 /// One case: shift of the wheel, depth of its datum, and results.

@@ -1,7 +1,8 @@
 //! Forces on a wheelset: statics, steering, small creepages, continuity, direction of travel, comparison of laws.
 
 use dashpot_rail::contact::{
-    Hertz, Motion, PatchForces, Status, Steel, WheelForces, WheelsetContact, WheelsetForces,
+    Hertz, Motion, PatchForces, Status, Steel, WheelForces, WheelPose, WheelsetContact,
+    WheelsetForces,
 };
 use dashpot_rail::creep::{
     CreepForces, CreepLaw, Creepage, Friction, KalkerBook, KalkerTable, LoadedContact, Polach,
@@ -19,7 +20,7 @@ fn single_patch(wheel: &WheelForces) -> &PatchForces {
 }
 
 #[test]
-fn a_centred_wheelset_rests_level_at_hertz_s_penetration() {
+fn a_centred_wheelset_rests_level_near_hertz_s_penetration() {
     let load = 206e3;
     let motion = at_height_under_load(polach(), &rolling(20.0), load);
     let forces = polach().forces(&motion, &LEVEL);
@@ -27,28 +28,25 @@ fn a_centred_wheelset_rests_level_at_hertz_s_penetration() {
     assert!((forces.force_n[2] + load).abs() < 1.0);
     assert!(forces.force_n[1].abs() < 1e-6 * load, "{forces:?}");
     let patch = single_patch(&forces.wheels[1]);
-    // At the contact point of the centred wheel, the contact angle is 1.9 degrees and the transverse curvature of the
-    // tread 1.2 per m.
-    let steel = Steel::default();
-    let wheel = geometry().pair().turned(0.0, 0.0);
-    let patches = wheel.patches(
-        0.0,
-        geometry().zones(),
-        geometry().softness_m(),
-        &mut Vec::new(),
-    );
-    let across = patches
-        .iter()
-        .find(|patch| patch.load_fraction > 0.99)
-        .unwrap()
-        .curvature_per_m;
+    // The profiles are not parabolas: their curvatures differ within the patch.
+    let point = geometry()
+        .pair()
+        .deepest(&WheelPose::default(), &mut Vec::new());
     let hertz = Hertz::new(
-        &steel,
+        &Steel::default(),
         patch.contact_angle_rad().cos() / patch.rolling_radius_m,
-        across,
+        point.curvature_per_m,
     );
+    let penetration_m = hertz.penetration_m(patch.load_n);
     assert!(
-        (hertz.load_n(patch.penetration_m) / patch.load_n - 1.0).abs() < 1e-5,
+        (patch.penetration_m / penetration_m - 1.0).abs() < 0.15,
+        "{patch:?} {penetration_m}"
+    );
+    // The peak pressure of a Hertzian ellipse is 1.5 times the mean. This patch is not quite one.
+    let [a, b] = patch.semi_axes_m;
+    let mean_pa = patch.load_n / (std::f64::consts::PI * a * b);
+    assert!(
+        (patch.peak_pressure_pa / mean_pa / 1.5 - 1.0).abs() < 0.3,
         "{patch:?}"
     );
     let vertical = patch.load_n * patch.contact_angle_rad().cos();

@@ -16,7 +16,7 @@ const MAX_TRACKS: usize = 64;
 
 /// Maximum number of cached contacts.
 const MAX_CONTACTS: usize = 16;
-/// Maximum number of cached contact tables; each takes about 43 MB.
+/// Maximum number of cached contact tables; each takes 4 to 5 MB.
 const MAX_TABLES: usize = 4;
 
 type Contact = Arc<WheelsetContact<KalkerBook>>;

@@ -7,7 +7,7 @@ use dashpot_rail::profile::measured::Reading;
 use serde::Serialize;
 
 use super::profiles::Readings;
-use dashpot_study::wheelset_geometry::{Conicity, ForceJump, Shift, WheelsetGeometry};
+use dashpot_study::wheelset_geometry::{Conicity, Shift, WheelsetGeometry};
 
 /// JSON report on reading a profile file.
 #[derive(Serialize)]
@@ -48,8 +48,6 @@ pub(super) struct Report {
     conicity_at_3mm: Option<f64>,
     conicity: Vec<Conicity>,
     shifts: Vec<Shift>,
-    /// Reason for rejecting contact tables of the pair; `None` if they are valid.
-    force_jump: Option<ForceJump>,
     plots: Vec<String>,
 }
 
@@ -82,7 +80,6 @@ pub(super) fn report(
             .step_by(40)
             .map(Shift::from)
             .collect(),
-        force_jump: ForceJump::find(pair),
         plots,
     }
 }
@@ -139,15 +136,6 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             row.contact_angle_right_rad.to_degrees(),
             row.wheel_place_left_m * 1e3,
             row.wheel_place_right_m * 1e3
-        )?;
-    }
-    if let Some(jump) = &report.force_jump {
-        writeln!(
-            out,
-            "\ncontact tables of this pair are rejected: at a lateral shift of {:.6} m of the right wheel over its \
-             rail (roll {:.4} rad, yaw {:.4} rad)\nthe contact force jumps by {:.0} N under a load of {:.0} N; the \
-             stiffness of the contact explains {:.0} N of the jump",
-            jump.lateral_m, jump.roll_rad, jump.yaw_rad, jump.jump_n, jump.load_n, jump.allowed_n
         )?;
     }
     if !report.plots.is_empty() {

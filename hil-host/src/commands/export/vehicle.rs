@@ -7,7 +7,6 @@ use super::fmu::{Content, fmu_name, write};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_export::fmu::{Fmu, Interface};
 use dashpot_files::case::Case;
-use dashpot_files::input;
 use dashpot_vehicle_run::{Coupled, CoupledCase, VehicleRunError};
 
 /// File name of the vehicle library.
@@ -27,16 +26,15 @@ pub(super) fn run(arguments: &ExportArguments, name: &str, interface: Interface)
     let coupled_case = CoupledCase::new(&case, &options.outside).map_err(refused)?;
     let contact = coupled_case.contact().map_err(refused)?;
     let tables = contact.tables().map_err(refused)?;
+    let content = tables.to_bytes();
     let coupled = Coupled::new(&coupled_case, tables).map_err(refused)?;
-    let file = contact.tables_file().map_err(refused)?;
-    let name_in_fmu = file.file_name().unwrap_or_default().to_string_lossy();
-    let content = input::read(&file)?;
+    let name_in_fmu = contact.tables_file_name().map_err(refused)?;
     let fmu = Fmu::of_vehicle(
         interface,
         &fmu_name(arguments, name),
         &coupled_case,
         &coupled,
-        (name_in_fmu.into_owned(), content),
+        (name_in_fmu, content),
         library,
     )?;
     let content = Content::Vehicle {

@@ -4,6 +4,7 @@ use std::array::from_fn;
 use std::f64::consts::PI;
 
 use super::connection::Connection;
+use super::gap::Gap;
 use super::half_space::peak_pressure;
 use super::normal::NormalContact;
 use super::strips::Strip;
@@ -43,10 +44,11 @@ impl NormalContact {
     /// The patch in each zone; `ends_m` are the ends of all zones but the last on the wheel, m from the tread datum.
     pub(super) fn patches(
         &self,
+        gap: &Gap,
         pair: &Pair,
-        strips: &[Strip],
         ends_m: &[f64; ZONES - 1],
     ) -> [ElasticPatch; ZONES] {
+        let strips = &gap.strips;
         // A strip on the boundary of two zones belongs to both, by its width.
         let shares = |i: usize| -> [f64; ZONES] {
             let (y, half) = (strips[i].wheel_y_m, 0.5 * strips[i].width_m);

@@ -42,7 +42,7 @@ pub(super) const MAX_SHAPE: f64 = {
 
 /// Shape of an ellipse, `(a^2 - b^2)/(a^2 + 4 a b + b^2)`; the ratios of the book are equidistant in it.
 #[inline(always)]
-pub(super) fn shape<C: Number>(a: C, b: C) -> C {
+pub(in crate::creep) fn shape<C: Number>(a: C, b: C) -> C {
     let squares = a * a + b * b;
     (a * a - b * b) / (squares + a * b * 4.0)
 }
