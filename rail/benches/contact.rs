@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dashpot_rail::contact::{
-    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact, WheelsetForces,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    WheelsetForces,
 };
 use dashpot_rail::creep::{CreepLaw, Fastsim, Friction, KalkerBook, Polach, ShenHedrickElkins};
 

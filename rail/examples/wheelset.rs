@@ -5,8 +5,7 @@
 use std::sync::Arc;
 
 use dashpot_rail::contact::{
-    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 };
 use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, Polach, ShenHedrickElkins};
 

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_rail::contact::{
-    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 };
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::track::{self, Defect, Generation, Rails, Spectrum, Track};

@@ -40,8 +40,8 @@ mod wheel;
 mod wheelset;
 mod zones;
 
-pub use forces::{PatchForces, WheelDerivatives, WheelForces, WheelsetForces};
 pub use contact_point::ContactPoint;
+pub use forces::{PatchForces, WheelDerivatives, WheelForces, WheelsetForces};
 pub use geometry::{ContactGeometry, GeometryError};
 pub use hertz::{Hertz, Steel, SteelError};
 pub use installation::{Installation, InstallationError};

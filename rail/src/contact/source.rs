@@ -199,7 +199,10 @@ impl PatchReader for ComputedContact<'_> {
             )
         });
         let function = |value: f64, slope: &dyn Fn(&Values) -> f64| {
-            Tangent::function(value, from_fn::<_, 4, _>(|axis| (slope(&slopes[axis]), coordinates[axis])))
+            Tangent::function(
+                value,
+                from_fn::<_, 4, _>(|axis| (slope(&slopes[axis]), coordinates[axis])),
+            )
         };
         let (approach_m, numbers) = of(&self.solution);
         (

@@ -29,7 +29,9 @@ fn wavy_wheel() -> Profile {
 
 fn contact(wheel: Profile, rail: &Profile) -> WheelsetContact<Polach> {
     let pair = Pair::new(wheel, rail, Installation::default()).unwrap();
-    let tables = Arc::new(Tables::new(ContactGeometry::new(pair, Steel::default()).unwrap()));
+    let tables = Arc::new(Tables::new(
+        ContactGeometry::new(pair, Steel::default()).unwrap(),
+    ));
     WheelsetContact::new(tables, Polach, Friction::constant(0.0)).unwrap()
 }
 

@@ -127,8 +127,11 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
     let mut count = 0.0;
     for n in 0..300 {
         let motion = spread(n);
-        let [read, computed] =
-            [polach().forces(&motion, &LEVEL), computed.forces(&motion, &LEVEL)].map(|f| f.wheels[1]);
+        let [read, computed] = [
+            polach().forces(&motion, &LEVEL),
+            computed.forces(&motion, &LEVEL),
+        ]
+        .map(|f| f.wheels[1]);
         // A flange at this height carries more than the greatest load of the tables.
         if read.status == Status::OutsideTables {
             continue;

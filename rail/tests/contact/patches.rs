@@ -67,7 +67,12 @@ fn three_separate_contacts_carry_hertz_loads_and_press_each_other_down() {
         // The other patches press both surfaces down by as much as point loads do (Boussinesq).
         let pressed_m: f64 = loaded
             .iter()
-            .map(|other| (other.load_n, (other.position_m[1] - patch.position_m[1]).abs()))
+            .map(|other| {
+                (
+                    other.load_n,
+                    (other.position_m[1] - patch.position_m[1]).abs(),
+                )
+            })
             .filter(|(_, distance_m)| *distance_m > 0.0)
             .map(|(load_n, distance_m)| 2.0 * elasticity * load_n / distance_m)
             .sum();

@@ -125,9 +125,18 @@ fn forces_between_nodes_are_those_of_the_contact() {
     }
     let [loads, forces, positions] = [loads, forces, positions].map(percentiles);
     let all = format!("{loads:?} {forces:?} {positions:?}");
-    assert!(loads[0] < 0.02 && loads[1] < 0.05 && loads[2] < 0.2, "{all}");
-    assert!(forces[0] < 0.005 && forces[1] < 0.025 && forces[2] < 0.15, "{all}");
-    assert!(positions[0] < 0.03e-3 && positions[1] < 0.3e-3 && positions[2] < 1e-3, "{all}");
+    assert!(
+        loads[0] < 0.02 && loads[1] < 0.05 && loads[2] < 0.2,
+        "{all}"
+    );
+    assert!(
+        forces[0] < 0.005 && forces[1] < 0.025 && forces[2] < 0.15,
+        "{all}"
+    );
+    assert!(
+        positions[0] < 0.03e-3 && positions[1] < 0.3e-3 && positions[2] < 1e-3,
+        "{all}"
+    );
 }
 
 #[test]
@@ -144,7 +153,10 @@ fn at_constant_load_a_micrometre_changes_the_force_little() {
             let motion = under_load(contact(), &motion, 100e3);
             let now = contact().forces(&motion, &LEVEL).wheels[1].force_n[1];
             if let Some(before) = before {
-                assert!((now - before).abs() < 4e3, "{motion:?}: {before} N, {now} N");
+                assert!(
+                    (now - before).abs() < 4e3,
+                    "{motion:?}: {before} N, {now} N"
+                );
             }
             before = Some(now);
         }
@@ -189,11 +201,20 @@ fn a_light_wheel_has_finite_forces_and_derivatives() {
         };
         let motion = under_load(contact(), &motion, 100.0);
         let mut forces = contact().forces(&motion, &LEVEL);
-        assert!(forces.force_n.iter().chain(&forces.moment_n_m).all(|x| x.is_finite()));
+        assert!(
+            forces
+                .force_n
+                .iter()
+                .chain(&forces.moment_n_m)
+                .all(|x| x.is_finite())
+        );
         let derivatives = contact().update_with_derivatives(&motion, &LEVEL, &mut forces);
         for wheel in derivatives {
             let rows = wheel.force.iter().chain(&wheel.moment).flatten();
-            assert!(rows.into_iter().all(|x| x.is_finite()), "{motion:?} {wheel:?}");
+            assert!(
+                rows.into_iter().all(|x| x.is_finite()),
+                "{motion:?} {wheel:?}"
+            );
         }
     }
 }

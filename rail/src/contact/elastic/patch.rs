@@ -32,7 +32,8 @@ pub struct ElasticPatch {
     pub wheel_y_m: f64,
     /// Depth on the wheel at this position, m; the rolling radius is the wheel radius plus this depth.
     pub wheel_z_m: f64,
-    /// Semi-axes `[a, b]` (rolling direction, across) of the ellipse with the area and the width of the patch, m.
+    /// Semi-axes `[a, b]` (rolling direction, across) of the ellipse with the area of the patch and the spread of its
+    /// load across, m.
     pub semi_axes_m: [f64; 2],
     /// Normal load of the whole patch, N.
     pub whole_load_n: f64,
@@ -120,19 +121,19 @@ impl NormalContact {
         load.each(entry, |other, degree| {
             let (i, line_load) = (load.strips[other], load.heights[other]);
             let (strip, half_length) = (&strips[i], self.half_lengths_m[i]);
-            size.load += degree * line_load * strip.width_m;
             let pressure = degree * peak_pressure(line_load, half_length);
             size.peak_pressure = size.peak_pressure.max(pressure);
-            let part = degree * 2.0 * half_length * strip.width_m;
+            area += degree * 2.0 * half_length * strip.width_m;
+            let part = degree * line_load * strip.width_m;
             let distance = strip.arc_m - origin.arc_m;
-            area += part;
+            size.load += part;
             first += part * distance;
             second += part * distance * distance;
         });
-        let mean = first / area;
+        let mean = first / size.load;
         let own = origin.width_m * origin.width_m / 12.0;
-        // The area of an ellipse has the variance b^2/4 across.
-        let b = 2.0 * (second / area - mean * mean + own).sqrt();
+        // The load of an elliptical patch has the variance b^2/5 across.
+        let b = (5.0 * (second / size.load - mean * mean + own)).sqrt();
         size.semi_axes = [area / (PI * b), b];
         size
     }

@@ -137,6 +137,9 @@ mod tests {
         assert_eq!(at(4.0), (3, 1.0, true));
         assert_eq!(at(-1.0), (0, 0.0, false));
         assert_eq!(at(9.0), (3, 1.0, false));
-        assert_eq!([0.25, 3.0, 9.0].map(|value| axis.locate(value).per_unit), [2.0, 0.5, 0.0]);
+        assert_eq!(
+            [0.25, 3.0, 9.0].map(|value| axis.locate(value).per_unit),
+            [2.0, 0.5, 0.0]
+        );
     }
 }

@@ -4,8 +4,9 @@ use std::array::from_fn;
 
 use super::axis::Axis;
 use super::record::{Record, pack};
-use super::{DEPTH_UNIT_M, DEPTHS, LEVELS, Node, ROOTS, Tables};
-use crate::contact::elastic::{ElasticPatch, Fineness, Gap, Given, NormalContact, TurnedStrips};
+use super::row::{Row, load_n};
+use super::shear::Shear;
+use super::{DEPTH_UNIT_M, DEPTHS, LEVELS, Node, Tables};
 use crate::contact::geometry::ContactGeometry;
 use crate::contact::zones::ZONES;
 
@@ -17,39 +18,22 @@ const HALVINGS: u32 = 6;
 /// Smallest spacing of the nodes of the shift, m.
 const SHIFT_SPACING_M: f64 = (SHIFTS_M[1] - SHIFTS_M[0]) / (SHIFT_CELLS << HALVINGS) as f64;
 /// Rolls and squared yaws: first value, smallest spacing (rad, rad^2), and the nodes as multiples of the spacing.
-const ROLLS: (f64, f64, [u32; 13]) =
-    (-24e-3, 1e-3, [0, 8, 14, 17, 20, 22, 24, 26, 28, 31, 34, 40, 48]);
+const ROLLS: (f64, f64, [u32; 13]) = (
+    -24e-3,
+    1e-3,
+    [0, 8, 14, 17, 20, 22, 24, 26, 28, 31, 34, 40, 48],
+);
 const YAWS_SQUARED: (f64, f64, [u32; 6]) = (0.0, 0.5e-4, [0, 2, 5, 10, 18, 50]);
-/// Strips for each load.
-const FINENESS: [Fineness; LEVELS] = [
-    Fineness::Fine,
-    Fineness::Fine,
-    Fineness::Medium,
-    Fineness::Medium,
-    Fineness::Coarse,
-    Fineness::Coarse,
-    Fineness::Coarse,
-];
-
-/// Relative error of the lengths of strips; the load is off by a third of it.
-const LENGTH_TOLERANCE: f64 = 2e-3;
 /// Error of the interpolated depth, m, above which a cell of the shift is halved, and loads and rolls at which it is
 /// computed.
 const DEPTH_ERROR_M: f64 = 2.3e-6;
-/// The same for the lateral force, as a fraction of the load.
+/// The same for the lateral force, as a fraction of the load, and for the position on the wheel, m.
 const FORCE_ERROR: f64 = 0.02;
+const POSITION_ERROR_M: f64 = 0.15e-3;
 const PROBED_LEVELS: [usize; 2] = [1, 4];
 const PROBED_ROLLS_RAD: [f64; 3] = [-6e-3, 0.0, 6e-3];
 /// Depths of a wheel that is nowhere over the rail: multiples of this one, m.
 const ABSENT_M: f64 = 0.05;
-/// Slope of the part of the flange for which the tables correct the effect of the yaw.
-const FLANGE_SLOPE: f64 = 1.8;
-
-/// Shift of the contact on the flange per squared yaw, m/rad^2. The yaw moves the silhouette outwards by
-/// `r slope yaw^2`; shifting the nodes by as much keeps the flange at the same node.
-fn yaw_shift_m(geometry: &ContactGeometry) -> f64 {
-    FLANGE_SLOPE * geometry.pair().installation().wheel_radius_m
-}
 
 /// The axes of all tables whose shift has these nodes.
 pub(super) fn axes(shifts: Axis) -> [Axis; 3] {
@@ -74,57 +58,6 @@ fn rounded(depth_m: f64) -> f32 {
     ((depth_m / DEPTH_UNIT_M).round() * DEPTH_UNIT_M) as f32
 }
 
-/// Load of a level, N.
-fn load_n(level: usize) -> f64 {
-    ROOTS[level].powi(3)
-}
-
-/// A turned wheel divided into fine, medium and coarse strips, and its last solutions.
-struct Row<'a> {
-    geometry: &'a ContactGeometry,
-    wheels: [TurnedStrips<'a>; 3],
-    gaps: [Gap; 3],
-    contacts: [NormalContact; LEVELS],
-}
-
-impl<'a> Row<'a> {
-    fn new(geometry: &'a ContactGeometry, roll_rad: f64, yaw_rad: f64) -> Self {
-        let strips = |fineness| TurnedStrips::new(geometry.pair(), roll_rad, yaw_rad, fineness);
-        Self {
-            geometry,
-            wheels: [Fineness::Fine, Fineness::Medium, Fineness::Coarse].map(strips),
-            gaps: Default::default(),
-            contacts: std::array::from_fn(|_| NormalContact::with_tolerance(LENGTH_TOLERANCE)),
-        }
-    }
-
-    /// Moves the wheel to a lateral shift.
-    fn shift(&mut self, lateral_m: f64) {
-        for (fineness, (wheel, gap)) in self.wheels.iter().zip(&mut self.gaps).enumerate() {
-            let levels = (0..LEVELS).filter(|level| FINENESS[*level] as usize == fineness);
-            let max_load_n = levels.map(load_n).fold(0.0, f64::max);
-            let reach_m = Gap::usual_reach_m(max_load_n);
-            gap.fill(wheel, lateral_m, |highest_m| highest_m - reach_m);
-        }
-    }
-
-    /// Depth and patches under a load, at the shift that the wheel was moved to.
-    fn solve(&mut self, lateral_m: f64, level: usize) -> (f64, [ElasticPatch; ZONES]) {
-        let fineness = FINENESS[level] as usize;
-        let (wheel, gap) = (&self.wheels[fineness], &self.gaps[fineness]);
-        let contact = &mut self.contacts[level];
-        let given = Given::LoadN(load_n(level));
-        contact.solve(gap, self.geometry.steel(), given);
-        let patches = if gap.holds(contact.depth_m) {
-            self.geometry.patches_in(gap, lateral_m, contact)
-        } else {
-            self.geometry
-                .elastic_patches(wheel, lateral_m, given, contact)
-        };
-        (contact.depth_m, patches)
-    }
-}
-
 /// Some rows of nodes. The records of each node are numbered from the first one of these rows.
 #[derive(Default)]
 struct Part {
@@ -143,10 +76,16 @@ impl Tables {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(geometry: ContactGeometry) -> Self {
-        let axes = axes(shift_axis(&geometry));
+        let shear = Shear::of(&geometry);
+        let axes = axes(shift_axis(&geometry, &shear));
         let [shifts, rolls, yaws] = &axes;
         let rows: Vec<[f64; 2]> = (0..yaws.nodes() * rolls.nodes())
-            .map(|row| [rolls.value(row % rolls.nodes()), yaws.value(row / rolls.nodes())])
+            .map(|row| {
+                [
+                    rolls.value(row % rolls.nodes()),
+                    yaws.value(row / rolls.nodes()),
+                ]
+            })
             .collect();
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let rows_each = rows.len().div_ceil(threads);
@@ -154,7 +93,7 @@ impl Tables {
             let compute = |rows: &'_ [[f64; 2]]| {
                 let mut part = Part::default();
                 for row in rows {
-                    part.add_row(&geometry, shifts, *row);
+                    part.add_row(&geometry, shifts, &shear, *row);
                 }
                 part
             };
@@ -171,17 +110,19 @@ impl Tables {
             }
             all
         });
-        Self::from_parts(geometry, axes, all.nodes, all.records)
+        Self::from_parts(geometry, axes, &shear, all.nodes, all.records)
     }
 
     pub(super) fn from_parts(
         geometry: ContactGeometry,
         axes: [Axis; 3],
+        shear: &Shear,
         nodes: Vec<Node>,
         records: Vec<[Record; LEVELS]>,
     ) -> Self {
         Self {
-            yaw_shift_m: yaw_shift_m(&geometry),
+            movements: shear.movements(),
+            shear: *shear,
             geometry,
             axes,
             nodes,
@@ -192,12 +133,19 @@ impl Tables {
 
 impl Part {
     /// Adds the nodes at a roll (rad) and a squared yaw (rad^2).
-    fn add_row(&mut self, geometry: &ContactGeometry, shifts: &Axis, [roll, yaw_squared]: [f64; 2]) {
+    fn add_row(
+        &mut self,
+        geometry: &ContactGeometry,
+        shifts: &Axis,
+        shear: &Shear,
+        [roll, yaw_squared]: [f64; 2],
+    ) {
         let mut row = Row::new(geometry, roll, yaw_squared.sqrt());
+        let [per_roll, per_squared_yaw] = shear.movements();
         for node in 0..shifts.nodes() {
-            let lateral_m = shifts.value(node) - yaw_shift_m(geometry) * yaw_squared;
+            let lateral_m = shifts.value(node) + per_roll * roll + per_squared_yaw * yaw_squared;
             row.shift(lateral_m);
-            let mut depths = [-row.gaps[0].highest_m; DEPTHS];
+            let mut depths = [row.first_touch_m(); DEPTHS];
             let mut records = [[Record::default(); LEVELS]; ZONES];
             if !depths[0].is_finite() {
                 depths = from_fn(|k| ABSENT_M * (1 + k) as f64);
@@ -240,30 +188,21 @@ impl Part {
     }
 }
 
-/// Places the nodes of the shift where the depth and the lateral force are not straight between them.
-fn shift_axis(geometry: &ContactGeometry) -> Axis {
-    let mut rows = PROBED_ROLLS_RAD.map(|roll_rad| Row::new(geometry, roll_rad, 0.0));
+/// Places the nodes of the shift where depth, lateral force and position are not straight between them.
+fn shift_axis(geometry: &ContactGeometry, shear: &Shear) -> Axis {
+    let [per_roll, _] = shear.movements();
+    let mut rows =
+        PROBED_ROLLS_RAD.map(|roll_rad| (Row::new(geometry, roll_rad, 0.0), per_roll * roll_rad));
+    let allowed = [DEPTH_ERROR_M, FORCE_ERROR, POSITION_ERROR_M];
     Axis::halved(SHIFTS_M, SHIFT_CELLS, HALVINGS, |start, end| {
-        rows.iter_mut().any(|row| {
+        rows.iter_mut().any(|(row, moved_m)| {
             PROBED_LEVELS.iter().any(|level| {
-                let [before, middle, after] =
-                    [start, 0.5 * (start + end), end].map(|at| depth_and_force(row, at, *level));
-                (0..2).any(|k| {
-                    let allowed = [DEPTH_ERROR_M, FORCE_ERROR][k];
-                    (middle[k] - 0.5 * (before[k] + after[k])).abs() > allowed
-                })
+                let [before, middle, after] = [start, 0.5 * (start + end), end]
+                    .map(|shift_m| row.depth_force_and_position(shift_m + *moved_m, *level));
+                let is_off =
+                    |k: usize| (middle[k] - 0.5 * (before[k] + after[k])).abs() > allowed[k];
+                (0..allowed.len()).any(is_off)
             })
         })
     })
-}
-
-/// Depth, m, and lateral force divided by the load.
-fn depth_and_force(row: &mut Row<'_>, lateral_m: f64, level: usize) -> [f64; 2] {
-    row.shift(lateral_m);
-    let (depth_m, patches) = row.solve(lateral_m, level);
-    let lateral = |patch: &ElasticPatch| patch.load_n * patch.slope / patch.slope.hypot(1.0);
-    [
-        depth_m,
-        patches.iter().map(lateral).sum::<f64>() / load_n(level),
-    ]
 }

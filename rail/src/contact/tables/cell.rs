@@ -107,12 +107,13 @@ impl<'a> Cell<'a> {
         pose: &WheelPose,
         depth_m: f64,
     ) -> Self {
-        let yaw = pose.yaw_rad;
+        let (roll, squared_yaw) = (pose.roll_rad, pose.yaw_rad * pose.yaw_rad);
         let [shifts, rolls, yaws] = &tables.axes;
+        let [per_roll, per_squared_yaw] = tables.movements;
         let at = [
-            shifts.locate(pose.lateral_m + tables.yaw_shift_m * (yaw * yaw)),
-            rolls.locate(pose.roll_rad),
-            yaws.locate(yaw * yaw),
+            shifts.locate(pose.lateral_m - per_roll * roll - per_squared_yaw * squared_yaw),
+            rolls.locate(roll),
+            yaws.locate(squared_yaw),
         ];
         let [roll_stride, yaw_stride] = tables.strides();
         let start = at[0].cell + at[1].cell * roll_stride + at[2].cell * yaw_stride;
@@ -154,7 +155,8 @@ impl<'a> Cell<'a> {
         let (low, high) = (low + low_difference, high + high_difference);
         let depth = simd.splat_f64x4(self.depth_m);
         let below = |depths: f64x4<S>| {
-            simd.to_bitmask_mask64x4(simd.simd_gt_f64x4(depth, depths)).count_ones() as usize
+            simd.to_bitmask_mask64x4(simd.simd_gt_f64x4(depth, depths))
+                .count_ones() as usize
         };
         // Beyond the highest load, its depth is extrapolated.
         self.passed = (below(low) + below(high)).min(LEVELS);
@@ -241,7 +243,16 @@ const TINY_SEMI_AXIS_M: f64 = 1e-8;
 fn unpacked<T: Number>(record: [T; FIELDS], load: T, root: T) -> PatchNumbers<T> {
     let [share, sine, wheel_y, wheel_z, a, b, whole, pressure] = record;
     let per = (share + TINY).reciprocal();
-    let [unit, sine_unit, y_unit, z_unit, a_unit, b_unit, whole_unit, pressure_unit] = UNITS;
+    let [
+        unit,
+        sine_unit,
+        y_unit,
+        z_unit,
+        a_unit,
+        b_unit,
+        whole_unit,
+        pressure_unit,
+    ] = UNITS;
     let per_root = per * root;
     PatchNumbers {
         load: share * unit * load,
@@ -298,9 +309,8 @@ impl PatchReader for Cell<'_> {
         let lanes = [p, q, r, s].each(|record| simd.split_f32x8(record));
         let [k, l, m, n] = transposed(simd, lanes.each(|(four, _)| four));
         let [t, u, v, w] = transposed(simd, lanes.each(|(_, four)| four));
-        let in_lanes = |left: f64, right: f64| {
-            crate::math::number::load(simd, &[left, right, left, right])
-        };
+        let in_lanes =
+            |left: f64, right: f64| crate::math::number::load(simd, &[left, right, left, right]);
         unpacked(
             [k, l, m, n, t, u, v, w],
             in_lanes(left.load.load, right.load.load),
@@ -327,7 +337,9 @@ impl Cell<'_> {
     ) -> (Tangent, PatchNumbers<Tangent>) {
         // The position in the cell along each axis, as a function of the pose.
         let squared = yaw * yaw;
-        let values = [shift + squared * self.tables.yaw_shift_m, roll, squared];
+        let [per_roll, per_squared_yaw] = self.tables.movements;
+        let shift = shift - roll * per_roll - squared * per_squared_yaw;
+        let values = [shift, roll, squared];
         let mut depth_slopes = [[0.0_f32; DEPTHS]; 3];
         let mut record_slopes = [[[0.0_f32; FIELDS]; 2]; 3];
         for axis in 0..3 {

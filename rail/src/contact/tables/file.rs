@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 use super::axis::Axis;
 use super::build::{axes, shift_axis_of};
 use super::record::{FIELDS, Record};
+use super::shear::Shear;
 use super::{DEPTH_UNIT_M, DEPTHS, LEVELS, Node, Tables};
 use crate::contact::geometry::ContactGeometry;
 use crate::contact::zones::ZONES;
@@ -21,7 +22,7 @@ use crate::profile::Profile;
 pub struct NotTheseTables;
 
 /// First bytes of every file. The number rises when the tables of a pair change.
-const MAGIC: &[u8; 16] = b"dashpot tables 3";
+const MAGIC: &[u8; 16] = b"dashpot tables 4";
 /// Length in bytes of the key and of the checksum, which follow the magic number.
 const DIGEST: usize = 32;
 /// Greatest length of uncompressed tables, bytes.
@@ -71,16 +72,19 @@ impl Tables {
         format!("{name}.tables")
     }
 
-    /// The uncompressed tables: steps of the shift axis, zones of the nodes, their loaded zones, depths, and records.
+    /// The uncompressed tables: movements, steps of the shift axis, zones of the nodes, their loaded zones, depths, and records.
     fn plain(&self) -> Vec<u8> {
         let mut plain = Vec::new();
+        write(&mut plain, &self.shear.micrometres());
         let steps = self.axes[0].steps().iter().map(|step| *step as i32);
         write(&mut plain, &[steps.len() as i32]);
         write(&mut plain, &steps.collect::<Vec<_>>());
-        let of_nodes = |number: &dyn Fn(&Node) -> i32| -> Vec<i32> {
-            self.nodes.iter().map(number).collect()
-        };
-        write(&mut plain, &of_nodes(&|node| (node.start & ZONE_MASK) as i32));
+        let of_nodes =
+            |number: &dyn Fn(&Node) -> i32| -> Vec<i32> { self.nodes.iter().map(number).collect() };
+        write(
+            &mut plain,
+            &of_nodes(&|node| (node.start & ZONE_MASK) as i32),
+        );
         write(&mut plain, &of_nodes(&|node| node.loaded as i32));
         let stride = self.axes[0].nodes();
         for k in 0..DEPTHS {
@@ -99,15 +103,23 @@ impl Tables {
                 let residuals = residuals(&numbers(level, field), stride);
                 let present = self.nodes.iter().zip(residuals);
                 let present = present.filter(|(node, _)| node.record(zone).is_some());
-                write(&mut plain, &present.map(|(_, residual)| residual).collect::<Vec<_>>());
+                write(
+                    &mut plain,
+                    &present.map(|(_, residual)| residual).collect::<Vec<_>>(),
+                );
             }
         }
         plain
     }
 
     fn from_plain(geometry: ContactGeometry, mut plain: Plain<'_>) -> Option<Self> {
+        let shear = Shear::from_micrometres(*plain.take(2)?.first_chunk()?)?;
         let stride = usize::try_from(*plain.take(1)?.first()?).ok()?;
-        let steps = plain.take(stride)?.iter().map(|step| *step as u32).collect();
+        let steps = plain
+            .take(stride)?
+            .iter()
+            .map(|step| *step as u32)
+            .collect();
         let axes = axes(shift_axis_of(steps)?);
         let count = axes.iter().map(Axis::nodes).product();
         let zones = plain.take(count)?;
@@ -151,7 +163,7 @@ impl Tables {
         plain
             .bytes
             .is_empty()
-            .then(|| Self::from_parts(geometry, axes, nodes, records))
+            .then(|| Self::from_parts(geometry, axes, &shear, nodes, records))
     }
 }
 
@@ -203,7 +215,11 @@ fn write(bytes: &mut Vec<u8>, numbers: &[i32]) {
     for plane in 0..4 {
         // Alternating signs would otherwise fill the upper planes.
         let zigzag = |number: &i32| ((number << 1) ^ (number >> 31)) as u32;
-        bytes.extend(numbers.iter().map(|number| (zigzag(number) >> (8 * plane)) as u8));
+        bytes.extend(
+            numbers
+                .iter()
+                .map(|number| (zigzag(number) >> (8 * plane)) as u8),
+        );
     }
 }
 

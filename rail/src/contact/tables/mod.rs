@@ -9,6 +9,8 @@ mod cache;
 mod cell;
 mod file;
 mod record;
+mod row;
+mod shear;
 
 use axis::Axis;
 pub use cache::{Cached, NotKept};
@@ -16,6 +18,7 @@ use cell::Cell;
 use fearless_simd::Simd;
 pub use file::NotTheseTables;
 use record::Record;
+use shear::Shear;
 
 use super::geometry::ContactGeometry;
 use super::silhouette::WheelPose;
@@ -43,8 +46,9 @@ pub struct Tables {
     nodes: Vec<Node>,
     /// The records at all loads, for each zone of each node that has patches.
     records: Vec<[Record; LEVELS]>,
-    /// Shift of the contact on the flange per squared yaw, m/rad^2.
-    yaw_shift_m: f64,
+    shear: Shear,
+    /// Movement of the nodes of the shift per roll, m/rad, and per squared yaw, m/rad^2.
+    movements: [f64; 2],
 }
 
 /// One node of the tables.
@@ -97,6 +101,7 @@ impl PartialEq for Tables {
     fn eq(&self, other: &Self) -> bool {
         Self::file_name(&self.geometry) == Self::file_name(&other.geometry)
             && self.axes == other.axes
+            && self.shear == other.shear
             && self.nodes == other.nodes
             && self.records == other.records
     }

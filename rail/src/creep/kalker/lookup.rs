@@ -25,8 +25,7 @@ pub(crate) struct KalkerLookup {
 /// Position of an ellipse among the rows.
 #[inline(always)]
 fn position<T: Number>(a: T, b: T) -> T {
-    shape(a, b).limited(MAX_SHAPE) * (0.5 * (ROWS - 1) as f64 / MAX_SHAPE)
-        + 0.5 * (ROWS - 1) as f64
+    shape(a, b).limited(MAX_SHAPE) * (0.5 * (ROWS - 1) as f64 / MAX_SHAPE) + 0.5 * (ROWS - 1) as f64
 }
 
 impl KalkerLookup {
@@ -115,7 +114,11 @@ mod tests {
         }
         let table = KalkerTable::new(0.28).unwrap();
         let lookup = KalkerLookup::new(&table);
-        for ratios in [[0.5176, 0.52, 0.6, 0.4], [0.01, 0.1, 0.35, 0.9], [1.0, 1.7, 6.0, 23.0]] {
+        for ratios in [
+            [0.5176, 0.52, 0.6, 0.4],
+            [0.01, 0.1, 0.35, 0.9],
+            [1.0, 1.7, 6.0, 23.0],
+        ] {
             let lanes = dispatch!(Level::new(), simd => in_lanes(simd, &lookup, ratios));
             for (lane, ratio) in ratios.into_iter().enumerate() {
                 let exact = table.at(ratio);
@@ -126,11 +129,22 @@ mod tests {
                 let ahead = table.at(ratio * 1.001);
                 let ahead = [ahead.c11, ahead.c22, ahead.c23, ahead.c33];
                 for k in 0..4 {
-                    assert!((lanes[k][lane] / exact[k] - 1.0).abs() < 1e-3, "{ratio} {k}");
+                    assert!(
+                        (lanes[k][lane] / exact[k] - 1.0).abs() < 1e-3,
+                        "{ratio} {k}"
+                    );
                     assert!((dual[k].value() / lanes[k][lane] - 1.0).abs() < 1e-6);
+                    // Beyond the book of tables, the coefficients bend within a row.
+                    if !(0.04..=25.0).contains(&ratio) {
+                        continue;
+                    }
                     let slope = (ahead[k] - exact[k]) / (0.001 * ratio);
                     let error = f64::from(dual[k].derivatives()[0]) - slope;
-                    assert!(error.abs() < 0.03 * exact[k] / ratio, "{ratio} {k}");
+                    assert!(
+                        error.abs() < 0.03 * exact[k] / ratio,
+                        "{ratio} {k}: {slope} {error} {}",
+                        exact[k]
+                    );
                 }
             }
         }

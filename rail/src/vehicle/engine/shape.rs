@@ -126,9 +126,7 @@ mod tests {
     use std::sync::{Arc, OnceLock};
 
     use super::*;
-    use crate::contact::{
-        ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact,
-    };
+    use crate::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
     use crate::creep::{Friction, KalkerBook};
     use crate::track::Track;
     use crate::vehicle::{Body, Element, End, Law, Stop, Vehicle, VehicleParameters, Wheelset};
