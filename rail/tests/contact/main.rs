@@ -9,6 +9,7 @@ mod elastic;
 mod exact;
 mod fastsim;
 mod force_jumped;
+mod friction;
 mod geometry;
 mod laws;
 mod normal;
