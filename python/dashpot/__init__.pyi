@@ -175,6 +175,7 @@ def vehicle(
     normal_damping_s_per_m: float | None = None,
     step_us: float | None = None,
     push_m: float | None = None,
+    contact: dict[str, Any] | None = None,
     dampers: dict[str, _Path | Damper] | dict[str, _Path] | dict[str, Damper] | None = None,
     overrides: _Overrides | None = None,
     signals: Sequence[str] | None = None,

@@ -9,6 +9,7 @@ mod built;
 mod calibration;
 mod calibration_words;
 mod contact;
+mod contact_table;
 mod damper;
 mod error;
 mod interruption;

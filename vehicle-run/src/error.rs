@@ -28,6 +28,16 @@ pub enum VehicleRunError {
     /// The bytes are not the contact tables of this vehicle.
     #[error("contact tables: {0}")]
     Tables(#[from] NotTheseTables),
+    /// The number of tables or geometries is not that of the distinct pairs of wheel and rail.
+    #[error(
+        "contact tables: {sources}, allowed: {pairs}, one for each distinct pair of wheel and rail"
+    )]
+    Sources {
+        /// Number of tables or geometries.
+        sources: usize,
+        /// Number of pairs.
+        pairs: usize,
+    },
     /// A damper cannot be external.
     #[error("external damper `{name}`: {source}")]
     Outside {

@@ -24,6 +24,8 @@ pub(super) struct Contact<T> {
     pub kalker: KalkerCoefficients<T>,
     /// Longitudinal creepage, lateral creepage, and spin, 1/m.
     pub creepage: [T; 3],
+    /// Factor on the friction coefficient of the surface.
+    pub friction_ratio: T,
 }
 
 /// A number type for which creep laws can be evaluated.
@@ -53,7 +55,8 @@ impl<S: Simd> CreepNumber for f64x4<S> {
             semi_axes: contact.semi_axes,
             shear_modulus: surface.shear_modulus_pa,
             kalker: contact.kalker,
-            friction: surface.friction_in_lanes(contact.creepage, reference_speed),
+            friction: surface.friction_in_lanes(contact.creepage, reference_speed)
+                * contact.friction_ratio,
             creepage: contact.creepage,
         };
         let forces = surface.law.forces_in_lanes(&contacts, used);
@@ -77,6 +80,8 @@ impl CreepNumber for Tangent {
         let creepage = Creepage::of(contact.creepage.map(|number| number.value()));
         let sliding_speed = creepage.magnitude() * reference_speed.value();
         let KalkerCoefficients { c11, c22, c23, c33 } = contact.kalker;
+        // The ratio depends on the rail, not on the motion.
+        let ratio = contact.friction_ratio.value();
         let loaded = LoadedContact {
             load_n: contact.load.value(),
             a_m: contact.semi_axes[0].value(),
@@ -88,10 +93,10 @@ impl CreepNumber for Tangent {
                 c23: c23.value(),
                 c33: c33.value(),
             },
-            friction: surface.friction.at(sliding_speed),
+            friction: surface.friction.at(sliding_speed) * ratio,
         };
         let derivatives = surface.law.forces_with_derivatives(&loaded, &creepage);
-        let friction_slope = surface.friction.slope_at(sliding_speed);
+        let friction_slope = surface.friction.slope_at(sliding_speed) * ratio;
         let friction = if friction_slope == 0.0 || sliding_speed == 0.0 {
             Self::constant(loaded.friction)
         } else {

@@ -239,6 +239,7 @@ impl<T: CreepNumber> MovingWheel<T> {
                 ((vy * cos + vz * sin) * directed).limited(MAX_CREEPAGE),
                 ((wz * cos - wy * sin) * frame.per_reference_speed).limited(MAX_CREEPAGE),
             ],
+            friction_ratio: rail.friction_ratio,
         };
         let creep = T::creep_forces(&contact, surface, frame.reference_speed, used);
         let [longitudinal, lateral, spin_moment] = creep;

@@ -10,6 +10,7 @@ mod exact;
 mod exact_forces;
 mod fastsim;
 mod force_jumped;
+mod friction;
 mod geometry;
 mod laws;
 mod normal;

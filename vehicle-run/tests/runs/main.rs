@@ -1,4 +1,5 @@
 //! Runs of vehicles: coupling with external dampers, and indices.
 
+mod contacts;
 mod coupled;
 mod vehicle_indices;

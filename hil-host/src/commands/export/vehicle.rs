@@ -25,16 +25,20 @@ pub(super) fn run(arguments: &ExportArguments, name: &str, interface: Interface)
     let refused = |error: VehicleRunError| Failure::new(format!("{}: {error}", case.name));
     let coupled_case = CoupledCase::new(&case, &options.outside).map_err(refused)?;
     let contact = coupled_case.contact().map_err(refused)?;
-    let tables = contact.tables().map_err(refused)?;
-    let content = tables.to_bytes();
-    let coupled = Coupled::new(&coupled_case, tables).map_err(refused)?;
-    let name_in_fmu = contact.tables_file_name().map_err(refused)?;
+    let (mut tables, mut files) = (Vec::new(), Vec::new());
+    for pair in contact.pairs() {
+        let of_pair = pair.tables().map_err(refused)?;
+        let name_in_fmu = pair.tables_file_name().map_err(refused)?;
+        files.push((name_in_fmu, of_pair.to_bytes()));
+        tables.push(of_pair);
+    }
+    let coupled = Coupled::new(&coupled_case, &tables).map_err(refused)?;
     let fmu = Fmu::of_vehicle(
         interface,
         &fmu_name(arguments, name),
         &coupled_case,
         &coupled,
-        (name_in_fmu, content),
+        files,
         library,
     )?;
     let content = Content::Vehicle {

@@ -1,6 +1,7 @@
 //! `dashpot vehicle`: simulates a vehicle on a track and writes histories, indices and a page.
 
 mod check;
+mod contact;
 mod drawing;
 pub mod drive;
 mod figures;

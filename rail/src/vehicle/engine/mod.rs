@@ -96,8 +96,8 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     shape: Shape,
     step_s: f64,
     method: Method,
-    contact: Arc<WheelsetContact<L, S>>,
-    surface: SurfaceConstants,
+    /// Contact of each wheelset; equal wheelsets share one.
+    contacts: Vec<Arc<WheelsetContact<L, S>>>,
     level: Level,
     names: Vec<String>,
     positions: Vec<BodyPosition>,
@@ -116,6 +116,7 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct WheelsetConstants {
     blocks: ContactBlocks,
+    surface: SurfaceConstants,
     /// Forces on elastically supported rails at standstill, N.
     standing_n: Vector,
     carried: Carried,

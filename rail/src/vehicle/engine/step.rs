@@ -137,8 +137,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let system = &mut state.work.system;
         system.set(&self.system);
         for (constants, forces) in self.wheelsets.iter().zip(&state.contacts) {
-            let (blocks, speed) = (&constants.blocks, state.speed_m_per_s);
-            add_contact(simd, system, blocks, forces, self.surface, speed, weights);
+            let (blocks, surface) = (&constants.blocks, constants.surface);
+            let speed = state.speed_m_per_s;
+            add_contact(simd, system, blocks, forces, surface, speed, weights);
         }
         state.is_diverged |= !self.structure.factorise(simd, system);
     }
@@ -262,6 +263,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             carried,
             axle_load_n,
             spin_inertia_kg_m2,
+            ..
         } = *constants;
         let speed = state.speed_m_per_s;
         let guidance = &state.work.guidance;
@@ -281,8 +283,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             yaw_rate_rad_per_s: v[4],
             ..free
         };
-        let rails = track.rails(distance_m + self.positions[body].x_m);
-        let mut rails = rails.map(|rail| rail.displacement(speed));
+        let mut rails = track.displacements(distance_m + self.positions[body].x_m, speed);
         if let Some((rail, _)) = on_rails {
             displace(
                 &mut rails,
@@ -291,7 +292,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             );
         }
         let contact = &mut state.contacts[number];
-        self.contact.update(&motion, &rails, contact);
+        self.contacts[number].update(&motion, &rails, contact);
         let greatest_n = &mut state.work.greatest_loads_n[number];
         for (greatest_n, wheel) in greatest_n.iter_mut().zip(&contact.wheels) {
             *greatest_n = greatest_n.max(-wheel.force_n[2]);
