@@ -17,6 +17,7 @@
 
 mod contact_point;
 pub mod elastic;
+mod energy;
 mod forces;
 mod frame;
 mod geometry;

@@ -6,6 +6,7 @@ use super::loaded_contact::{Contact, CreepNumber};
 use super::motion::{RailNumbers, Tangent};
 use super::pair::Pair;
 use super::patch_numbers::PatchNumbers;
+use super::silhouette::WheelPose;
 use super::status::Status;
 use super::surface::Surface;
 use crate::creep::{CreepLaw, MAX_CREEPAGE};
@@ -161,6 +162,18 @@ impl PatchOutput<Tangent> {
 pub(super) struct Patch<T> {
     pub wrench: Wrench<T>,
     pub output: PatchOutput<T>,
+}
+
+impl MovingWheel<Tangent> {
+    /// The pose relative to the rail.
+    pub fn pose(&self) -> WheelPose {
+        let [lateral_m, roll_rad, yaw_rad] = self.pose.map(|number| number.value());
+        WheelPose {
+            lateral_m,
+            roll_rad,
+            yaw_rad,
+        }
+    }
 }
 
 impl<T: CreepNumber> MovingWheel<T> {

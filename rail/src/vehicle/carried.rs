@@ -10,7 +10,7 @@ pub(super) struct Carried {
     pub vertical_m: f64,
     /// Rolling radius of the patch with the largest load, m.
     pub rolling_radius_m: f64,
-    /// Energy of the patches, J: `2/5 N penetration` each (Hertz).
+    /// Elastic energy of the contact of both wheels, J.
     pub contact_j: f64,
     /// Forces of the left and right rail on their wheels, N.
     pub wheel_forces_n: [[f64; 3]; 2],
@@ -48,13 +48,7 @@ impl Carried {
             motion.rotation_rad_per_s = SPEED_M_PER_S / radius(&motion)?;
         }
         let forces = contact.forces(&motion, &rails);
-        let patches = forces
-            .wheels
-            .iter()
-            .flat_map(|wheel| wheel.loaded_patches());
-        let contact_j = patches
-            .map(|patch| 0.4 * patch.load_n * patch.penetration_m)
-            .sum();
+        let contact_j = contact.elastic_energy_j(&motion, &rails).iter().sum();
         Some(Self {
             contact_j,
             wheel_forces_n: [forces.wheels[0].force_n, forces.wheels[1].force_n],

@@ -23,7 +23,6 @@ pub struct Case {
     pub depth_m: f64,
     pub normal_n: f64,
     pub position_m: f64,
-    pub angle_rad: f64,
     pub peak_pressure_pa: f64,
     pub force_n: [f64; 3],
     pub spin_moment_n_m: f64,
@@ -37,7 +36,6 @@ pub fn cases(text: &str) -> Vec<Case> {
         "z_ws_mm",
         "fn_n",
         "ycp_mm",
-        "delta_cp_rad",
         "pmax_mpa",
         "fx_rail_n",
         "fy_rail_n",
@@ -47,14 +45,13 @@ pub fn cases(text: &str) -> Vec<Case> {
     let columns = columns.map(|name| names.iter().position(|other| *other == name).unwrap());
     let case = |line: &str| {
         let fields: Vec<&str> = line.split(',').collect();
-        let [y, z, normal, position, angle, peak, fx, fy, fz, moment] =
+        let [y, z, normal, position, peak, fx, fy, fz, moment] =
             columns.map(|k| fields[k].parse::<f64>().unwrap());
         Case {
             lateral_m: 1e-3 * y,
             depth_m: 1e-3 * z,
             normal_n: normal,
             position_m: 1e-3 * position,
-            angle_rad: -angle,
             peak_pressure_pa: 1e6 * peak,
             force_n: [fx, fy, fz],
             spin_moment_n_m: 1e-3 * moment,

@@ -243,6 +243,32 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
+    /// Motion of a wheelset over its track.
+    #[inline(always)]
+    pub(super) fn wheelset_motion(
+        &self,
+        state: &VehicleState,
+        constants: &WheelsetConstants,
+    ) -> Motion {
+        let body = constants.blocks.wheelset;
+        let pose_rate = &state.work.guidance.pose_rate[body];
+        let [lateral, vertical, roll, _, yaw] = state.coordinates[body];
+        let v = state.velocities[body];
+        let free = constants.carried.motion(state.speed_m_per_s);
+        Motion {
+            lateral_m: lateral,
+            vertical_m: free.vertical_m + vertical,
+            roll_rad: roll,
+            yaw_rad: yaw,
+            lateral_velocity_m_per_s: v[0] - pose_rate[0],
+            vertical_velocity_m_per_s: v[1],
+            roll_rate_rad_per_s: v[2] - pose_rate[2],
+            rotation_rad_per_s: free.rotation_rad_per_s - v[3],
+            yaw_rate_rad_per_s: v[4],
+            ..free
+        }
+    }
+
     #[inline(always)]
     fn act_on_wheelset(
         &self,
@@ -266,23 +292,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             ..
         } = *constants;
         let speed = state.speed_m_per_s;
-        let guidance = &state.work.guidance;
-        let pose_rate = &guidance.pose_rate[body];
-        let [lateral, vertical, roll, _, yaw] = state.coordinates[body];
-        let v = state.velocities[body];
-        let free = carried.motion(speed);
-        let motion = Motion {
-            lateral_m: lateral,
-            vertical_m: carried.vertical_m + vertical,
-            roll_rad: roll,
-            yaw_rad: yaw,
-            lateral_velocity_m_per_s: v[0] - pose_rate[0],
-            vertical_velocity_m_per_s: v[1],
-            roll_rate_rad_per_s: v[2] - pose_rate[2],
-            rotation_rad_per_s: free.rotation_rad_per_s - v[3],
-            yaw_rate_rad_per_s: v[4],
-            ..free
-        };
+        let motion = self.wheelset_motion(state, constants);
         let mut rails = track.displacements(distance_m + self.positions[body].x_m, speed);
         if let Some((rail, _)) = on_rails {
             displace(
@@ -299,8 +309,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         let [_, fy, fz] = contact.force_n;
         let [mx, my, mz] = contact.moment_n_m;
-        let turned = guidance.relative[body][2];
-        let momentum = spin_inertia_kg_m2 * free.rotation_rad_per_s;
+        let turned = state.work.guidance.relative[body][2];
+        let [_, _, roll, _, yaw] = state.coordinates[body];
+        let v = &state.velocities[body];
+        let momentum = spin_inertia_kg_m2 * carried.motion(speed).rotation_rad_per_s;
         let sums = &mut forces[body];
         sums[0] += fy - turned * fz;
         sums[1] += fz + turned * fy + axle_load_n;
