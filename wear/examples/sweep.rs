@@ -49,7 +49,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let contact = contact(&tables, friction);
         let mut height_m = 0.0;
         for lateral_m in &points {
-            let given = Given { roll_rad, yaw_rad: 5e-3, load_n: 100e3 };
+            let given = Given {
+                side: 1,
+                roll_rad,
+                yaw_rad: 5e-3,
+                load_n: 100e3,
+            };
             let wheel = under_load(&contact, &given, *lateral_m, &mut height_m);
             let loads: Vec<String> = wheel
                 .patches
@@ -70,13 +75,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         for load_n in [50e3, 100e3, 150e3] {
             for yaw_mrad in [-10, -5, -2, 0, 2, 5, 10] {
-                let given = Given { roll_rad, yaw_rad: 1e-3 * f64::from(yaw_mrad), load_n };
+                let given = Given {
+                    side: 1,
+                    roll_rad,
+                    yaw_rad: 1e-3 * f64::from(yaw_mrad),
+                    load_n,
+                };
                 let started = Instant::now();
                 let worst = greatest_change(&contact, &given, SHIFTS_M, STEP_M);
                 println!(
-                    "friction {friction}, {load_n} N, {yaw_mrad} mrad: {:.2} kN at {:.3} mm ({:.0?})",
+                    "friction {friction}, {load_n} N, {yaw_mrad} mrad: {:.2} kN at {:.3} mm, {:.1?} N ({:.0?})",
                     1e-3 * worst.change_n,
                     1e3 * worst.lateral_m,
+                    worst.forces_n,
                     started.elapsed()
                 );
             }

@@ -68,14 +68,40 @@ impl WearEstimate {
         self
     }
 
-    /// Sum of this wear and that of the same cells by `other`.
-    pub fn plus(mut self, other: &Self) -> Self {
-        for (cell, other) in self.cells.iter_mut().zip(&other.cells) {
-            cell.depth_m += other.depth_m;
+    /// The same wear, averaged with the window `1 + cos(pi s / l)` over the distances `s` up to `l = length_m` along the
+    /// surface. Each cell spreads its depth over the cells in its window, so the area is kept, at the ends too. A length
+    /// below a cell, and NaN, leave the wear as it is.
+    pub fn averaged(mut self, length_m: f64) -> Self {
+        if length_m.is_nan() || length_m < CELL_M {
+            return self;
         }
-        self.max_depth_m = self.cells.iter().map(|cell| cell.depth_m).fold(0.0, f64::max);
-        self.area_m2 += other.area_m2;
-        self.volume_m3 += other.volume_m3;
+        let weight = |distance: usize| {
+            let part = distance as f64 * CELL_M / length_m;
+            if part < 1.0 {
+                1.0 + (std::f64::consts::PI * part).cos()
+            } else {
+                0.0
+            }
+        };
+        let count = self.cells.len();
+        let reach = (length_m / CELL_M).min(count as f64) as usize;
+        let mut depths = vec![0.0; count];
+        for (cell, wear) in self.cells.iter().enumerate() {
+            let window = cell.saturating_sub(reach)..(cell + reach + 1).min(count);
+            let weights = |other: usize| weight(cell.abs_diff(other));
+            let total: f64 = window.clone().map(weights).sum();
+            for other in window {
+                depths[other] += wear.depth_m * weights(other) / total;
+            }
+        }
+        for (cell, depth_m) in self.cells.iter_mut().zip(depths) {
+            cell.depth_m = depth_m;
+        }
+        self.max_depth_m = self
+            .cells
+            .iter()
+            .map(|cell| cell.depth_m)
+            .fold(0.0, f64::max);
         self
     }
 }

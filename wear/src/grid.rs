@@ -67,9 +67,22 @@ impl WearGrid {
         }
         let per_cell = amount / width;
         let first = cell_of(start, last);
-        for (cell, sum) in cells.iter_mut().enumerate().take(cell_of(end, last) + 1).skip(first) {
-            let from = if cell == 0 { start } else { start.max(cell as f64) };
-            let to = if cell == last { end } else { end.min(cell as f64 + 1.0) };
+        for (cell, sum) in cells
+            .iter_mut()
+            .enumerate()
+            .take(cell_of(end, last) + 1)
+            .skip(first)
+        {
+            let from = if cell == 0 {
+                start
+            } else {
+                start.max(cell as f64)
+            };
+            let to = if cell == last {
+                end
+            } else {
+                end.min(cell as f64 + 1.0)
+            };
             *sum += per_cell * (to - from).max(0.0);
         }
     }

@@ -6,7 +6,7 @@ mod estimate;
 mod grid;
 mod law;
 mod patch;
-//PROC
+pub mod procedure;
 mod removal;
 mod strips;
 mod wear;
@@ -15,6 +15,6 @@ pub use estimate::{CellWear, WearEstimate};
 pub use grid::{CELL_M, WearGrid};
 pub use law::{Archard, TGamma, WearLaw};
 pub use patch::WearingPatch;
-pub use removal::{DEFAULT_SMOOTHING_M, RemovalError, removed};
+pub use removal::{RemovalError, removed};
 pub use strips::STRIPS;
 pub use wear::Wear;

@@ -56,9 +56,16 @@ impl WearingPatch {
     pub fn is_wearing(&self) -> bool {
         let [a, b] = self.semi_axes_m;
         let is_positive = |number: f64| number > 0.0 && number.is_finite();
-        [self.load_n, self.peak_pressure_pa, a, b, self.wear_number_n, self.friction]
-            .into_iter()
-            .all(is_positive)
+        [
+            self.load_n,
+            self.peak_pressure_pa,
+            a,
+            b,
+            self.wear_number_n,
+            self.friction,
+        ]
+        .into_iter()
+        .all(is_positive)
             && self.speed_m_per_s.is_finite()
     }
 }

@@ -59,7 +59,11 @@ pub(crate) fn strips(patch: &WearingPatch) -> [Strip; STRIPS] {
     }
     // Without slip the strips share by load, so that none of the work is lost.
     for (strip, [load, _]) in strips.iter_mut().zip(SHAPE) {
-        let part = if total > 0.0 { strip.work_n / total } else { load };
+        let part = if total > 0.0 {
+            strip.work_n / total
+        } else {
+            load
+        };
         strip.work_n = part * patch.wear_number_n;
     }
     strips

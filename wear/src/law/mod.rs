@@ -27,6 +27,11 @@ impl Default for WearLaw {
 }
 
 impl WearLaw {
+    /// [`TGamma::default`].
+    pub fn t_gamma() -> Self {
+        Self::TGamma(TGamma::default())
+    }
+
     /// Name of the law.
     pub fn name(&self) -> &'static str {
         match self {
