@@ -2,3 +2,4 @@
 
 mod coupled;
 mod vehicle_indices;
+mod wear;
