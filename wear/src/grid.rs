@@ -21,8 +21,8 @@ impl WearGrid {
     /// use dashpot_rail::profile::s1002;
     /// use dashpot_wear::WearGrid;
     /// let grid = WearGrid::new(&s1002::profile());
-    /// // The tread datum is about 98 mm along the surface from the back of the flange.
-    /// assert!((grid.arc_m(0.0) - 0.0977).abs() < 1e-3);
+    /// // The tread datum is about 92 mm along the surface from the back of the flange.
+    /// assert!((grid.arc_m(0.0) - 0.0919).abs() < 1e-3);
     /// ```
     pub fn new(profile: &Profile) -> Self {
         let samples_m = arcs(profile);

@@ -155,9 +155,9 @@ impl Procedure {
     /// use dashpot_wear::procedure::{Collective, Procedure, WornPair};
     /// let new = WornPair::new(s1002::profile(), uic60::profile());
     /// let worn = Procedure::default().wear(&new, &Collective::straight(), 0.2e-3)?;
-    /// // The tread loses 0.2 to 0.35 mm, the flange nothing.
+    /// // The tread loses 0.2 to 0.35 mm; the smoothing moves the flange by some micrometres.
     /// assert!((0.2e-3..0.35e-3).contains(&worn.wheel_depth_m()));
-    /// assert!((worn.wheel.at(-0.05).z_m - new.wheel.at(-0.05).z_m).abs() < 1e-7);
+    /// assert!((worn.wheel.at(-0.05).z_m - new.wheel.at(-0.05).z_m).abs() < 20e-6);
     /// # Ok::<(), dashpot_wear::procedure::ProcedureError>(())
     /// ```
     pub fn wear(

@@ -84,7 +84,7 @@ fn the_family_has_a_hollow_tread_a_thin_flange_and_conformal_shapes() {
     assert!(on_rail > 0.5e-3, "{on_rail}");
 
     // The mileage grows with the depth.
-    let chain = ["new", "tread worn", "hollow tread"].map(|name| member(name));
+    let chain = ["new", "tread worn", "hollow tread"].map(member);
     assert!(chain.is_sorted_by(|a, b| a.distance_m < b.distance_m));
 }
 
