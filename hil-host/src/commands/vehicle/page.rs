@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::report::{Limits, Report, counted_windows, percent};
-use super::{drawing, figures, spectra};
+use super::{drawing, figures, spectra, wear};
 use crate::commands::vehicle::history::History;
 use dashpot_files::case::Case;
 use dashpot_realtime::timing::span;
@@ -79,6 +79,7 @@ pub(super) fn write(
                 })?)
             }
         }
+        @if let Some(found) = &report.wear { (wear::section(found)?) }
         @if let Some(outside) = &report.outside {
             h2 { "External dampers" }
             @for forces in forces {
