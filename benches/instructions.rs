@@ -11,8 +11,8 @@ use dashpot::newton::NewtonDamper;
 use dashpot_core::{Damper, step_bank};
 use dashpot_files::case::{Case, CaseOptions};
 use dashpot_rail::contact::{
-    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact, WheelsetForces,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    WheelsetForces,
 };
 use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, ShenHedrickElkins};
 use dashpot_rail::track::Track;

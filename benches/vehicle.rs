@@ -12,8 +12,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::step_bank;
 use dashpot_files::case::{Case, CaseOptions};
 use dashpot_rail::contact::{
-    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact, WheelsetForces,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    WheelsetForces,
 };
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};

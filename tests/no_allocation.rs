@@ -10,9 +10,7 @@ use dashpot::damper;
 use dashpot_core::telemetry::{Sample, Telemetry};
 use dashpot_core::{Damper, step_bank};
 use dashpot_files::case::Case;
-use dashpot_rail::contact::{
-    ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::Vehicle;
 

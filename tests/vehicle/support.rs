@@ -2,9 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use dashpot_rail::contact::{
-    ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::track::{Irregularity, Layout, Part, Track};
 use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};

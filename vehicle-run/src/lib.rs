@@ -16,6 +16,7 @@ pub mod signals;
 pub mod spectra;
 mod tick;
 pub mod validity;
+pub mod wear;
 
 pub use accelerometer::Accelerometer;
 pub use coupled::{Coupled, CoupledCase, CoupledVariable};
@@ -28,3 +29,4 @@ pub use outside::{OutsideError, outside_index};
 pub use run::{Ending, Run};
 pub use tick::{TickRecord, VehicleTick};
 pub use validity::{ValidityWatch, Warning};
+pub use wear::{RunWear, WearIndices, WheelWear};

@@ -21,6 +21,7 @@ use dashpot_files::case::{Case, Fault};
 #[derive(Debug, Clone)]
 pub struct Run {
     vehicle: Vehicle<KalkerBook>,
+    contact: Arc<WheelsetContact<KalkerBook>>,
     track: Arc<Track>,
     state: VehicleState,
     faults: Vec<BuiltFault>,
@@ -216,7 +217,12 @@ impl Run {
         contacts: Vec<Contact>,
         track: Arc<Track>,
     ) -> Result<Self, VehicleRunError> {
+<<<<<<< HEAD
         let vehicle = Vehicle::with_contacts(&case.vehicle, contacts, case.step_s, case.rails)?;
+=======
+        let vehicle =
+            Vehicle::on_rails(&case.vehicle, Arc::clone(&contact), case.step_s, case.rails)?;
+>>>>>>> wear
         let mut state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
         if case.push_m != 0.0 {
             push_aside(&vehicle, &mut state, &track, case.push_m)?;
@@ -237,6 +243,7 @@ impl Run {
         Ok(Self {
             ticks: (case.duration_s / case.step_s).round() as u64,
             vehicle,
+            contact,
             track,
             state,
             faults,
@@ -257,6 +264,11 @@ impl Run {
     /// The vehicle.
     pub fn vehicle(&self) -> &Vehicle<KalkerBook> {
         &self.vehicle
+    }
+
+    /// The contact of the wheelsets.
+    pub fn contact(&self) -> &WheelsetContact<KalkerBook> {
+        &self.contact
     }
 
     /// Current state of the vehicle.

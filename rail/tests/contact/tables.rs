@@ -184,10 +184,10 @@ fn motions_that_the_tables_do_not_cover_are_flagged() {
         ..LEVEL[1]
     };
     assert_eq!(status(rolling(20.0), rolled), Status::OutsideTables);
-    // More than the greatest load of the tables, 405 kN.
-    let pressed = under_load(contact(), &rolling(20.0), 400e3);
+    // The greatest load is 1 MN.
+    let pressed = under_load(contact(), &rolling(20.0), 990e3);
     assert_eq!(status(pressed, LEVEL[1]), Status::Rolling);
-    let harder = under_load(contact(), &rolling(20.0), 410e3);
+    let harder = under_load(contact(), &rolling(20.0), 1010e3);
     assert_eq!(status(harder, LEVEL[1]), Status::OutsideTables);
 }
 

@@ -81,7 +81,7 @@ fn a_shared_contact_gives_the_same_bits_as_one_for_each_wheelset() {
         state.coordinates().to_vec()
     };
     let shared = Vehicle::new(&parameters, contact(5.0), 1e-3).unwrap();
-    let own = vec![contact(5.0), contact(5.0)];
+    let own = vec![contact(5.0); parameters.wheelsets.len()];
     let own = Vehicle::with_contacts(&parameters, own, 1e-3, None).unwrap();
     assert_eq!(run(shared), run(own));
 }

@@ -2,9 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use dashpot_rail::contact::{
-    ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 use dashpot_rail::creep::{Friction, Polach};
 use dashpot_rail::track::{Defect, Irregularity, Layout, Part, Rails, Track};
 use dashpot_rail::vehicle::{Body, Element, End, Law, VehicleParameters, Wheelset};

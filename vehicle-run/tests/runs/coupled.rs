@@ -20,7 +20,11 @@ fn case(vehicle: &str, fault: &str) -> Case {
 
 fn coupled(definition: &CoupledCase) -> Coupled {
     let contact = definition.contact().unwrap();
-    let tables: Vec<_> = contact.pairs().iter().map(|pair| pair.tables().unwrap()).collect();
+    let tables: Vec<_> = contact
+        .pairs()
+        .iter()
+        .map(|pair| pair.tables().unwrap())
+        .collect();
     Coupled::new(definition, &tables).unwrap()
 }
 

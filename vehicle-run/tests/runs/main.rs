@@ -3,3 +3,4 @@
 mod contacts;
 mod coupled;
 mod vehicle_indices;
+mod wear;

@@ -2,8 +2,13 @@
 
 use maud::{Markup, html};
 
+<<<<<<< HEAD
 use super::report::{Limits, Report, counted_windows, nadal_limits, percent};
 use super::{drawing, figures, spectra};
+=======
+use super::report::{Limits, Report, counted_windows, percent};
+use super::{drawing, figures, spectra, wear};
+>>>>>>> wear
 use crate::commands::vehicle::history::History;
 use dashpot_files::case::Case;
 use dashpot_realtime::timing::span;
@@ -81,6 +86,7 @@ pub(super) fn write(
                 })?)
             }
         }
+        @if let Some(found) = &report.wear { (wear::section(found)?) }
         @if let Some(outside) = &report.outside {
             h2 { "External dampers" }
             @for forces in forces {

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::contact::ContactReport;
 use super::outside::{self, OutsideReport};
+use super::wear;
 use crate::commands::counted;
 use crate::commands::paced::Paced;
 use crate::commands::vehicle::drive::Driven;
@@ -15,7 +16,11 @@ use dashpot_files::output;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::span;
 use dashpot_vehicle_run::{
+<<<<<<< HEAD
     Ending, Indices, Nadal, RideIndices, Warning, WheelIndices, WheelsetIndices,
+=======
+    Ending, Indices, RideIndices, Warning, WearIndices, WheelIndices, WheelsetIndices,
+>>>>>>> wear
 };
 
 /// Report of a run.
@@ -36,6 +41,8 @@ pub(super) struct Report {
     pub(super) warnings: Vec<Found>,
     /// `None` if [`Ending::has_indices`] is false.
     pub(super) indices: Option<Indices>,
+    /// Estimated wear of the wheels; `None` without indices.
+    pub(super) wear: Option<WearIndices>,
     /// Mean computing time per tick, s.
     pub(super) mean_tick_s: f64,
     /// Timing of a real-time run.
@@ -84,6 +91,7 @@ impl Report {
             ending: driven.ending.clone(),
             warnings: warnings.into_iter().map(found).collect(),
             indices: indices.filter(|_| has_indices),
+            wear: None,
             mean_tick_s: driven.stepping.as_secs_f64() / driven.ticks.max(1) as f64,
             realtime: pacing.as_ref().map(paced),
             pacing,
@@ -161,6 +169,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         }
         writeln!(out, "Y/Q and lateral force: maximum of the mean over 2 m")?;
         print_limits(out, indices)?;
+    }
+    if let Some(found) = &report.wear {
+        wear::print(out, found)?;
     }
     if let Some(realtime) = &report.realtime {
         realtime.write(out, "all work of a tick")?;
