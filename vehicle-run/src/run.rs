@@ -21,7 +21,7 @@ use dashpot_files::case::{Case, Fault};
 #[derive(Debug, Clone)]
 pub struct Run {
     vehicle: Vehicle<KalkerBook>,
-    contact: Arc<WheelsetContact<KalkerBook>>,
+    contacts: Vec<Contact>,
     track: Arc<Track>,
     state: VehicleState,
     faults: Vec<BuiltFault>,
@@ -217,12 +217,8 @@ impl Run {
         contacts: Vec<Contact>,
         track: Arc<Track>,
     ) -> Result<Self, VehicleRunError> {
-<<<<<<< HEAD
-        let vehicle = Vehicle::with_contacts(&case.vehicle, contacts, case.step_s, case.rails)?;
-=======
         let vehicle =
-            Vehicle::on_rails(&case.vehicle, Arc::clone(&contact), case.step_s, case.rails)?;
->>>>>>> wear
+            Vehicle::with_contacts(&case.vehicle, contacts.clone(), case.step_s, case.rails)?;
         let mut state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
         if case.push_m != 0.0 {
             push_aside(&vehicle, &mut state, &track, case.push_m)?;
@@ -243,7 +239,7 @@ impl Run {
         Ok(Self {
             ticks: (case.duration_s / case.step_s).round() as u64,
             vehicle,
-            contact,
+            contacts,
             track,
             state,
             faults,
@@ -266,9 +262,9 @@ impl Run {
         &self.vehicle
     }
 
-    /// The contact of the wheelsets.
-    pub fn contact(&self) -> &WheelsetContact<KalkerBook> {
-        &self.contact
+    /// The contact of each wheelset.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
     }
 
     /// Current state of the vehicle.

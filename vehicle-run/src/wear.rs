@@ -1,12 +1,11 @@
 //! Wear of the wheels over a run: an estimate by a published law.
 
-use dashpot_rail::contact::{PatchSource, WheelsetContact};
-use dashpot_rail::creep::CreepLaw;
 pub use dashpot_wear::{CellWear, WearLaw};
 use dashpot_wear::{Wear, WearEstimate, WearGrid, WearingPatch};
 use serde::Serialize;
 
 use super::VehicleTick;
+use super::contact::Contact;
 use super::signals::SIDES;
 use dashpot_files::case::Case;
 
@@ -73,23 +72,21 @@ const NOTE: &str = "Estimate by a law from laboratory tests of dry steel; withou
                     variants with it.";
 
 impl RunWear {
-    /// Starts the wear of a case whose wheels have the profiles of `contact`, by a law.
-    pub fn new<L: CreepLaw, S: PatchSource>(
-        case: &Case,
-        contact: &WheelsetContact<L, S>,
-        law: WearLaw,
-    ) -> Self {
-        let sides = contact.sources().each_ref().map(|source| {
-            let wheel = source.geometry().pair().wheel();
-            Wear::new(WearGrid::new(wheel), law)
-        });
-        let wheelsets = case.vehicle.wheelsets.iter();
+    /// Starts the wear of a case whose wheelsets have these contacts, by a law.
+    pub fn new(case: &Case, contacts: &[Contact], law: WearLaw) -> Self {
+        let wheels = |contact: &Contact| {
+            contact.sources().each_ref().map(|source| {
+                let wheel = source.geometry().pair().wheel();
+                Wear::new(WearGrid::new(wheel), law)
+            })
+        };
+        let wheelsets = case.vehicle.wheelsets.iter().zip(contacts);
         Self {
             wheelsets: wheelsets
-                .map(|wheelset| WheelsetWear {
+                .map(|(wheelset, contact)| WheelsetWear {
                     name: wheelset.name.clone(),
                     radius_m: wheelset.radius_m,
-                    wheels: sides.clone(),
+                    wheels: wheels(contact),
                 })
                 .collect(),
             friction: case.friction,

@@ -23,7 +23,7 @@ fn the_wear_of_a_run_agrees_with_its_wear_numbers() {
     for law in [WearLaw::default(), WearLaw::t_gamma()] {
         let mut run = Run::new(&case).unwrap();
         let mut indexer = Indexer::new(&case);
-        let mut wear = RunWear::new(&case, run.contact(), law);
+        let mut wear = RunWear::new(&case, run.contacts(), law);
         assert!(wear.indices().is_none());
         while run.step().unwrap().is_none() {
             indexer.add(run.state());
@@ -84,7 +84,8 @@ fn unequal_worn_profiles_run_through_a_curve_without_a_jump() {
         .with_normal_damping(case.normal_damping_s_per_m)
         .unwrap();
     let track = Arc::new(case.track.build().unwrap());
-    let mut run = Run::on(&case, Arc::new(contact), track).unwrap();
+    let contacts = vec![Arc::new(contact); case.vehicle.wheelsets.len()];
+    let mut run = Run::on(&case, contacts, track).unwrap();
     let bodies = run.vehicle().names().len() - run.vehicle().wheelsets();
     let mut before: Option<Vec<[f64; 4]>> = None;
     let mut greatest_n = 0.0_f64;

@@ -2,13 +2,8 @@
 
 use maud::{Markup, html};
 
-<<<<<<< HEAD
 use super::report::{Limits, Report, counted_windows, nadal_limits, percent};
-use super::{drawing, figures, spectra};
-=======
-use super::report::{Limits, Report, counted_windows, percent};
 use super::{drawing, figures, spectra, wear};
->>>>>>> wear
 use crate::commands::vehicle::history::History;
 use dashpot_files::case::Case;
 use dashpot_realtime::timing::span;

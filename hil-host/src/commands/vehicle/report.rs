@@ -16,11 +16,7 @@ use dashpot_files::output;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::span;
 use dashpot_vehicle_run::{
-<<<<<<< HEAD
-    Ending, Indices, Nadal, RideIndices, Warning, WheelIndices, WheelsetIndices,
-=======
-    Ending, Indices, RideIndices, Warning, WearIndices, WheelIndices, WheelsetIndices,
->>>>>>> wear
+    Ending, Indices, Nadal, RideIndices, Warning, WearIndices, WheelIndices, WheelsetIndices,
 };
 
 /// Report of a run.
