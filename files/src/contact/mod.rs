@@ -7,6 +7,7 @@ mod choice;
 mod error;
 mod options;
 mod parameters;
+mod rail_friction;
 mod shared_profile;
 mod wheels;
 

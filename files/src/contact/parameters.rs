@@ -1,6 +1,6 @@
 //! Contact of a case: profiles, dimensions and friction.
 
-use dashpot_rail::contact::{Installation, Pair};
+use dashpot_rail::contact::{Installation, Pair, PairError};
 use dashpot_rail::creep::Friction;
 use dashpot_rail::profile::Body;
 use dashpot_rail::track::Track;
@@ -8,10 +8,8 @@ use dashpot_rail::vehicle::VehicleParameters;
 use serde::{Deserialize, Serialize};
 
 use super::error::ContactError;
+use super::rail_friction::friction_over_distance;
 use super::{ContactOptions, SharedProfile, Wheels};
-
-/// Bounds of a friction coefficient.
-const FRICTION: [f64; 2] = [0.0, 2.0];
 
 /// Profiles, dimensions and friction of the wheels and rails of a case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -180,7 +178,6 @@ impl ContactParameters {
                     continue;
                 }
                 if let Err(error) = Pair::new((**wheel).clone(), rail, installation) {
-                    use dashpot_rail::contact::PairError;
                     let key = match &error {
                         PairError::LowRail { .. } => "rail",
                         _ => "wheel",
@@ -268,59 +265,4 @@ impl ContactParameters {
             .map(|[at_m, left, right]| [*at_m, left / friction, right / friction])
             .collect()
     }
-}
-
-/// Returns the friction coefficients along the track, and checks them.
-fn friction_over_distance(
-    options: &ContactOptions,
-    friction: f64,
-) -> Result<Vec<[f64; 3]>, ContactError> {
-    let sides = [
-        ("left_friction", options.left_friction),
-        ("right_friction", options.right_friction),
-    ];
-    for (key, value) in sides {
-        if let Some(value) = value {
-            check_friction(key, value)?;
-            if options.friction_over_distance.is_some() {
-                let reason = "given with friction_over_distance, allowed: one of the two";
-                return Err(ContactError::other(key, reason));
-            }
-        }
-    }
-    let [left, right] = sides.map(|(_, value)| value);
-    let points = match &options.friction_over_distance {
-        Some(points) => points.clone(),
-        None if left.is_some() || right.is_some() => {
-            vec![[0.0, left.unwrap_or(friction), right.unwrap_or(friction)]]
-        }
-        None => Vec::new(),
-    };
-    let key = "friction_over_distance";
-    for [_, left, right] in &points {
-        check_friction(key, *left)?;
-        check_friction(key, *right)?;
-    }
-    if !points.is_empty() && friction <= 0.0 {
-        let key = sides
-            .iter()
-            .find(|(_, value)| value.is_some())
-            .map_or(key, |(key, _)| key);
-        let reason = format!(
-            "the friction of the case is {friction}, allowed: above 0, because friction on a rail is relative to it"
-        );
-        return Err(ContactError::other(key, reason));
-    }
-    Ok(points)
-}
-
-fn check_friction(key: &'static str, value: f64) -> Result<(), ContactError> {
-    let [min, max] = FRICTION;
-    if (min..=max).contains(&value) {
-        return Ok(());
-    }
-    Err(ContactError::other(
-        key,
-        format!("{value}, allowed: {min} to {max}"),
-    ))
 }

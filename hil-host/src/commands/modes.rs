@@ -167,8 +167,10 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     print_report(arguments.format, &report, print)
 }
 
-/// Resolves the contact of the vehicle with the values of the options. Friction on a rail or along the track and a gauge
-/// along the track do not act at standstill on the ideal track of modes, so they are refused.
+/// Resolves the contact of the vehicle with the values of the options.
+///
+/// # Errors
+/// An invalid value, or values of one rail or along the track: the linear equations are those of uniform track.
 fn setup(
     arguments: &ModesArguments,
     vehicle: &VehicleParameters,

@@ -105,7 +105,7 @@ impl Track {
     /// before the first and behind the last point. Without points, the gauge does not change.
     ///
     /// # Errors
-    /// Distances that do not rise, or a change outside -0.1 to 0.1 m.
+    /// Points less than 1 mm apart or not in order, or a change outside -0.1 to 0.1 m.
     ///
     /// ```
     /// use dashpot_rail::track::Track;
@@ -133,7 +133,7 @@ impl Track {
     /// linear in between, constant before the first and behind the last point. Without points, both factors are 1.
     ///
     /// # Errors
-    /// Distances that do not rise, or a factor outside 0 to 1000.
+    /// Points less than 1 mm apart or not in order, or a factor outside 0 to 1000.
     ///
     /// ```
     /// use dashpot_rail::track::Track;

@@ -7,6 +7,9 @@ use super::error::{Place, TrackError, within};
 /// Bounds of a distance, m.
 const DISTANCE_M: [f64; 2] = [-1e7, 1e7];
 
+/// Minimum distance between two points, m.
+const SPACING_M: f64 = 1e-3;
+
 /// Values at given distances: linear in between, constant before the first and behind the last.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Polyline<const N: usize> {
@@ -32,7 +35,7 @@ impl<const N: usize> Polyline<N> {
     /// Connects `points` of a distance, m, and its values; `None` if there are no points.
     ///
     /// # Errors
-    /// Distances that do not rise, or a value called `name` outside `allowed`.
+    /// Points less than 1 mm apart or not in order, or a value called `name` outside `allowed`.
     pub fn new(
         points: &[(f64, [f64; N])],
         place: fn(usize) -> Place,
@@ -43,7 +46,7 @@ impl<const N: usize> Polyline<N> {
         for (number, (distance_m, values)) in (1..).zip(points) {
             let bounds = [least_m, DISTANCE_M[1]];
             within(place(number), "distance_m", *distance_m, bounds)?;
-            least_m = distance_m.next_up();
+            least_m = distance_m + SPACING_M;
             for value in values {
                 within(place(number), name, *value, allowed)?;
             }

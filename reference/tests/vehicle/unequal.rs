@@ -8,7 +8,7 @@ use dashpot_rail::contact::{
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::profile::{Profile, s1002, uic60};
 use dashpot_rail::track::Track;
-use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleParameters, Wheelset};
+use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleParameters};
 use dashpot_reference::ReferenceError;
 use dashpot_reference::vehicle::VehicleReference;
 
@@ -58,18 +58,9 @@ fn contacts(friction: Friction) -> Vec<Contact> {
 
 /// The wagon with smaller wheels at the rear.
 fn vehicle() -> VehicleParameters {
-    let wagon = wagon([200e3, 60e3, 30e3]);
-    let wheelsets: Vec<Wheelset> = wagon
-        .wheelsets
-        .iter()
-        .zip([0.625, REAR_RADIUS_M])
-        .map(|(wheelset, radius_m)| {
-            let inertia = wheelset.inertia_kg_m2;
-            Wheelset::new(&wheelset.name, wheelset.mass_kg, inertia, radius_m)
-                .with_x_m(wheelset.x_m)
-        })
-        .collect();
-    wagon.with_wheelsets(wheelsets)
+    let mut wagon = wagon([200e3, 60e3, 30e3]);
+    wagon.wheelsets[1].radius_m = REAR_RADIUS_M;
+    wagon
 }
 
 /// A dip, then a gauge that widens by 12 mm and a right rail on which the friction drops to a fifth.
