@@ -2,6 +2,7 @@
 
 mod case_file;
 mod profile_file;
+mod rail_tilt;
 mod track_file;
 mod vehicle_dampers;
 mod vehicle_file;

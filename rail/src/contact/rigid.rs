@@ -45,10 +45,7 @@ impl RigidContact {
                 };
                 pair.deepest(&pose, scratch)
             };
-            let sides = [
-                side(left, left_datum, -1.0),
-                side(right, right_datum, 1.0),
-            ];
+            let sides = [side(left, left_datum, -1.0), side(right, right_datum, 1.0)];
             let residual = sides[1].interpenetration_m - sides[0].interpenetration_m
                 + distance * yaw_rad.cos() * roll.sin();
             (sides, residual)

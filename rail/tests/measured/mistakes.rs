@@ -40,8 +40,12 @@ fn every_format_names_a_file_in_metres() {
     // Divides every number of the data rows by 1000. The SIMPACK rail is in metres already; its units are stated.
     let in_metres = |text: &str| {
         let lines = text.lines().map(|line| {
-            let cells: Vec<&str> = line.split([' ', ',']).filter(|cell| !cell.is_empty()).collect();
-            let numbers: Result<Vec<f64>, _> = cells.iter().map(|cell| cell.parse::<f64>()).collect();
+            let cells: Vec<&str> = line
+                .split([' ', ','])
+                .filter(|cell| !cell.is_empty())
+                .collect();
+            let numbers: Result<Vec<f64>, _> =
+                cells.iter().map(|cell| cell.parse::<f64>()).collect();
             match numbers {
                 Ok(numbers) if numbers.len() >= 2 => numbers
                     .iter()
@@ -69,13 +73,19 @@ fn a_simpack_file_without_its_unit_is_too_wide() {
     let (name, text) = WHEELS[2];
     let text = text.replace("units.len.f", "units.len.unknown");
     let error = measured::parse(name, &text, Body::Wheel, &EXACT).unwrap_err();
-    assert!(matches!(error, ProfileError::Unit { width_mm, .. } if width_mm > 1e5), "{error}");
+    assert!(
+        matches!(error, ProfileError::Unit { width_mm, .. } if width_mm > 1e5),
+        "{error}"
+    );
     assert!(error.to_string().contains("units.len.f"), "{error}");
 }
 
 #[test]
 fn unsorted_points_are_named_with_the_first_jump() {
-    for (body, rows) in [(Body::Wheel, wheel_readings()), (Body::Rail, rail_readings())] {
+    for (body, rows) in [
+        (Body::Wheel, wheel_readings()),
+        (Body::Rail, rail_readings()),
+    ] {
         let read = |rows: &Rows| measured::parse("x.csv", &text(rows), body, &EXACT);
         assert!(read(&rows).is_ok());
         // In random order, in order of depth, and as two halves that both begin in the middle.
@@ -93,7 +103,10 @@ fn unsorted_points_are_named_with_the_first_jump() {
             };
             // The first row is on line 3.
             let [p, q] = [line - 4, line - 3].map(|row| unsorted[row as usize]);
-            assert!(((q.0 - p.0).hypot(q.1 - p.1) - jump_mm).abs() < 1e-9, "{line}: {jump_mm}");
+            assert!(
+                ((q.0 - p.0).hypot(q.1 - p.1) - jump_mm).abs() < 1e-9,
+                "{line}: {jump_mm}"
+            );
             assert!(jump_mm > measured::MAX_GAP_MM);
         }
     }

@@ -25,7 +25,9 @@ pub(super) fn jump(rows: &[Row]) -> Option<ProfileError> {
     if sorted.windows(2).any(|pair| distance_mm(pair) > MAX_GAP_MM) {
         return None;
     }
-    let jumps = rows.windows(2).filter(|pair| distance_mm(pair) > MAX_GAP_MM);
+    let jumps = rows
+        .windows(2)
+        .filter(|pair| distance_mm(pair) > MAX_GAP_MM);
     let steps = rows.windows(2).map(distance_mm);
     let path_mm: f64 = steps.filter(|step| *step <= MAX_GAP_MM).sum();
     let sorted_mm: f64 = sorted.windows(2).map(distance_mm).sum();
