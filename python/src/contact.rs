@@ -91,8 +91,8 @@ impl Contact {
 /// The formats and mirrors are those of the command `dashpot contact`; give them if the file does not state them.
 ///
 /// With `load_n`, the vertical load of each wheel, the result has the elastic patches, forces and conicity, at the
-/// shifts `lateral_m` (default: every millimetre up to 8 mm), for the yaw, speed and friction given. `UserWarning`s tell
-/// of a rail file that contains its inclination, and of a contact at the end of a profile.
+/// shifts `lateral_m` (default: every millimetre up to 8 mm), for the yaw, speed and friction given. A `UserWarning`
+/// reports a rail file that contains its inclination, or a contact at the end of a profile.
 ///
 /// >>> import dashpot
 /// >>> conicity = dashpot.contact(gauge_m=1.435).conicity
@@ -338,7 +338,7 @@ fn patches(py: Python<'_>, shifts: &[LoadedShift]) -> Outcome<Py<PyDict>> {
     let rows: Vec<Row<'_>> = shifts
         .iter()
         .flat_map(|shift| {
-            shift.wheels().flat_map(|(side, wheel)| {
+            shift.wheels().flat_map(move |(side, wheel)| {
                 let patches = wheel.patches.iter();
                 patches.map(move |patch| (shift.lateral_shift_m, side, patch))
             })

@@ -40,8 +40,8 @@ pub fn at_ends(contacts: &[EndContact], is_symmetric: bool) -> Vec<String> {
                 End::Outer => "on the field side",
             };
             format!(
-                "{side} {body}: at lateral shifts from {:.5} to {:.5} m the contact reaches the last point of the profile \
-                 {end}: the profile ends too early, and the true contact may lie beyond it",
+                "{side} {body}: at lateral shifts from {:.5} to {:.5} m the contact reaches the last point of the \
+                 profile {end}: the profile ends too early, and the true contact may lie beyond it",
                 contact.from_lateral_shift_m, contact.to_lateral_shift_m
             )
         })

@@ -1,8 +1,9 @@
 //! Tilt of a rail profile in its own axes: shows whether its file already contains the inclination of the track.
 //!
-//! A new head is symmetric: both of its sides lean outwards by the same angle, 1:20 on most European rails. Laid with an
-//! inclination, the field side leans outwards more and the gauge side less. Wear cuts the gauge side and the top, and
-//! leaves the field side and often the lowest part of the gauge side, so the tilt is measured there and not at the top.
+//! A new head is symmetric: both of its sides lean outwards by the same angle, 1:20 on most European rails. In a rail
+//! laid with an inclination, the field side leans outwards more and the gauge side less. Wear cuts the gauge side and
+//! the top, and leaves the field side and often the lowest part of the gauge side, so the tilt is measured there and
+//! not at the top.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -83,9 +84,9 @@ struct Side {
 ///
 /// The sides are measured where they are unworn. Of heads UIC 60 at tilts of 0, 1:40 and 1:20, with up to 6 mm of side
 /// wear, 5 mm of head wear that turns the top by up to 30 mrad, noise of 0.02 mm and sides down to 18 to 36 mm,
-/// [`RailTilt::contains`] misjudges less than 1 % for 1:40, and less than 0.2 % if the sides are measured down to 24 mm. A
-/// head whose sides are not 1:20 is measured wrongly by the difference if only one side is left: worn, not measured, or
-/// upright and therefore removed by the reader, as the gauge side of a head with sides of 1:40 that is laid at 1:40.
+/// [`RailTilt::contains`] misjudges less than 1 % for 1:40, and less than 0.2 % if both sides are measured to 24 mm.
+/// A head whose sides are not 1:20 is measured wrongly by the difference if only one side is left: worn, not measured,
+/// or upright and therefore removed by the reader, as the gauge side of a head with sides of 1:40 that is laid at 1:40.
 pub fn rail_tilt(rail: &Profile) -> Option<RailTilt> {
     let points = rail.points();
     let top = (0..points.len()).min_by(|&i, &j| points[i].z_m.total_cmp(&points[j].z_m))?;

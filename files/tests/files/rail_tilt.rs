@@ -138,8 +138,8 @@ fn both_sides_show_the_tilt_of_a_head_whose_sides_are_not_1_in_20() {
     assert!(upright.tilt_rad.abs() < 1e-3, "{upright:?}");
 }
 
-/// Reads a family of worn heads, measured to at least `min_depth_mm` on both sides. Returns the share that is misjudged for
-/// an inclination of 1:40, and the error of the tilt in units of its stated uncertainty, RMS.
+/// Reads a family of worn heads, measured to at least `min_depth_mm` on both sides. Returns the share that is misjudged
+/// for an inclination of 1:40, and the error of the tilt in units of its stated uncertainty, RMS.
 fn misjudged(count: usize, min_depth_mm: f64) -> [f64; 2] {
     let mut random = fastrand::Rng::with_seed(11);
     let (mut wrong, mut squares, mut refused) = (0, 0.0, 0);

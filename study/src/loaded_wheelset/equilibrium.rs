@@ -148,7 +148,7 @@ impl State {
     }
 
     /// Derivatives of the residuals with respect to the depth of the wheelset, m, its roll, rad, and the relative
-    /// change of its rotation; with a given roll, to the depths of the left and the right rail instead of the first two.
+    /// change of its rotation; with a given roll, to the depths of both rails instead of the first two.
     fn derivatives(&self, wheelset: &LoadedWheelset) -> [[f64; 3]; 3] {
         let load_n = wheelset.running.load_n;
         let mut forces = WheelsetForces::default();

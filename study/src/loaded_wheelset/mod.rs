@@ -85,8 +85,8 @@ impl LoadedWheelset {
         dashpot_workers::map(lateral_m, |shift_m| Ok(self.at_shift(*shift_m)))
     }
 
-    /// The shifts at which a report shows the wheelset, m: every millimetre up to 8 mm, to both sides unless the left is
-    /// the mirror image of the right.
+    /// The shifts at which a report shows the wheelset, m: every millimetre up to 8 mm, to both sides unless the left
+    /// is the mirror image of the right.
     pub fn usual_shifts_m(&self) -> Vec<f64> {
         let first = if self.is_symmetric() && self.running.yaw_rad == 0.0 {
             0

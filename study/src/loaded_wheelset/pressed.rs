@@ -29,8 +29,8 @@ pub(super) struct PressedWheel {
 }
 
 impl PressedWheel {
-    /// Depth of the patches below the tread datum, mean weighted by the loads, m: the rolling radius minus the radius of
-    /// the wheel.
+    /// Depth of the patches below the tread datum, mean weighted by the loads, m: the rolling radius minus the radius
+    /// of the wheel.
     pub fn radius_beyond_datum_m(&self) -> f64 {
         let load_n: f64 = self.patches.iter().map(|patch| patch.load_n).sum();
         let moment: f64 = self

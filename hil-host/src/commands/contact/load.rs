@@ -16,8 +16,8 @@ pub struct LoadArguments {
     /// equivalent conicity on elastic patches.
     #[arg(long)]
     pub load_kn: Option<f64>,
-    /// Lateral shifts at which patches are computed, mm, positive to the right [default: 0 to 8; from -8 if the wheelset
-    /// is yawed or its sides differ].
+    /// Lateral shifts at which patches are computed, mm, positive to the right [default: 0 to 8; from -8 if the
+    /// wheelset is yawed or its sides differ].
     #[arg(
         long,
         value_delimiter = ',',

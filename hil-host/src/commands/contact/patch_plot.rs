@@ -16,7 +16,7 @@ const MAX_ROWS: usize = 4;
 /// Height of a panel, and of the title above all panels, pixels.
 const PANEL: u32 = 306;
 const TITLE: u32 = 62;
-/// Lateral range of a panel from the gauge face of the rail, and depth below the top of the rail to which it reaches, mm.
+/// Lateral range of a panel from the gauge face, and depth below the top of the rail to which it reaches, mm.
 const ACROSS_MM: [f64; 2] = [-30.0, 78.0];
 const DEPTH_MM: f64 = 31.0;
 /// Height above the top of the rail to which a panel reaches, mm.
@@ -60,8 +60,8 @@ pub(super) fn patches(
         )
         .map_err(failed)?;
         let note = format!(
-            "red: pressure over the width of the patch, {scale:.1} mm high per GPa; numbers: position on the wheel, peak \
-             pressure and normal load"
+            "red: pressure over the width of the patch, {scale:.1} mm high per GPa; numbers: position on the wheel, \
+             peak pressure and normal load"
         );
         top.draw_text(
             &note,
@@ -163,8 +163,7 @@ fn draw_wheel(
     Ok(())
 }
 
-/// Points of the wheel over the track, mm: lateral position and height. The yaw, which moves them by less than a tenth of
-/// a millimetre, is left out.
+/// Points of the wheel over the track, mm: lateral position and height. The yaw, which hardly moves them, is left out.
 fn wheel_points(pair: &Pair, shift: &LoadedShift, sign: f64) -> impl Iterator<Item = (f64, f64)> {
     let installation = pair.installation();
     let (radius_m, offset_m) = (installation.wheel_radius_m, installation.datum_offset_m());

@@ -209,8 +209,8 @@ pub fn rolling_radius(profiles: &str, contacts: &[RigidContact]) -> Result<Strin
     })
 }
 
-/// Draws the equivalent conicity over the amplitude, with the value at 3 mm as text: of the rigid wheelset and, if given,
-/// of the wheelset on elastic patches.
+/// Draws the equivalent conicity over the amplitude, with the value at 3 mm as text: of the rigid wheelset and, if
+/// given, of the wheelset on elastic patches.
 ///
 /// # Errors
 /// The drawing fails.

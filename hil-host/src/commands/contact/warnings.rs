@@ -47,9 +47,9 @@ fn laid_twice(rail: &Profile, tilt: &RailTilt, inclination: f64) -> String {
         _ => "the top of its head",
     };
     format!(
-        "rail {}: the file seems to contain the inclination already: it is tilted by {:.0} +- {:.0} mrad, measured from \
-         {basis}; 1:{:.0}, which is {:.0} mrad, tilts it again. Use --inclination 0 if the file is in the axes of the \
-         track",
+        "rail {}: the file seems to contain the inclination already: it is tilted by {:.0} +- {:.0} mrad, measured \
+         from {basis}; 1:{:.0}, which is {:.0} mrad, tilts it again. Use --inclination 0 if the file is in the axes of \
+         the track",
         rail.name(),
         tilt.tilt_rad * 1e3,
         tilt.uncertainty_rad * 1e3,
@@ -71,9 +71,9 @@ pub(super) fn end_contact(contact: &EndContact, name: &str) -> String {
         (Body::Rail, End::Outer) => ("rail", "on the field side"),
     };
     format!(
-        "{side} {body} {name}: at lateral shifts from {:.2} to {:.2} mm the contact reaches the last point of the profile \
-         {end}: the profile ends too early, and the true contact may lie beyond it. Measure it farther to that side, or \
-         do not use these shifts and the conicities of their amplitudes",
+        "{side} {body} {name}: at lateral shifts from {:.2} to {:.2} mm the contact reaches the last point of the \
+         profile {end}: the profile ends too early, and the true contact may lie beyond it. Measure it farther to that \
+         side, or do not use these shifts and the conicities of their amplitudes",
         contact.from_lateral_shift_m * 1e3,
         contact.to_lateral_shift_m * 1e3
     )
