@@ -235,6 +235,12 @@ class Contact:
     def conicity(self) -> dict[str, NDArray[np.float64]]: ...
     @property
     def shifts(self) -> dict[str, NDArray[np.float64]]: ...
+    @property
+    def elastic_conicity(self) -> dict[str, NDArray[np.float64]] | None: ...
+    @property
+    def wheels(self) -> dict[str, NDArray[np.float64]] | None: ...
+    @property
+    def patches(self) -> dict[str, NDArray[np.float64]] | None: ...
 
 def contact(
     wheel: _Path | None = None,
@@ -251,6 +257,17 @@ def contact(
     rail_format: str | None = None,
     wheel_mirror: str | None = None,
     rail_mirror: str | None = None,
+    left_wheel: _Path | None = None,
+    left_rail: _Path | None = None,
+    left_wheel_format: str | None = None,
+    left_rail_format: str | None = None,
+    left_wheel_mirror: str | None = None,
+    left_rail_mirror: str | None = None,
+    load_n: float | None = None,
+    lateral_m: Sequence[float] | None = None,
+    yaw_rad: float | None = None,
+    speed_m_per_s: float | None = None,
+    friction: float | None = None,
 ) -> Contact: ...
 def creep_forces(
     creepages: NDArray[np.float64],

@@ -63,15 +63,16 @@ impl From<&RigidContact> for Shift {
 }
 
 impl WheelsetGeometry {
-    /// Computes the geometry for a wheel and rail pair.
+    /// Computes the geometry for a left and a right pair of profiles. The left pair is given as its mirror image, as if
+    /// it were on the right side.
     ///
     /// # Errors
     /// Returns an error if the contacts do not define a rolling radius difference.
-    pub fn new(pair: &Pair) -> Result<Self, RollingRadiusError> {
+    pub fn new(sides: [&Pair; 2]) -> Result<Self, RollingRadiusError> {
         let mut scratch = Vec::new();
         let contacts: Vec<RigidContact> = (0..=CELLS)
             .map(|i| MAX_SHIFT_M * (2.0 * i as f64 / CELLS as f64 - 1.0))
-            .map(|shift| pair.rigid_contact(shift, 0.0, &mut scratch))
+            .map(|shift| RigidContact::of_sides(sides, shift, 0.0, &mut scratch))
             .collect();
         let rolling = RollingRadiusDifference::new(
             contacts.iter().map(|contact| contact.lateral_m).collect(),
@@ -82,15 +83,16 @@ impl WheelsetGeometry {
         )?;
         Ok(Self { contacts, rolling })
     }
+}
 
-    /// Computes the equivalent conicity at amplitudes from 0.5 mm to 8 mm.
-    pub fn conicities(&self, pair: &Pair) -> Vec<Conicity> {
-        let radius_m = pair.installation().wheel_radius_m;
+impl Conicity {
+    /// Computes the equivalent conicity at amplitudes from 0.5 mm to 8 mm, for wheels of the nominal radius `radius_m`.
+    pub fn over_amplitude(rolling: &RollingRadiusDifference, radius_m: f64) -> Vec<Self> {
         (1..=AMPLITUDES)
             .map(|i| f64::from(i) * 0.5e-3)
-            .map(|amplitude_m| Conicity {
+            .map(|amplitude_m| Self {
                 amplitude_m,
-                equivalent_conicity: self.rolling.equivalent_conicity(amplitude_m, radius_m),
+                equivalent_conicity: rolling.equivalent_conicity(amplitude_m, radius_m),
             })
             .collect()
     }

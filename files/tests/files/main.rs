@@ -3,6 +3,7 @@
 mod case_file;
 mod contact_tables;
 mod profile_file;
+mod rail_tilt;
 mod track_file;
 mod vehicle_dampers;
 mod vehicle_file;

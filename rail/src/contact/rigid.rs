@@ -23,6 +23,54 @@ impl RigidContact {
     pub fn rolling_radius_difference_m(&self) -> f64 {
         self.sides[1].wheel_z_m - self.sides[0].wheel_z_m
     }
+
+    /// Finds the contact points of a rigid wheelset as [`Pair::rigid_contact`] does, for a left and a right side that
+    /// differ. The left pair is given as its mirror image, as if it were on the right side.
+    pub fn of_sides(
+        [left, right]: [&Pair; 2],
+        lateral_m: f64,
+        yaw_rad: f64,
+        scratch: &mut Vec<SilhouettePoint>,
+    ) -> Self {
+        let [left_datum, right_datum] =
+            [left, right].map(|pair| pair.installation().datum_offset_m());
+        let distance = left_datum + right_datum;
+        let mut sides_at = |roll: f64| {
+            let mut side = |pair: &Pair, datum: f64, sign: f64| {
+                let narrowing = datum * (yaw_rad.cos() * roll.cos() - 1.0);
+                let pose = WheelPose {
+                    lateral_m: sign * lateral_m + narrowing,
+                    roll_rad: sign * roll,
+                    yaw_rad: sign * yaw_rad,
+                };
+                pair.deepest(&pose, scratch)
+            };
+            let sides = [side(left, left_datum, -1.0), side(right, right_datum, 1.0)];
+            let residual = sides[1].interpenetration_m - sides[0].interpenetration_m
+                + distance * yaw_rad.cos() * roll.sin();
+            (sides, residual)
+        };
+        let mut roll = 0.0;
+        let (mut sides, mut residual) = sides_at(roll);
+        let mut slope = distance;
+        for _ in 0..30 {
+            let next = roll - residual / slope;
+            let (next_sides, next_residual) = sides_at(next);
+            let secant = (next_residual - residual) / (next - roll);
+            (roll, residual, sides) = (next, next_residual, next_sides);
+            if residual.abs() < 1e-10 || !secant.is_finite() {
+                break;
+            }
+            // The residual has a kink where the contact jumps; bounds on the slope keep the step reasonable.
+            slope = secant.clamp(0.5 * distance, 2.0 * distance);
+        }
+        Self {
+            lateral_m,
+            roll_rad: roll,
+            vertical_m: -0.5 * (sides[0].interpenetration_m + sides[1].interpenetration_m),
+            sides,
+        }
+    }
 }
 
 impl Pair {
@@ -45,42 +93,7 @@ impl Pair {
         yaw_rad: f64,
         scratch: &mut Vec<SilhouettePoint>,
     ) -> RigidContact {
-        let datum = self.installation().datum_offset_m();
-        let mut sides_at = |roll: f64| {
-            let narrowing = datum * (yaw_rad.cos() * roll.cos() - 1.0);
-            let mut side = |sign: f64| {
-                let pose = WheelPose {
-                    lateral_m: sign * lateral_m + narrowing,
-                    roll_rad: sign * roll,
-                    yaw_rad: sign * yaw_rad,
-                };
-                self.deepest(&pose, scratch)
-            };
-            let sides = [side(-1.0), side(1.0)];
-            let residual = sides[1].interpenetration_m - sides[0].interpenetration_m
-                + 2.0 * datum * yaw_rad.cos() * roll.sin();
-            (sides, residual)
-        };
-        let mut roll = 0.0;
-        let (mut sides, mut residual) = sides_at(roll);
-        let mut slope = 2.0 * datum;
-        for _ in 0..30 {
-            let next = roll - residual / slope;
-            let (next_sides, next_residual) = sides_at(next);
-            let secant = (next_residual - residual) / (next - roll);
-            (roll, residual, sides) = (next, next_residual, next_sides);
-            if residual.abs() < 1e-10 || !secant.is_finite() {
-                break;
-            }
-            // The residual has a kink where the contact jumps; bounds on the slope keep the step reasonable.
-            slope = secant.clamp(datum, 4.0 * datum);
-        }
-        RigidContact {
-            lateral_m,
-            roll_rad: roll,
-            vertical_m: -0.5 * (sides[0].interpenetration_m + sides[1].interpenetration_m),
-            sides,
-        }
+        RigidContact::of_sides([self, self], lateral_m, yaw_rad, scratch)
     }
 
     /// Finds the deepest point of one wheel at `pose`, for rigid bodies; `scratch` is overwritten.

@@ -1,6 +1,10 @@
 //! Profiles of wheels and rails, built in or from files.
 
+mod tilt;
+
 use std::path::Path;
+
+pub use tilt::{RailTilt, TiltBasis, rail_tilt};
 
 use dashpot_rail::profile::measured::{self, Options, ProfileError, Reading};
 use dashpot_rail::profile::{Body, Profile, s1002, uic60};
