@@ -82,7 +82,13 @@ impl LoadedWheelset {
         for shift_m in lateral_m {
             running::within("lateral_m", *shift_m, [-MAX_LATERAL_M, MAX_LATERAL_M])?;
         }
-        dashpot_workers::map(lateral_m, |shift_m| Ok(self.at_shift(*shift_m)))
+        let at = |shift_m: &f64| {
+            self.equilibrium(*shift_m).map_or_else(
+                || LoadedShift::without_equilibrium(*shift_m),
+                |equilibrium| LoadedShift::new(*shift_m, &equilibrium, self.radius_m()),
+            )
+        };
+        dashpot_workers::map(lateral_m, |shift_m| Ok(at(shift_m)))
     }
 
     /// The shifts at which a report shows the wheelset, m: every millimetre up to 8 mm, to both sides unless the left
