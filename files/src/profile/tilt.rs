@@ -132,14 +132,11 @@ fn side(points: &[&ProfilePoint], outwards: f64) -> Option<Side> {
         .rev()
         .take_while(|count| height_m(*count) >= STRAIGHT_M)
         .find_map(|count| line(&points[..count], outwards));
-    let side = straight.map_or_else(
-        // The tangent at the end of the profile, which an almost upright side leaves at its beginning.
-        || Side {
-            lean_rad: FRAC_PI_2 - outwards * first.angle_rad,
-            uncertainty_rad: SHORT_SIDE_RAD,
-        },
-        |lean_rad| lean_rad,
-    );
+    // Without one, the tangent at the end of the profile, which an almost upright side leaves at its beginning.
+    let side = straight.unwrap_or(Side {
+        lean_rad: FRAC_PI_2 - outwards * first.angle_rad,
+        uncertainty_rad: SHORT_SIDE_RAD,
+    });
     Some(side).filter(is_side)
 }
 

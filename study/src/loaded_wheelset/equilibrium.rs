@@ -2,8 +2,8 @@
 
 use dashpot_rail::contact::{Motion, RailDisplacement, WheelDerivatives, WheelsetForces};
 
+use super::LoadedWheelset;
 use super::pressed::{Press, Pressed};
-use super::{LoadedShift, LoadedWheelset};
 
 /// Maximum number of Newton steps.
 const MAX_STEPS: usize = 25;
@@ -28,23 +28,20 @@ pub(super) struct Equilibrium {
 }
 
 impl LoadedWheelset {
-    pub(super) fn at_shift(&self, lateral_m: f64) -> LoadedShift {
-        let radius_m = self.radius_m();
-        let pressed = Press::new(self).at(lateral_m, self.running.yaw_rad);
-        match pressed.and_then(|pressed| self.equilibrium(lateral_m, &pressed)) {
-            Some(equilibrium) => LoadedShift::new(lateral_m, &equilibrium, radius_m),
-            None => LoadedShift::without_equilibrium(lateral_m),
-        }
+    /// Finds the equilibrium at a lateral shift; `None` if there is none under the load.
+    pub(super) fn equilibrium(&self, lateral_m: f64) -> Option<Equilibrium> {
+        let pressed = Press::new(self).at(lateral_m, self.running.yaw_rad)?;
+        self.equilibrium_from(lateral_m, &pressed)
     }
 
     /// Nominal height of the axle above the rails, m: the mean radius of the wheels.
-    fn radius_m(&self) -> f64 {
+    pub(super) fn radius_m(&self) -> f64 {
         let [left, right] = self.pairs().map(|pair| pair.installation().wheel_radius_m);
         0.5 * (left + right)
     }
 
     /// Newton's method for the equilibrium, from the wheelset without friction.
-    fn equilibrium(&self, lateral_m: f64, pressed: &Pressed) -> Option<Equilibrium> {
+    fn equilibrium_from(&self, lateral_m: f64, pressed: &Pressed) -> Option<Equilibrium> {
         let mut state = State::new(self, lateral_m, pressed);
         let mut forces = state.forces(self);
         let mut residuals = state.residuals(self, &forces);

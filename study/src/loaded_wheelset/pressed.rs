@@ -138,7 +138,7 @@ impl<'a> Press<'a> {
                 return Some(PressedWheel { depth_m, patches });
             }
             let next = *normal_n * load_n / vertical_n;
-            if !(next < MAX_NORMAL * load_n) {
+            if next.is_nan() || next > MAX_NORMAL * load_n {
                 break;
             }
             *normal_n = next;
