@@ -65,7 +65,8 @@ pub trait PatchReader {
         PatchNumbers::from_array(from_fn(|n| f64x4::from_fn(simd, |lane| lanes[lane][n])))
     }
 
-    /// [`approach_m`](Self::approach_m) and the numbers of one zone, as functions of lateral shift, roll, yaw and depth.
+    /// [`approach_m`](Self::approach_m) and the numbers of one zone, as functions of lateral shift, roll, yaw and
+    /// depth.
     fn differentiated(
         &self,
         zone: usize,

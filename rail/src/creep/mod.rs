@@ -36,6 +36,7 @@ pub mod kalker_book;
 mod law;
 mod loaded_contact;
 mod polach;
+mod shape;
 mod shen_hedrick_elkins;
 
 pub use contact_lanes::ContactLanes;

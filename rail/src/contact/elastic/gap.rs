@@ -1,6 +1,5 @@
 //! The gap between a wheel and its rail: heights of the strips that may touch.
 
-use super::normal::typical_penetration_m;
 use super::strips::{Strip, TurnedStrips};
 use crate::contact::silhouette::Cursor;
 
@@ -24,6 +23,14 @@ pub(in crate::contact) struct Gap {
     pub(super) least_m: f64,
     /// Heights of the first strips of all groups.
     firsts: Vec<f64>,
+}
+
+/// Stiffness of a typical contact, N/m^1.5.
+const TYPICAL_STIFFNESS: f64 = 1e11;
+
+/// A typical penetration under a load, m.
+pub(super) fn typical_penetration_m(load_n: f64) -> f64 {
+    (load_n / TYPICAL_STIFFNESS).powf(2.0 / 3.0)
 }
 
 /// Height that a contact usually reaches below its greatest height, in typical penetrations; on a steep flange it is

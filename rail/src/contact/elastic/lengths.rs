@@ -29,8 +29,7 @@ impl NormalContact {
         };
         let (mut change, mut total) = (0.0, 0.0);
         let whole = connection.is_one_patch().then(|| spread_around(0));
-        let mut steps = std::mem::take(&mut self.steps.spare);
-        steps.clear();
+        let mut steps = self.steps.cleared();
         for (k, &i) in self.loaded.iter().enumerate() {
             let spread = whole.unwrap_or_else(|| spread_around(k));
             let new = spread.half_length(self.line_loads[k], strips[i].radius_m, modulus);
@@ -52,55 +51,6 @@ impl NormalContact {
             self.half_lengths_m[i] = self.half_lengths_m[self.loaded[next]];
         }
         change / total
-    }
-}
-
-/// Bounds of a length after a step, as fractions of the length before.
-const BOUNDS: [f64; 2] = [0.5, 2.0];
-
-/// The last step of the lengths, from which the next one learns how far to go (Anderson 1965).
-#[derive(Debug, Clone, Default)]
-pub(super) struct Steps {
-    loaded: Vec<usize>,
-    lengths_m: Vec<f64>,
-    steps_m: Vec<f64>,
-    spare: Vec<f64>,
-}
-
-impl Steps {
-    /// Forgets the last step.
-    pub fn forget(&mut self) {
-        self.loaded.clear();
-    }
-
-    /// Moves the lengths of the `loaded` strips by `part` of `steps` and on along the last change. The secant through
-    /// the last two steps estimates where they vanish.
-    fn accelerated(&mut self, loaded: &[usize], steps: Vec<f64>, part: f64, lengths_m: &mut [f64]) {
-        let mut slope = 0.0;
-        if self.loaded == loaded {
-            let (mut product, mut square) = (0.0, 0.0);
-            for (step, before) in steps.iter().zip(&self.steps_m) {
-                let change = step - before;
-                product += step * change;
-                square += change * change;
-            }
-            if square > 0.0 {
-                slope = product / square;
-            }
-        } else {
-            self.loaded.clear();
-            self.loaded.extend_from_slice(loaded);
-            self.lengths_m.resize(loaded.len(), 0.0);
-            self.steps_m.resize(loaded.len(), 0.0);
-        }
-        for (k, (&i, step)) in loaded.iter().zip(&steps).enumerate() {
-            let here = lengths_m[i];
-            let change = here - self.lengths_m[k] + part * (step - self.steps_m[k]);
-            let next = here + part * step - slope * change;
-            lengths_m[i] = next.clamp(BOUNDS[0] * here, BOUNDS[1] * here);
-            self.lengths_m[k] = here;
-        }
-        self.spare = std::mem::replace(&mut self.steps_m, steps);
     }
 }
 

@@ -15,6 +15,7 @@ mod lengths;
 mod normal;
 mod octave_table;
 mod patch;
+mod steps;
 mod strips;
 #[cfg(test)]
 mod tests;
@@ -39,7 +40,7 @@ impl ContactGeometry {
     /// use dashpot_rail::contact::elastic::{Fineness, Given, NormalContact, TurnedStrips};
     /// use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel};
     /// let pair = Pair::standard(Installation::default())?;
-    /// let geometry = ContactGeometry::new(pair, Steel::default(), 100e3)?;
+    /// let geometry = ContactGeometry::new(pair, Steel::default())?;
     /// let wheel = TurnedStrips::new(geometry.pair(), 0.0, 0.0, Fineness::Medium);
     /// let mut contact = NormalContact::default();
     /// let patches = geometry.elastic_patches(&wheel, -5e-3, Given::LoadN(100e3), &mut contact);

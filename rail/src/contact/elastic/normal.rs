@@ -1,9 +1,9 @@
 //! The normal problem: line loads on the strips such that no strip enters the rail and none is pulled.
 
 use super::equations::Equations;
-use super::gap::Gap;
+use super::gap::{Gap, typical_penetration_m};
 use super::half_space::HalfSpace;
-use super::lengths::Steps;
+use super::steps::Steps;
 use crate::contact::hertz::Steel;
 
 /// Maximum number of changes of the strips in contact or of their lengths.
@@ -17,8 +17,6 @@ const MAX_LENGTHS: usize = 16;
 const TOLERANCE: f64 = 5e-4;
 /// Entering of a strip that is neglected, m.
 const NEGLECTED_M: f64 = 1e-8;
-/// Stiffness of a typical contact, N/m^1.5, for the first guess.
-const TYPICAL_STIFFNESS: f64 = 1e11;
 /// Half-length of a strip, m, for the first guess.
 const TYPICAL_LENGTH_M: f64 = 5e-3;
 
@@ -60,11 +58,6 @@ impl Default for NormalContact {
     fn default() -> Self {
         Self::with_tolerance(TOLERANCE)
     }
-}
-
-/// A typical penetration under a load, m.
-pub(super) fn typical_penetration_m(load_n: f64) -> f64 {
-    (load_n / TYPICAL_STIFFNESS).powf(2.0 / 3.0)
 }
 
 impl NormalContact {

@@ -5,7 +5,7 @@ use std::array::from_fn;
 use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f64x4};
 
 use super::{KalkerCoefficients, KalkerTable};
-use crate::creep::kalker_book::shape;
+use crate::creep::shape::{ratio, shape};
 use crate::math::dual::Dual;
 use crate::math::number::{Number, transposed};
 
@@ -32,9 +32,7 @@ impl KalkerLookup {
     pub fn new(table: &KalkerTable) -> Self {
         let row = |row: usize| {
             let part = 2.0 * row as f64 / (ROWS - 1) as f64 - 1.0;
-            // Solves shape(a, b) for the ratio a/b.
-            let s = part * MAX_SHAPE;
-            let ratio = (2.0 * s + (1.0 + 3.0 * s * s).sqrt()) / (1.0 - s);
+            let ratio = ratio(part * MAX_SHAPE);
             let KalkerCoefficients { c11, c22, c23, c33 } = table.at(ratio);
             [c11, c22, c23, c33].map(|coefficient| coefficient as f32)
         };

@@ -8,7 +8,6 @@ use std::ops::Mul;
 use coordinates::{Contact, Coordinates, TINY, components};
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 pub use pages::Layout;
-pub(super) use pages::shape;
 use pages::{BookPositions, Coefficients, pages};
 
 use super::contact_lanes::ContactLanes;
