@@ -127,8 +127,8 @@ impl ContactSetup {
         &self.pairs
     }
 
-    /// Returns the contact of each wheelset with creep forces from Kalker's book. `sources` are the tables or geometries
-    /// of [`Self::pairs`]. Equal wheelsets share a contact.
+    /// Returns the contact of each wheelset with creep forces from Kalker's book. `sources` are the tables or
+    /// geometries of [`Self::pairs`]. Equal wheelsets share a contact.
     ///
     /// # Errors
     /// Friction or damping is out of bounds, or the number of sources differs from that of the pairs.

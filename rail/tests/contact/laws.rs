@@ -97,8 +97,8 @@ fn even(n: usize, irrational: f64) -> f64 {
     (n as f64 * irrational).fract()
 }
 
-/// Motion at an evenly spread pose (8 mm shift to one side, 7 mm to the other, 2 mrad roll, 12 mrad yaw) and load (10 to
-/// 200 kN on two wheels) of the right wheel.
+/// Motion at an evenly spread pose (8 mm shift to one side, 7 mm to the other, 2 mrad roll, 12 mrad yaw) and load (10
+/// to 200 kN on two wheels) of the right wheel.
 fn spread(n: usize) -> Motion {
     let motion = Motion {
         lateral_m: -8e-3 + 15e-3 * even(n, 0.618_033_988),

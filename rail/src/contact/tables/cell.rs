@@ -236,8 +236,8 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// Added to the share of a patch, so that a patch without load has no numbers like 0/0. Its reciprocal squared is a number
-/// of single precision, as derivatives are.
+/// Added to the share of a patch, so that a patch without load has no numbers like 0/0. Its reciprocal squared is a
+/// number of single precision, as derivatives are.
 const TINY: f64 = 1e-12;
 /// Added to semi-axes, so that a patch without load has a shape, m.
 const TINY_SEMI_AXIS_M: f64 = 1e-8;

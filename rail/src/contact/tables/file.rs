@@ -72,7 +72,8 @@ impl Tables {
         format!("{name}.tables")
     }
 
-    /// The uncompressed tables: movements, steps of the shift axis, zones of the nodes, their loaded zones, depths, and records.
+    /// The uncompressed tables: movements, steps of the shift axis, zones of the nodes, their loaded
+    /// zones, depths, and records.
     fn plain(&self) -> Vec<u8> {
         let mut plain = Vec::new();
         write(&mut plain, &self.shear.micrometres());
