@@ -90,7 +90,7 @@ fn steering_is_that_of_exact_theory() {
         let exact_n = left.force_n[0] - right.force_n[0];
         let found_n = right_found.force_n[0] - left_found.force_n[0];
         let ratio = found_n / exact_n;
-        assert!((ratio - 1.0).abs() < 0.07, "{}: {ratio}", name(right));
+        assert!((ratio - 1.0).abs() < 0.08, "{}: {ratio}", name(right));
         seen += 1;
     }
     assert_eq!(seen, 18);

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-use dashpot_rail::contact::{Motion, Status, WheelForces, WheelsetContact};
+use dashpot_rail::contact::{Motion, WheelForces, WheelsetContact};
 use dashpot_rail::creep::{
     CreepLaw, Creepage, Fastsim, Friction, KalkerBook, LoadedContact, Polach, ShenHedrickElkins,
 };
@@ -132,11 +132,11 @@ fn table_errors() -> Vec<(&'static str, f64, f64)> {
             computed.forces(&motion, &LEVEL),
         ]
         .map(|f| f.wheels[1]);
-        // A flange at this height carries more than the greatest load of the tables.
-        if read.status == Status::OutsideTables {
+        let load = |wheel: &WheelForces| -> f64 { wheel.patches.iter().map(|p| p.load_n).sum() };
+        // A flange at this height may carry more. The tables have no load between 200 kN and 1 MN.
+        if load(&computed) > 200e3 {
             continue;
         }
-        let load = |wheel: &WheelForces| -> f64 { wheel.patches.iter().map(|p| p.load_n).sum() };
         let mut patches = read.patches.iter().zip(&computed.patches);
         let Some((r, c)) = patches.find(|(_, c)| c.load_n > 0.5 * load(&computed)) else {
             continue;

@@ -25,7 +25,8 @@ const OVERLAP_VALLEYS: [f64; 2] = [0.0, -0.5];
 pub struct ElasticPatch {
     /// Normal load in the zone, N.
     pub load_n: f64,
-    /// `dz/dy` of the resultant force: the tangent of the contact angle.
+    /// `dz/dy` of the wheel at `wheel_y_m` in its pose: the tangent of the contact angle. As in the theory of
+    /// half-spaces, the pressure acts along one normal.
     pub slope: f64,
     /// Position on the wheel at which the creepages hold, m from the tread datum: the mean over the area in which the
     /// undeformed bodies overlap, weighted by the square of their overlap.
@@ -92,11 +93,11 @@ impl NormalContact {
             let load_n = self.line_loads[k] * strips[i].width_m;
             for (sums, share) in sums.iter_mut().zip(shares(i)) {
                 if share > 0.0 {
-                    sums.add(share * load_n, &strips[i], wheel_y, &size);
+                    sums.add(share * load_n, wheel_y, &size);
                 }
             }
         }
-        sums.map(|sums| sums.patch(pair))
+        sums.map(|sums| sums.patch(pair, strips))
     }
 
     /// Position on the wheel of the patch around the strip with number `entry` in `overlap`.
@@ -139,6 +140,19 @@ impl NormalContact {
     }
 }
 
+/// Slope of the wheel at a position on it, between the two strips nearest to it.
+fn slope_at(strips: &[Strip], wheel_y_m: f64) -> f64 {
+    let next = strips.partition_point(|strip| strip.wheel_y_m < wheel_y_m);
+    let next = next.clamp(1, strips.len().max(2) - 1);
+    match (strips.get(next - 1), strips.get(next)) {
+        (Some(before), Some(after)) => {
+            let part = (wheel_y_m - before.wheel_y_m) / (after.wheel_y_m - before.wheel_y_m);
+            before.slope + part.clamp(0.0, 1.0) * (after.slope - before.slope)
+        }
+        _ => strips.first().map_or(0.0, |strip| strip.slope),
+    }
+}
+
 /// Size and load of a whole patch.
 #[derive(Debug, Clone, Copy, Default)]
 struct Size {
@@ -151,7 +165,6 @@ struct Size {
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     load: f64,
-    force: [f64; 2],
     wheel_y: f64,
     semi_axes: [f64; 2],
     whole_load: f64,
@@ -159,10 +172,8 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, load: f64, strip: &Strip, wheel_y: f64, size: &Size) {
+    fn add(&mut self, load: f64, wheel_y: f64, size: &Size) {
         self.load += load;
-        self.force[0] += load * strip.cos * strip.slope;
-        self.force[1] += load * strip.cos;
         self.wheel_y += load * wheel_y;
         for (sum, semi_axis) in self.semi_axes.iter_mut().zip(size.semi_axes) {
             *sum += load * semi_axis;
@@ -171,15 +182,15 @@ impl Sums {
         self.peak_pressure += load * size.peak_pressure;
     }
 
-    fn patch(self, pair: &Pair) -> ElasticPatch {
+    fn patch(self, pair: &Pair, strips: &[Strip]) -> ElasticPatch {
         if self.load <= 0.0 {
             return ElasticPatch::default();
         }
         let mean = 1.0 / self.load;
         let wheel_y_m = self.wheel_y * mean;
         ElasticPatch {
-            load_n: self.force[0].hypot(self.force[1]),
-            slope: self.force[0] / self.force[1],
+            load_n: self.load,
+            slope: slope_at(strips, wheel_y_m),
             wheel_y_m,
             wheel_z_m: pair.wheel().at(wheel_y_m).z_m,
             semi_axes_m: self.semi_axes.map(|sum| sum * mean),

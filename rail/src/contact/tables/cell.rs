@@ -42,10 +42,6 @@ struct Load<T> {
     above: T,
 }
 
-/// Maximum load, N. Beyond the highest load of the tables, patches keep their shape and grow as Hertz's do; beyond this
-/// one, the mean pressure exceeds what steel bears.
-const MAX_LOAD_N: f64 = 1e6;
-
 /// Squared cube roots of no load and of each load, N^(2/3).
 const SQUARES: [f64; DEPTHS] = {
     let mut squares = [0.0; DEPTHS];
@@ -276,7 +272,7 @@ impl PatchReader for Cell<'_> {
     #[inline(always)]
     fn is_inside(&self) -> bool {
         let [shift, roll, yaw] = &self.at;
-        shift.is_inside & roll.is_inside & yaw.is_inside & (self.load.load <= MAX_LOAD_N)
+        shift.is_inside & roll.is_inside & yaw.is_inside & (self.depth_m <= self.depths_m[LEVELS])
     }
 
     #[inline(always)]

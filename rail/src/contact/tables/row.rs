@@ -85,4 +85,11 @@ impl<'a> Row<'a> {
         }
         [depth_m, force, position]
     }
+
+    /// Part of the load that the flange carries at a lateral shift.
+    pub fn part_on_flange(&mut self, lateral_m: f64, level: usize) -> f64 {
+        self.shift(lateral_m);
+        let (_, [flange, ..]) = self.solve(lateral_m, level);
+        flange.load_n / load_n(level)
+    }
 }

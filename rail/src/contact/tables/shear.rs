@@ -5,7 +5,7 @@ use crate::contact::geometry::ContactGeometry;
 
 /// Load for which the flange's approach is followed: index of a level.
 const LEVEL: usize = 4;
-/// Lateral force, as a fraction of the load, at which the contact counts as moving to the flange.
+/// Part of the load on the flange at which the contact counts as moving to it.
 const HALF_WAY: f64 = 0.5;
 /// Range in which the contact is sought, and the distance of the shifts tried first, m.
 const RANGE_M: [f64; 2] = [-10e-3, 40e-3];
@@ -71,8 +71,7 @@ impl Shear {
 /// The lateral shift at which the contact is half-way from tread to flange, m.
 fn flange_shift_m(geometry: &ContactGeometry, roll_rad: f64, yaw_rad: f64) -> Option<f64> {
     let mut row = Row::new(geometry, roll_rad, yaw_rad);
-    let mut is_beyond =
-        |shift_m: f64| row.depth_force_and_position(shift_m, LEVEL)[1].abs() > HALF_WAY;
+    let mut is_beyond = |shift_m: f64| row.part_on_flange(shift_m, LEVEL) > HALF_WAY;
     let steps = ((RANGE_M[1] - RANGE_M[0]) / STEP_M) as usize;
     let shift = |step: usize| RANGE_M[0] + step as f64 * STEP_M;
     let first = (0..=steps).find(|step| is_beyond(shift(*step)))?;
