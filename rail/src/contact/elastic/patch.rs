@@ -25,8 +25,8 @@ const OVERLAP_VALLEYS: [f64; 2] = [0.0, -0.5];
 pub struct ElasticPatch {
     /// Normal load in the zone, N.
     pub load_n: f64,
-    /// `dz/dy` of the wheel at `wheel_y_m` in its pose: the tangent of the contact angle. As in the theory of
-    /// half-spaces, the pressure acts along one normal.
+    /// `dz/dy` of the wheel in its pose: the tangent of the contact angle. As in the theory of half-spaces, the pressure
+    /// acts along one normal: the mean over the same area, with the same weights as the position.
     pub slope: f64,
     /// Position on the wheel at which the creepages hold, m from the tread datum: the mean over the area in which the
     /// undeformed bodies overlap, weighted by the square of their overlap.
@@ -78,9 +78,9 @@ impl NormalContact {
             heights: &self.line_loads,
             valleys: LOAD_VALLEYS,
         };
-        let position = |entry: usize| self.position(strips, &overlap, entry);
+        let place = |entry: usize| self.place(strips, &overlap, entry);
         let size = |entry: usize| self.size(strips, &load, entry);
-        let one_position = overlap.is_one_patch().then(|| position(0));
+        let one_place = overlap.is_one_patch().then(|| place(0));
         let one_size = load.is_one_patch().then(|| size(0));
         let mut sums = [Sums::default(); ZONES];
         for (k, &i) in self.loaded.iter().enumerate() {
@@ -88,30 +88,36 @@ impl NormalContact {
             if !(first..=last).contains(&i) || self.penetrations_m[i] <= 0.0 {
                 continue;
             }
-            let wheel_y = one_position.unwrap_or_else(|| position(i - first));
+            let place = one_place.unwrap_or_else(|| place(i - first));
             let size = one_size.unwrap_or_else(|| size(k));
             let load_n = self.line_loads[k] * strips[i].width_m;
             for (sums, share) in sums.iter_mut().zip(shares(i)) {
                 if share > 0.0 {
-                    sums.add(share * load_n, wheel_y, &size);
+                    sums.add(share * load_n, &place, &size);
                 }
             }
         }
-        sums.map(|sums| sums.patch(pair, strips))
+        sums.map(|sums| sums.patch(pair))
     }
 
-    /// Position on the wheel of the patch around the strip with number `entry` in `overlap`.
-    fn position(&self, strips: &[Strip], overlap: &Connection<'_>, entry: usize) -> f64 {
-        let (mut total, mut sum) = (0.0, 0.0);
+    /// Position and normal of the patch around the strip with number `entry` in `overlap`.
+    fn place(&self, strips: &[Strip], overlap: &Connection<'_>, entry: usize) -> Place {
+        let mut total = 0.0;
+        let mut sum = Place::default();
         overlap.each(entry, |other, degree| {
             let strip = &strips[overlap.strips[other]];
             let depth = overlap.heights[other].max(0.0);
             // The overlap of a strip is a parabola in the rolling direction: its square is `depth^2.5` over the length.
             let weight = degree * depth * depth * depth.sqrt() * strip.width_m;
             total += weight;
-            sum += weight * strip.wheel_y_m;
+            sum.wheel_y += weight * strip.wheel_y_m;
+            sum.normal[0] += weight * strip.cos * strip.slope;
+            sum.normal[1] += weight * strip.cos;
         });
-        sum / total
+        Place {
+            wheel_y: sum.wheel_y / total,
+            normal: sum.normal.map(|component| component / total),
+        }
     }
 
     /// Size and load of the patch around the strip with number `entry` in `load`.
@@ -140,17 +146,12 @@ impl NormalContact {
     }
 }
 
-/// Slope of the wheel at a position on it, between the two strips nearest to it.
-fn slope_at(strips: &[Strip], wheel_y_m: f64) -> f64 {
-    let next = strips.partition_point(|strip| strip.wheel_y_m < wheel_y_m);
-    let next = next.clamp(1, strips.len().max(2) - 1);
-    match (strips.get(next - 1), strips.get(next)) {
-        (Some(before), Some(after)) => {
-            let part = (wheel_y_m - before.wheel_y_m) / (after.wheel_y_m - before.wheel_y_m);
-            before.slope + part.clamp(0.0, 1.0) * (after.slope - before.slope)
-        }
-        _ => strips.first().map_or(0.0, |strip| strip.slope),
-    }
+/// Position and normal of a whole patch.
+#[derive(Debug, Clone, Copy, Default)]
+struct Place {
+    wheel_y: f64,
+    /// Components of the normal: across, and down.
+    normal: [f64; 2],
 }
 
 /// Size and load of a whole patch.
@@ -166,15 +167,19 @@ struct Size {
 struct Sums {
     load: f64,
     wheel_y: f64,
+    normal: [f64; 2],
     semi_axes: [f64; 2],
     whole_load: f64,
     peak_pressure: f64,
 }
 
 impl Sums {
-    fn add(&mut self, load: f64, wheel_y: f64, size: &Size) {
+    fn add(&mut self, load: f64, place: &Place, size: &Size) {
         self.load += load;
-        self.wheel_y += load * wheel_y;
+        self.wheel_y += load * place.wheel_y;
+        for (sum, component) in self.normal.iter_mut().zip(place.normal) {
+            *sum += load * component;
+        }
         for (sum, semi_axis) in self.semi_axes.iter_mut().zip(size.semi_axes) {
             *sum += load * semi_axis;
         }
@@ -182,7 +187,7 @@ impl Sums {
         self.peak_pressure += load * size.peak_pressure;
     }
 
-    fn patch(self, pair: &Pair, strips: &[Strip]) -> ElasticPatch {
+    fn patch(self, pair: &Pair) -> ElasticPatch {
         if self.load <= 0.0 {
             return ElasticPatch::default();
         }
@@ -190,7 +195,7 @@ impl Sums {
         let wheel_y_m = self.wheel_y * mean;
         ElasticPatch {
             load_n: self.load,
-            slope: slope_at(strips, wheel_y_m),
+            slope: self.normal[0] / self.normal[1],
             wheel_y_m,
             wheel_z_m: pair.wheel().at(wheel_y_m).z_m,
             semi_axes_m: self.semi_axes.map(|sum| sum * mean),

@@ -272,7 +272,7 @@ impl PatchReader for Cell<'_> {
     #[inline(always)]
     fn is_inside(&self) -> bool {
         let [shift, roll, yaw] = &self.at;
-        shift.is_inside & roll.is_inside & yaw.is_inside & (self.depth_m <= self.depths_m[LEVELS])
+        shift.is_inside & roll.is_inside & yaw.is_inside
     }
 
     #[inline(always)]
