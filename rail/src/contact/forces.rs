@@ -31,6 +31,8 @@ pub struct PatchForces {
     pub creep: CreepForces,
     /// Power dissipated by friction, W.
     pub dissipation_w: f64,
+    /// Maximum normal pressure of the whole patch that this one is a part of, Pa.
+    pub peak_pressure_pa: f64,
 }
 
 /// Forces of one rail on its wheel.
@@ -92,6 +94,7 @@ impl PatchForces {
             creepage: Creepage::of(patch.creepage),
             creep: CreepForces::of_components(patch.creep),
             dissipation_w: patch.dissipation,
+            peak_pressure_pa: patch.peak_pressure,
         };
     }
 

@@ -34,7 +34,17 @@ fn worst<L: CreepLaw, S: PatchSource>(
 ) -> f64 {
     let mut forces = WheelsetForces::default();
     let derivatives = contact.update_with_derivatives(motion, rails, &mut forces);
-    assert_eq!(forces, contact.forces(motion, rails));
+    // The step reads the tables in single precision.
+    let step = contact.forces(motion, rails);
+    for (found, expected) in forces.wheels.iter().zip(&step.wheels) {
+        assert_eq!(found.status, expected.status);
+        let sum: f64 = expected.force_n.iter().map(|force| force.abs()).sum();
+        let scale = 1e-6 * (1.0 + sum);
+        for k in 0..3 {
+            let off = found.force_n[k] - expected.force_n[k];
+            assert!(off.abs() <= scale, "{found:?} {expected:?}");
+        }
+    }
     let mut worst = 0.0_f64;
     for index in 0..MOTION_FIELDS {
         let at = |sign: f64| {
@@ -106,6 +116,7 @@ fn motions() -> impl Strategy<Value = (Motion, [RailDisplacement; 2])> {
                 vertical_velocity_m_per_s: 0.5 * rate,
                 roll_rad: roll,
                 roll_rate_rad_per_s: rate,
+                friction_ratio: 1.0,
             };
             (motion, [rail, LEVEL[1]])
         },
