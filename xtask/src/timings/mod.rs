@@ -3,6 +3,7 @@
 mod bounds;
 mod chain;
 mod report;
+mod slowness;
 mod step;
 mod unit;
 mod wrapper;
@@ -67,7 +68,13 @@ pub fn timings(build: Build) -> Outcome {
     let units: Vec<Unit> = text.lines().map(str::parse).collect::<Outcome<_>>()?;
     println!("{}", report::report(&units, total_s, wall_s));
     match build {
-        Build::Command => bounds::check_processor_time(total_s),
+        Build::Command => {
+            let slowness = slowness::slowness(&units)?;
+            println!(
+                "slowness        {slowness:.2} of the reference processor (xtask/src/timings/slowness.rs)"
+            );
+            bounds::check_processor_time(total_s, slowness)
+        }
         Build::Tests => Ok(()),
     }
 }
