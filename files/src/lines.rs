@@ -10,8 +10,8 @@ pub(crate) fn line_at(text: &str, offset: usize) -> u64 {
     1 + before.iter().filter(|byte| **byte == b'\n').count() as u64
 }
 
-/// Returns each key in the top-level table `table` of a TOML text with its line number, from 1. Returns none if the text
-/// is not TOML or has no such table.
+/// Returns each key in the top-level table `table` of a TOML text with its line number, from 1. Returns none if the
+/// text is not TOML or has no such table.
 pub(crate) fn lines_of_keys(text: &str, table: &str) -> BTreeMap<String, u64> {
     let Ok(tree) = DeTable::parse(text) else {
         return BTreeMap::new();

@@ -37,8 +37,8 @@ pub struct ContactParameters {
     pub friction_decay_speed_m_per_s: f64,
     /// Gauge along the track: `[distance, gauge]`, m; empty if it does not change.
     pub gauge_over_distance: Vec<[f64; 2]>,
-    /// Static friction coefficients along the track: `[distance, left, right]`; a single point if only the rails differ,
-    /// empty if both rails have the coefficient of the case everywhere.
+    /// Static friction coefficients along the track: `[distance, left, right]`; a single point if only the rails
+    /// differ, empty if both rails have the coefficient of the case everywhere.
     pub friction_over_distance: Vec<[f64; 3]>,
 }
 

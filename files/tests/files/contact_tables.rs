@@ -171,7 +171,8 @@ fn files_are_relative_to_the_file_that_names_them() {
         hollow.contact.wheel(0, 0).points()
     );
     // A study's axis names files relative to the study.
-    let study = "name = \"wheels\"\nobserved = [\"wheel_lift_longest_s\"]\n[[sweep]]\nname = \"a\"\ncase = \"ride.toml\"\n\
+    let study = "name = \"wheels\"\nobserved = [\"wheel_lift_longest_s\"]\n\
+         [[sweep]]\nname = \"a\"\ncase = \"ride.toml\"\n\
          contact = { rail_inclination = 0.05 }\n\
          [[sweep.vary]]\nparameter = \"contact.wheel\"\nvalues = [\"s1002\", \"profiles/hollow.csv\"]\n\
          [[sweep.vary]]\nparameter = \"contact.gauge_m\"\nvalues = [1.432, 1.435]\n";

@@ -5,7 +5,8 @@
 //!   [`measured`].
 //! - [`Defect`]: an isolated dip, bump, kink or twist.
 //! - [`Track`]: the combination of all three, with changes of gauge and friction along the track. [`Track::at`] returns
-//!   the alignment and the displacements of both rails, and [`Track::displacements`] what the contact needs of the rails.
+//!   the alignment and the displacements of both rails, and [`Track::displacements`] what the contact needs of the
+//!   rails.
 //!
 //! The axes follow the layout and roll with the cant: x forward, y right, z down. Curvature is positive to the right;
 //! cant and cross level are positive if the left rail is higher. The deviations of the rails do not include the cant.

@@ -68,8 +68,8 @@ impl Carried {
     }
 }
 
-/// Rotation, rad/s, at which the rails neither drive nor brake the wheelset, by bisection: the faster the wheels turn, the
-/// more the moment about the axle brakes them, until they slide.
+/// Rotation, rad/s, at which the rails neither drive nor brake the wheelset, by bisection: the faster the wheels turn,
+/// the more the moment about the axle brakes them, until they slide.
 fn free_rotation(mut moment_n_m: impl FnMut(f64) -> f64) -> f64 {
     let (mut slow, mut fast) = ROTATIONS_RAD_PER_S;
     for _ in 0..60 {

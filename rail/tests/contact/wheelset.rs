@@ -100,8 +100,8 @@ impl CreepLaw for Linear {
 
 #[test]
 fn small_creepages_give_kalker_s_force_on_a_wheel() {
-    // If the wheelset rotates faster by xi = 2e-6, the force changes by G a b C11 xi, with the ellipse of the patch. The
-    // rails are apart, where the pressure has one summit.
+    // If the wheelset rotates faster by xi = 2e-6, the force changes by G a b C11 xi, with the ellipse of the patch.
+    // The rails are apart, where the pressure has one summit.
     let contact = polach();
     let mut rails = LEVEL;
     (rails[0].lateral_m, rails[1].lateral_m) = (-3e-3, 3e-3);

@@ -35,7 +35,8 @@ pub(super) fn write(
     let body = html! {
         h1 { (case.name) }
         p.lead {
-            (report.vehicle) " on " (report.track) " at " (format!("{:.0}", report.speed_km_h)) " km/h; normal damping " (report.normal_damping_s_per_m) " s/m, step "
+            (report.vehicle) " on " (report.track) " at " (format!("{:.0}", report.speed_km_h))
+            " km/h; normal damping " (report.normal_damping_s_per_m) " s/m, step "
             (format!("{:.0}", 1e6 * report.step_s)) " µs."
         }
         div.wide { table {

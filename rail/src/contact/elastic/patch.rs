@@ -25,8 +25,8 @@ const OVERLAP_VALLEYS: [f64; 2] = [0.0, -0.5];
 pub struct ElasticPatch {
     /// Normal load in the zone, N.
     pub load_n: f64,
-    /// `dz/dy` of the wheel in its pose: the tangent of the contact angle. As in the theory of half-spaces, the pressure
-    /// acts along one normal: the mean over the same area, with the same weights as the position.
+    /// `dz/dy` of the wheel in its pose: the tangent of the contact angle. As in the theory of half-spaces, the
+    /// pressure acts along one normal: the mean over the same area, with the same weights as the position.
     pub slope: f64,
     /// Position on the wheel at which the creepages hold, m from the tread datum: the mean over the area in which the
     /// undeformed bodies overlap, weighted by the square of their overlap.

@@ -27,7 +27,8 @@ use super::zones::ZONES;
 
 /// Number of loads at which the contact is computed.
 const LEVELS: usize = 7;
-/// Cube roots of these loads, N^(1/3): from 4.9 kN to 1 MN, one of them 200 kN. Penetrations are nearly proportional to their squares.
+/// Cube roots of these loads, N^(1/3): from 4.9 kN to 1 MN, one of them 200 kN. Penetrations are nearly proportional to
+/// their squares.
 const ROOTS: [f64; LEVELS] = [17.0, 25.0, 33.0, 41.0, 49.0, 58.5, 100.0];
 
 /// Depths are whole multiples of 2^-27 m, 7.5 nm, so that files are short.

@@ -54,7 +54,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         Self::with_contacts(parameters, contacts, step_s, support)
     }
 
-    /// Builds the vehicle like [`Vehicle::on_rails`], with a contact for each wheelset. Equal wheelsets should share one.
+    /// Builds the vehicle like [`Vehicle::on_rails`], with a contact for each wheelset. Equal wheelsets should share
+    /// one.
     ///
     /// # Errors
     /// Those of [`Vehicle::on_rails`], or a number of contacts other than that of the wheelsets.
