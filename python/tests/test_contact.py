@@ -38,7 +38,9 @@ class Contacts(Test):
         """Compares a table of arrays with rows of the command, which have the same names."""
         for place, row in enumerate(rows):
             for name, value in row.items():
-                if name in table:
+                if name in table and value is None:
+                    self.assertTrue(numpy.isnan(table[name][place]), name)
+                elif name in table:
                     self.assertEqual(table[name][place], value, name)
         self.assertEqual({column.shape for column in table.values()}, {(len(rows),)})
 

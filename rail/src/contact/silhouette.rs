@@ -153,7 +153,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Depth (cubic Hermite interpolation) and curvature at `y`; `None` beyond the ends.
+    /// Depth (cubic Hermite interpolation) and slope `dz/dy` at `y`; `None` beyond the ends.
     pub fn at(&mut self, y: f64) -> Option<(f64, f64)> {
         let points = self.points;
         if !(points[0].y_m..=points[points.len() - 1].y_m).contains(&y) {
@@ -170,10 +170,8 @@ impl<'a> Cursor<'a> {
         let t = (y - p.y_m) / h;
         let (m0, m1) = (self.slopes[self.i] * h, self.slopes[self.i + 1] * h);
         let dz = q.z_m - p.z_m;
-        let z = p.z_m + t * (m0 + t * (3.0 * dz - 2.0 * m0 - m1 + t * (m0 + m1 - 2.0 * dz)));
-        Some((
-            z,
-            p.curvature_per_m + t * (q.curvature_per_m - p.curvature_per_m),
-        ))
+        let (second, third) = (3.0 * dz - 2.0 * m0 - m1, m0 + m1 - 2.0 * dz);
+        let z = p.z_m + t * (m0 + t * (second + t * third));
+        Some((z, (m0 + t * (2.0 * second + 3.0 * t * third)) / h))
     }
 }

@@ -30,8 +30,7 @@ pub(super) struct Strip {
     /// Lateral position and depth relative to the tread datum in track axes, m.
     pub y_m: f64,
     pub z_m: f64,
-    pub slope: f64,
-    /// Cosine of the angle whose tangent is the slope.
+    /// Cosine of the contact angle.
     pub cos: f64,
     /// Radius of curvature in the rolling direction, m.
     pub radius_m: f64,
@@ -74,7 +73,6 @@ impl<'a> TurnedStrips<'a> {
                 wheel_y_m: point.y_m,
                 y_m: turned.y,
                 z_m: turned.z,
-                slope: turned.slope,
                 cos: turned.cos,
                 radius_m: (pair.installation().wheel_radius_m + point.z_m) / rolling,
             });
@@ -98,7 +96,6 @@ impl Strip {
             wheel_y_m: arc_m,
             y_m: arc_m,
             z_m: 0.0,
-            slope: 0.0,
             cos: 1.0,
             radius_m,
         }

@@ -2,7 +2,8 @@
 
 use std::array::from_fn;
 
-use super::axis::Axis;
+use super::axis::{Axes, Axis};
+use super::conservation::{Solved, conserve_energy};
 use super::record::{Record, pack};
 use super::row::{Row, load_n};
 use super::shear::Shear;
@@ -120,11 +121,13 @@ impl Tables {
         nodes: Vec<Node>,
         records: Vec<[Record; LEVELS]>,
     ) -> Self {
+        let [shifts, rolls, _] = axes.each_ref().map(Axis::nodes);
         Self {
+            strides: [1, shifts, shifts * rolls],
             movements: shear.movements(),
             shear: *shear,
             geometry,
-            axes,
+            axes: Axes::new(axes),
             nodes,
             records,
         }
@@ -142,17 +145,21 @@ impl Part {
     ) {
         let mut row = Row::new(geometry, roll, yaw_squared.sqrt());
         let [per_roll, per_squared_yaw] = shear.movements();
-        for node in 0..shifts.nodes() {
-            let lateral_m = shifts.value(node) + per_roll * roll + per_squared_yaw * yaw_squared;
-            row.shift(lateral_m);
-            let mut depths = [row.first_touch_m(); DEPTHS];
+        let mut solved: Vec<Option<Solved>> = (0..shifts.nodes())
+            .map(|node| {
+                let lateral_m =
+                    shifts.value(node) + per_roll * roll + per_squared_yaw * yaw_squared;
+                row.solve_all(lateral_m)
+            })
+            .collect();
+        conserve_energy(&mut solved);
+        for node in &solved {
+            let mut depths = from_fn(|k| ABSENT_M * (1 + k) as f64);
             let mut records = [[Record::default(); LEVELS]; ZONES];
-            if !depths[0].is_finite() {
-                depths = from_fn(|k| ABSENT_M * (1 + k) as f64);
-            } else {
-                for level in 0..LEVELS {
-                    let (depth_m, patches) = row.solve(lateral_m, level);
-                    depths[level + 1] = depth_m;
+            if let Some(node) = node {
+                depths[0] = node.first_touch_m;
+                for (level, (depth_m, patches)) in node.levels.iter().enumerate() {
+                    depths[level + 1] = *depth_m;
                     for (zone, patch) in patches.iter().enumerate() {
                         records[zone][level] = pack(patch, load_n(level));
                     }

@@ -1,4 +1,8 @@
-//! One cell of the tables: interpolation between its eight nodes and the two loads that enclose the load.
+//! One cell of the tables: interpolation between four of its nodes and the two loads that enclose the load.
+//!
+//! A cell is divided into six tetrahedra, each for one order of the positions along shift, roll and yaw. Its corners are
+//! reached from the first node of the cell by steps along the axes, the axis of the greatest position first
+//! (Kuhn's triangulation). Four nodes cost half as much as eight, and derivatives are differences of neighbours.
 
 use std::array::from_fn;
 
@@ -15,14 +19,20 @@ use crate::contact::zones::ZONES;
 use crate::math::each::Each;
 use crate::math::number::{Number, transposed};
 
+/// Corners of a tetrahedron.
+const CORNERS: usize = 4;
+
 /// A wheel in a cell of the tables.
 pub struct Cell<'a> {
     tables: &'a Tables,
-    nodes: [&'a Node; 8],
-    /// Weights of the eight nodes.
-    weights: [f32; 8],
+    /// The corners of the tetrahedron.
+    nodes: [&'a Node; CORNERS],
+    /// The axis along which each corner after the first is reached.
+    order: [u8; 3],
+    /// Positions along these axes.
+    falling: [f64; 3],
     /// Shift, roll and squared yaw.
-    at: [Located; 3],
+    at: Located,
     depth_m: f64,
     /// Depths of the cell at no load and at each load, m.
     depths_m: [f64; DEPTHS],
@@ -53,22 +63,23 @@ const SQUARES: [f64; DEPTHS] = {
     squares
 };
 
-/// Weights of both ends of each axis at a position.
+/// The axes in falling order of their positions.
 #[inline(always)]
-fn ends(at: &[Located; 3]) -> [[f64; 2]; 3] {
-    at.each(|at| [1.0 - at.position, at.position])
-}
-
-/// Weights of the eight nodes: products of the weights along each axis.
-#[inline(always)]
-fn products([shift, roll, yaw]: [[f64; 2]; 3]) -> [f32; 8] {
-    let row = |roll: f64, yaw: f64| {
-        let weight = roll * yaw;
-        [(shift[0] * weight) as f32, (shift[1] * weight) as f32]
-    };
-    let ([a, b], [c, d]) = (row(roll[0], yaw[0]), row(roll[1], yaw[0]));
-    let ([e, f], [g, h]) = (row(roll[0], yaw[1]), row(roll[1], yaw[1]));
-    [a, b, c, d, e, f, g, h]
+fn falling_order([shift, roll, yaw]: [f64; 3]) -> [u8; 3] {
+    /// For each outcome of the comparisons below; two of them contradict each other.
+    const ORDERS: [[u8; 3]; 8] = [
+        [2, 1, 0],
+        [2, 0, 1],
+        [1, 2, 0],
+        [0, 1, 2],
+        [2, 1, 0],
+        [0, 2, 1],
+        [1, 0, 2],
+        [0, 1, 2],
+    ];
+    let shift_is_before = [shift >= roll, shift >= yaw].each(usize::from);
+    let outcome = shift_is_before[0] | usize::from(roll >= yaw) << 1 | shift_is_before[1] << 2;
+    ORDERS[outcome]
 }
 
 impl Load<f64> {
@@ -108,32 +119,29 @@ impl<'a> Cell<'a> {
         depth_m: f64,
     ) -> Self {
         let (roll, squared_yaw) = (pose.roll_rad, pose.yaw_rad * pose.yaw_rad);
-        let [shifts, rolls, yaws] = &tables.axes;
         let [per_roll, per_squared_yaw] = tables.movements;
-        let at = [
-            shifts.locate(pose.lateral_m - per_roll * roll - per_squared_yaw * squared_yaw),
-            rolls.locate(roll),
-            yaws.locate(squared_yaw),
-        ];
-        let [roll_stride, yaw_stride] = tables.strides();
-        let start = at[0].cell + at[1].cell * roll_stride + at[2].cell * yaw_stride;
-        let pair = |offset: usize| {
-            let (pairs, _) = tables.nodes[start + offset..].as_chunks::<2>();
-            &pairs[0]
+        let shift = pose.lateral_m - per_roll * roll - per_squared_yaw * squared_yaw;
+        let at = tables.axes.locate(simd, [shift, roll, squared_yaw]);
+        let order = falling_order(at.positions);
+        let strides = tables.strides;
+        let [first, second, third] = order.each(|axis| usize::from(axis) % 3);
+        let start = at.cells[0] + at.cells[1] * strides[1] + at.cells[2] * strides[2];
+        let after_first = start + strides[first];
+        let after_second = after_first + strides[second];
+        let node = |node: usize| match tables.nodes.get(node) {
+            Some(node) => node,
+            None => &tables.nodes[0],
         };
-        let pairs = [
-            pair(0),
-            pair(roll_stride),
-            pair(yaw_stride),
-            pair(yaw_stride + roll_stride),
-        ];
-        let [[a, b], [c, d], [e, f], [g, h]] = pairs;
-        let nodes = [a, b, c, d, e, f, g, h];
-        let weights = products(ends(&at));
         let mut cell = Self {
             tables,
-            nodes,
-            weights,
+            nodes: [
+                node(start),
+                node(after_first),
+                node(after_second),
+                node(after_second + strides[third]),
+            ],
+            order,
+            falling: [first, second, third].each(|axis| at.positions[axis]),
             at,
             depth_m,
             depths_m: [0.0; DEPTHS],
@@ -147,10 +155,13 @@ impl<'a> Cell<'a> {
     /// Sets the depths and the load.
     #[inline(always)]
     fn interpolate_depths<S: Simd>(&mut self, simd: S) {
-        let first = f32x8::from_slice(simd, &self.nodes[0].depths_m);
+        let [a, b, c, d] = self.depths_of_nodes(simd);
+        let [first, second, third] = self.falling.each(|part| simd.splat_f32x8(part as f32));
         // Differences between nodes are small, so they keep the accuracy that single precision gives the depths.
-        let differences = self.depths_by(simd, &self.weights);
-        let (low, high) = simd.widen_f32x8(first);
+        let differences = (b - a) * first;
+        let differences = simd.mul_add_f32x8(c - b, second, differences);
+        let differences = simd.mul_add_f32x8(d - c, third, differences);
+        let (low, high) = simd.widen_f32x8(a);
         let (low_difference, high_difference) = simd.widen_f32x8(differences);
         let (low, high) = (low + low_difference, high + high_difference);
         let depth = simd.splat_f64x4(self.depth_m);
@@ -169,45 +180,41 @@ impl<'a> Cell<'a> {
         }
     }
 
-    /// Sum over the nodes of weights times depths, less the depths of the first node times the sum of the weights.
     #[inline(always)]
-    fn depths_by<S: Simd>(&self, simd: S, weights: &[f32; 8]) -> f32x8<S> {
-        let depths = |node: &Node| f32x8::from_slice(simd, &node.depths_m);
-        let first = depths(self.nodes[0]);
-        let mut sum = simd.splat_f32x8(0.0);
-        let mut k = 1;
-        while k < 8 {
-            let weight = simd.splat_f32x8(weights[k]);
-            sum = simd.mul_add_f32x8(depths(self.nodes[k]) - first, weight, sum);
-            k += 1;
-        }
-        sum
+    fn depths_of_nodes<S: Simd>(&self, simd: S) -> [f32x8<S>; CORNERS] {
+        self.nodes
+            .each(|node| f32x8::from_slice(simd, &node.depths_m))
     }
 
     /// The lower one of the two loads whose records are read.
     #[inline(always)]
     fn lower_level(&self) -> usize {
-        self.passed.saturating_sub(2)
+        self.passed.saturating_sub(2).min(LEVELS - 2)
     }
 
-    /// Sums over the nodes of weights times the records of a zone, at the lower and at the upper load.
+    /// The records of a zone at a node, at the lower and at the upper load; `None` if the node has no such patch.
     #[inline(always)]
-    fn records_by<S: Simd>(&self, simd: S, weights: &[f32; 8], zone: usize) -> [f32x8<S>; 2] {
+    fn records_at<S: Simd>(&self, simd: S, node: &Node, zone: usize) -> Option<[f32x8<S>; 2]> {
+        let levels = self.tables.records.get(node.record(zone)?)?;
         let level = self.lower_level();
+        let both = i16x16::from_slice(simd, levels[level..level + 2].as_flattened());
+        let (low, high) = simd.widen_i16x16(both);
+        Some([simd.cvt_f32_i32x8(low), simd.cvt_f32_i32x8(high)])
+    }
+
+    /// The records of a zone at the lower and at the upper load, between the nodes.
+    #[inline(always)]
+    fn records<S: Simd>(&self, simd: S, zone: usize) -> [f32x8<S>; 2] {
+        let [first, second, third] = self.falling;
+        let weights = [1.0 - first, first - second, second - third, third];
         let mut sums = [simd.splat_f32x8(0.0); 2];
         for (node, weight) in self.nodes.iter().zip(weights) {
-            let Some(record) = node.record(zone) else {
+            let Some([low, high]) = self.records_at(simd, node, zone) else {
                 continue;
             };
-            let two: &[_; 2] = match self.tables.records[record][level..].first_chunk() {
-                Some(two) => two,
-                None => continue,
-            };
-            let both = i16x16::from_slice(simd, two.as_flattened());
-            let (low, high) = simd.widen_i16x16(both);
-            let weight = simd.splat_f32x8(*weight);
-            sums[0] = simd.mul_add_f32x8(simd.cvt_f32_i32x8(low), weight, sums[0]);
-            sums[1] = simd.mul_add_f32x8(simd.cvt_f32_i32x8(high), weight, sums[1]);
+            let weight = simd.splat_f32x8(weight as f32);
+            sums[0] = simd.mul_add_f32x8(low, weight, sums[0]);
+            sums[1] = simd.mul_add_f32x8(high, weight, sums[1]);
         }
         sums
     }
@@ -226,7 +233,7 @@ impl<'a> Cell<'a> {
     /// The record of a zone at the load of the wheel.
     #[inline(always)]
     fn record<S: Simd>(&self, simd: S, zone: usize) -> f32x8<S> {
-        let [low, high] = self.records_by(simd, &self.weights, zone);
+        let [low, high] = self.records(simd, zone);
         let above = simd.splat_f32x8(self.load.above as f32);
         simd.mul_add_f32x8(high - low, above, low)
     }
@@ -271,8 +278,7 @@ fn unpacked<T: Number>(record: [T; FIELDS], load: T, root: T) -> PatchNumbers<T>
 impl PatchReader for Cell<'_> {
     #[inline(always)]
     fn is_inside(&self) -> bool {
-        let [shift, roll, yaw] = &self.at;
-        shift.is_inside & roll.is_inside & yaw.is_inside
+        self.at.is_inside
     }
 
     #[inline(always)]
@@ -340,39 +346,32 @@ impl Cell<'_> {
         let [per_roll, per_squared_yaw] = self.tables.movements;
         let shift = shift - roll * per_roll - squared * per_squared_yaw;
         let values = [shift, roll, squared];
-        let mut depth_slopes = [[0.0_f32; DEPTHS]; 3];
-        let mut record_slopes = [[[0.0_f32; FIELDS]; 2]; 3];
-        for axis in 0..3 {
-            let per_unit = self.at[axis].per_unit;
-            if per_unit == 0.0 {
-                continue;
-            }
-            let mut ends = ends(&self.at);
-            ends[axis] = [-per_unit, per_unit];
-            let weights = products(ends);
-            depth_slopes[axis] = self.depths_by(simd, &weights).to_array();
-            record_slopes[axis] = self
-                .records_by(simd, &weights, zone)
-                .each(|record| record.to_array());
-        }
+        let located = values.map(|value| value.value());
+        let per_unit = self.tables.axes.per_unit(located, &self.at);
+        let axes = self.order.map(|axis| usize::from(axis) % 3);
+        let steps = axes.map(|axis| (per_unit[axis], values[axis]));
+        // Differences from each corner to the next, which are the slopes along the axes.
         let function = |value: f64, slopes: [f32; 3]| {
-            Tangent::function(
-                value,
-                [0, 1, 2].map(|axis| (f64::from(slopes[axis]), values[axis])),
-            )
+            let term = |k: usize| {
+                let (per_unit, of) = steps[k];
+                (f64::from(slopes[k]) * per_unit, of)
+            };
+            Tangent::function(value, [0, 1, 2].map(term))
         };
+        let depths = self.depths_of_nodes(simd);
+        let depth_slopes = [0, 1, 2].map(|k| (depths[k + 1] - depths[k]).to_array());
         let depth_at = |k: usize| function(self.depths_m[k], depth_slopes.map(|slopes| slopes[k]));
         let passed = self.passed.max(1);
         let load = Load::new(passed, depth, [depth_at(passed - 1), depth_at(passed)]);
-        let values_of = self
-            .records_by(simd, &self.weights, zone)
-            .each(|record| record.to_array());
+        let values_of = self.records(simd, zone).each(|record| record.to_array());
+        let none = [simd.splat_f32x8(0.0); 2];
+        let at_nodes = self
+            .nodes
+            .map(|node| self.records_at(simd, node, zone).unwrap_or(none));
         let field = |n: usize| {
             let [low, high] = [0, 1].map(|end| {
-                function(
-                    f64::from(values_of[end][n]),
-                    record_slopes.map(|slopes| slopes[end][n]),
-                )
+                let slope = |k: usize| at_nodes[k + 1][end][n] - at_nodes[k][end][n];
+                function(f64::from(values_of[end][n]), [0, 1, 2].map(slope))
             });
             low + (high - low) * load.above
         };

@@ -7,12 +7,13 @@ mod axis;
 mod build;
 mod cache;
 mod cell;
+mod conservation;
 mod file;
 mod record;
 mod row;
 mod shear;
 
-use axis::Axis;
+use axis::{Axes, Axis};
 pub use cache::{Cached, NotKept};
 use cell::Cell;
 use fearless_simd::Simd;
@@ -42,12 +43,14 @@ const DEPTHS: usize = LEVELS + 1;
 pub struct Tables {
     geometry: ContactGeometry,
     /// Lateral shift (m), roll (rad), and squared yaw (rad^2), because the silhouette is an even function of the yaw.
-    axes: [Axis; 3],
+    axes: Axes,
     /// The shift varies fastest, then the roll.
     nodes: Vec<Node>,
     /// The records at all loads, for each zone of each node that has patches.
     records: Vec<[Record; LEVELS]>,
     shear: Shear,
+    /// Number of nodes from one shift, roll and yaw to the next.
+    strides: [usize; 3],
     /// Movement of the nodes of the shift per roll, m/rad, and per squared yaw, m/rad^2.
     movements: [f64; 2],
 }
@@ -88,12 +91,6 @@ impl Tables {
     /// Number of nodes along shift, roll and yaw.
     pub fn nodes(&self) -> [usize; 3] {
         self.axes.each_ref().map(Axis::nodes)
-    }
-
-    /// Number of nodes from one roll to the next and from one yaw to the next.
-    fn strides(&self) -> [usize; 2] {
-        let [shifts, rolls, _] = self.nodes();
-        [shifts, shifts * rolls]
     }
 }
 

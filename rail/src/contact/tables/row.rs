@@ -1,5 +1,6 @@
 //! The contact at the nodes of one roll and one yaw.
 
+use super::conservation::Solved;
 use super::{LEVELS, ROOTS};
 use crate::contact::elastic::{ElasticPatch, Fineness, Gap, Given, NormalContact, TurnedStrips};
 use crate::contact::geometry::ContactGeometry;
@@ -68,8 +69,19 @@ impl<'a> Row<'a> {
         (contact.depth_m, patches)
     }
 
+    /// The contact under each load at a lateral shift; `None` if the wheel is beside the rail.
+    pub fn solve_all(&mut self, lateral_m: f64) -> Option<Solved> {
+        self.shift(lateral_m);
+        let first_touch_m = self.first_touch_m();
+        first_touch_m.is_finite().then(|| Solved {
+            lateral_m,
+            first_touch_m,
+            levels: std::array::from_fn(|level| self.solve(lateral_m, level)),
+        })
+    }
+
     /// Depth, m, of the highest strip of the wheel below the top of the rail; infinite beside the rail.
-    pub fn first_touch_m(&self) -> f64 {
+    fn first_touch_m(&self) -> f64 {
         -self.gaps[0].highest_m
     }
 

@@ -2,14 +2,14 @@
 
 use std::array::from_fn;
 
-use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f64x4};
+use fearless_simd::{Simd, SimdBase, f32x4, f64x4};
 
 use super::{KalkerCoefficients, KalkerTable};
 use crate::creep::shape::{ratio, shape};
 use crate::math::dual::Dual;
-use crate::math::number::{Number, transposed};
+use crate::math::number::{Number, WHOLE, transposed};
 
-/// Number of rows, at equidistant shapes of the ellipse.
+/// Number of rows, at equidistant shapes of the ellipse; a power of two.
 const ROWS: usize = 512;
 /// Greatest magnitude of the shape; the semi-axes then differ by a factor of 400.
 const MAX_SHAPE: f64 = 0.99;
@@ -19,7 +19,14 @@ const LAST: f64 = (ROWS - 2) as f64;
 /// Kalker's coefficients at many ratios of the semi-axes.
 #[derive(Debug, Clone)]
 pub(crate) struct KalkerLookup {
-    rows: Vec<[f32; 4]>,
+    rows: Box<[Row; ROWS]>,
+}
+
+/// The four coefficients at a shape, and their differences to the next row.
+#[derive(Debug, Clone, Copy)]
+struct Row {
+    here: [f32; 4],
+    step: [f32; 4],
 }
 
 /// Position of an ellipse among the rows.
@@ -36,18 +43,26 @@ impl KalkerLookup {
             let KalkerCoefficients { c11, c22, c23, c33 } = table.at(ratio);
             [c11, c22, c23, c33].map(|coefficient| coefficient as f32)
         };
-        Self {
-            rows: (0..ROWS).map(row).collect(),
-        }
+        Self::from_rows(row)
     }
 
     /// Mean of the coefficients of two steels.
     pub fn mean(&self, other: &Self) -> Self {
-        let rows = self.rows.iter().zip(&other.rows);
+        let mean = |row: usize| -> [f32; 4] {
+            let [one, other] = [self, other].map(|lookup| lookup.rows[row].here);
+            from_fn(|k| 0.5 * (one[k] + other[k]))
+        };
+        Self::from_rows(mean)
+    }
+
+    fn from_rows(here: impl Fn(usize) -> [f32; 4]) -> Self {
+        let row = |row: usize| {
+            let (here, next) = (here(row), here((row + 1).min(ROWS - 1)));
+            let step = from_fn(|k| next[k] - here[k]);
+            Row { here, step }
+        };
         Self {
-            rows: rows
-                .map(|(row, other)| from_fn(|k| 0.5 * (row[k] + other[k])))
-                .collect(),
+            rows: Box::new(from_fn(row)),
         }
     }
 
@@ -56,25 +71,28 @@ impl KalkerLookup {
     pub fn at_lanes<S: Simd>(&self, [a, b]: [f64x4<S>; 2]) -> KalkerCoefficients<f64x4<S>> {
         let simd = a.simd;
         let position = position(a, b);
+        // The row whose middle is nearest.
+        let whole = position + -0.5 + WHOLE;
+        let part = position - (whole + -WHOLE);
+        let zero = simd.splat_f64x2(0.0);
+        let (first, second) = simd.split_f64x4(part);
+        let part = simd.combine_f32x4(
+            simd.narrow_f64x2(first, zero),
+            simd.narrow_f64x2(second, zero),
+        );
+        let value = |lane: usize, part: f32| {
+            let Row { here, step } = &self.rows[whole[lane].to_bits() as usize % ROWS];
+            let (here, step) = (f32x4::from_slice(simd, here), f32x4::from_slice(simd, step));
+            simd.mul_add_f32x4(step, simd.splat_f32x4(part), here)
+        };
         let values = [
-            self.row(simd, position[0]),
-            self.row(simd, position[1]),
-            self.row(simd, position[2]),
-            self.row(simd, position[3]),
+            value(0, part[0]),
+            value(1, part[1]),
+            value(2, part[4]),
+            value(3, part[5]),
         ];
         let [c11, c22, c23, c33] = transposed(simd, values);
         KalkerCoefficients { c11, c22, c23, c33 }
-    }
-
-    /// The four coefficients at a position among the rows.
-    #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, position: f64) -> f32x4<S> {
-        let row = position.min(LAST) as usize;
-        let part = (position - row as f64) as f32;
-        let (pairs, _) = self.rows[row..].as_chunks::<2>();
-        let pair: f32x8<S> = f32x8::from_slice(simd, pairs[0].as_flattened());
-        let (here, next) = simd.split_f32x8(pair);
-        simd.mul_add_f32x4(next - here, simd.splat_f32x4(part), here)
     }
 
     /// Coefficients with their derivatives.
@@ -82,9 +100,9 @@ impl KalkerLookup {
         let position = position(a, b);
         let row = position.value().min(LAST) as usize;
         let part = position.value() - row as f64;
+        let Row { here, step } = &self.rows[row];
         let coefficient = |k: usize| {
-            let [here, next] = [row, row + 1].map(|row| f64::from(self.rows[row][k]));
-            let slope = next - here;
+            let (here, slope) = (f64::from(here[k]), f64::from(step[k]));
             Dual::function(here + part * slope, [(slope, position)])
         };
         KalkerCoefficients {
