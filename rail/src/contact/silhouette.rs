@@ -121,19 +121,26 @@ impl<'a> TurnedWheel<'a> {
         let on_wheel = self.pair.wheel().points();
         for (index, point) in self.points.iter().enumerate() {
             let track_y_m = datum + point.y;
-            let Some((rail_z, rail_curvature)) = rail.at(track_y_m) else {
+            let Some(rail_point) = rail.at(track_y_m) else {
                 continue;
             };
-            let interpenetration_m = point.z - rail_z;
+            let interpenetration_m = point.z - rail_point.z;
             silhouette.push(SilhouettePoint {
                 index,
                 track_y_m,
                 interpenetration_m,
                 slope: point.slope,
-                curvature_per_m: rail_curvature - on_wheel[index].curvature_per_m,
+                curvature_per_m: rail_point.curvature_per_m - on_wheel[index].curvature_per_m,
             });
         }
     }
+}
+
+/// A point of a rail.
+pub(super) struct RailPoint {
+    pub z: f64,
+    pub slope: f64,
+    pub curvature_per_m: f64,
 }
 
 /// Interpolates a profile at mostly rising positions, without a search from the start.
@@ -153,8 +160,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Depth (cubic Hermite interpolation) and slope `dz/dy` at `y`; `None` beyond the ends.
-    pub fn at(&mut self, y: f64) -> Option<(f64, f64)> {
+    /// Depth (cubic Hermite interpolation), its slope `dz/dy` and the curvature at `y`; `None` beyond the ends.
+    pub fn at(&mut self, y: f64) -> Option<RailPoint> {
         let points = self.points;
         if !(points[0].y_m..=points[points.len() - 1].y_m).contains(&y) {
             return None;
@@ -172,6 +179,10 @@ impl<'a> Cursor<'a> {
         let dz = q.z_m - p.z_m;
         let (second, third) = (3.0 * dz - 2.0 * m0 - m1, m0 + m1 - 2.0 * dz);
         let z = p.z_m + t * (m0 + t * (second + t * third));
-        Some((z, (m0 + t * (2.0 * second + 3.0 * t * third)) / h))
+        Some(RailPoint {
+            z,
+            slope: (m0 + t * (2.0 * second + 3.0 * t * third)) / h,
+            curvature_per_m: p.curvature_per_m + t * (q.curvature_per_m - p.curvature_per_m),
+        })
     }
 }

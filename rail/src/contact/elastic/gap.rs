@@ -70,7 +70,7 @@ impl Gap {
         let datum = wheel.pair.installation().datum_offset_m() + lateral_m;
         let mut rail = Cursor::new(wheel.pair);
         let mut over_rail = |strip: &Strip| match rail.at(datum + strip.y_m) {
-            Some((z, slope)) => (strip.z_m - z, slope),
+            Some(rail) => (strip.z_m - rail.z, rail.slope),
             None => (f64::NEG_INFINITY, 0.0),
         };
         self.firsts.clear();

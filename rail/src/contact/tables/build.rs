@@ -7,7 +7,7 @@ use super::conservation::{Solved, conserve_energy};
 use super::record::{Record, pack};
 use super::row::{Row, load_n};
 use super::shear::Shear;
-use super::{DEPTH_UNIT_M, DEPTHS, LEVELS, Node, Tables};
+use super::{DEPTH_UNIT_M, LEVELS, Node, Tables};
 use crate::contact::geometry::ContactGeometry;
 use crate::contact::zones::ZONES;
 
