@@ -180,14 +180,16 @@ impl Sums {
             return ElasticPatch::default();
         }
         let mean = 1.0 / self.load;
+        let load_n = self.force[0].hypot(self.force[1]);
         let wheel_y_m = self.wheel_y * mean;
         ElasticPatch {
-            load_n: self.force[0].hypot(self.force[1]),
+            load_n,
             slope: self.force[0] / self.force[1],
             wheel_y_m,
             wheel_z_m: pair.wheel().at(wheel_y_m).z_m,
             semi_axes_m: self.semi_axes.map(|sum| sum * mean),
-            whole_load_n: self.whole_load * mean,
+            // The strips of the whole patch press in different directions, as those of this part do.
+            whole_load_n: self.whole_load * mean * load_n * mean,
             peak_pressure_pa: self.peak_pressure * mean,
         }
     }

@@ -59,6 +59,27 @@ impl Solved {
     }
 }
 
+impl Solved {
+    /// Changes each level by a few percent, as Hertz's contact would change with its load, so that the loads of the
+    /// patches add up to the load of the level. Until now the loads of the strips did, whose directions differ.
+    fn scale_to_loads(&mut self) {
+        for (level, (depth_m, patches)) in self.levels.iter_mut().enumerate() {
+            let sum_n: f64 = patches.iter().map(|patch| patch.load_n).sum();
+            if sum_n <= 0.0 {
+                continue;
+            }
+            let root = ROOTS[level] / sum_n.cbrt();
+            *depth_m = self.first_touch_m + (*depth_m - self.first_touch_m) * root * root;
+            for patch in patches {
+                patch.load_n *= root * root * root;
+                patch.whole_load_n *= root * root * root;
+                patch.semi_axes_m = patch.semi_axes_m.map(|semi_axis| semi_axis * root);
+                patch.peak_pressure_pa *= root;
+            }
+        }
+    }
+}
+
 /// Derivative at the middle one of three positions.
 fn derivative(positions: [f64; 3], values: [f64; 3]) -> f64 {
     let (before, after) = (positions[1] - positions[0], positions[2] - positions[1]);
@@ -69,7 +90,8 @@ fn derivative(positions: [f64; 3], values: [f64; 3]) -> f64 {
     (slope_before * after + slope_after * before) / (before + after)
 }
 
-/// Turns the normals of the patches of each node so that the lateral force is the gradient of the energy.
+/// Turns the normals of the patches of each node so that the lateral force is the gradient of the energy, and moves the
+/// depths so that the loads of all patches together are that of the level.
 pub(super) fn conserve_energy(row: &mut [Option<Solved>]) {
     let energies: Vec<[f64; LEVELS]> = row
         .iter()
@@ -95,7 +117,9 @@ fn corrected(row: &[Option<Solved>], energies: &[[f64; LEVELS]], at: usize) -> O
         }
     };
     let (Some((k, before)), Some((l, after))) = (distant(-1), distant(1)) else {
-        return Some(node);
+        let mut scaled = node;
+        scaled.scale_to_loads();
+        return Some(scaled);
     };
     let positions = [before.lateral_m, node.lateral_m, after.lateral_m];
     let mut turned = node;
@@ -107,6 +131,7 @@ fn corrected(row: &[Option<Solved>], energies: &[[f64; LEVELS]], at: usize) -> O
             vertical_n(patches) * derivative(positions, depths) - derivative(positions, stored);
         turn(patches, gradient);
     }
+    turned.scale_to_loads();
     Some(turned)
 }
 
@@ -132,7 +157,9 @@ fn turn(patches: &mut [ElasticPatch; ZONES], lateral_n: f64) {
         let slope = wanted
             .clamp(angle - MAX_TURN_RAD, angle + MAX_TURN_RAD)
             .tan();
-        patch.load_n *= slope.hypot(1.0) / patch.slope.hypot(1.0);
+        let factor = slope.hypot(1.0) / patch.slope.hypot(1.0);
+        patch.load_n *= factor;
+        patch.whole_load_n *= factor;
         patch.slope = slope;
     }
 }

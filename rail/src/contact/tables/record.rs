@@ -9,9 +9,8 @@ const LEFT_OUT: [f64; 2] = [1e-3, 3e-3];
 
 /// Greatest magnitude of each field: part of the load; then, each times this part: sine of the contact angle, position
 /// and depth on the wheel (m), semi-axes (m) divided by `N^(1/3)`, part of the load that the whole patch carries, and
-/// peak pressure (Pa) divided by `N^(1/3)`. The parts of all patches together may exceed 1, because the load of a level
-/// is a sum over strips and the parts follow from the conservation of energy.
-const GREATEST: [f64; FIELDS] = [1.25, 1.25, 0.19, 0.125, 1.25e-3, 1.25e-3, 1.25, 2.5e8];
+/// peak pressure (Pa) divided by `N^(1/3)`.
+const GREATEST: [f64; FIELDS] = [1.0, 1.0, 0.15, 0.1, 1e-3, 1e-3, 1.1, 2e8];
 
 /// A packed record. All fields are amounts that belong to the load: where a node has no such patch, they are zero, and
 /// between nodes they add up.
