@@ -121,26 +121,19 @@ impl<'a> TurnedWheel<'a> {
         let on_wheel = self.pair.wheel().points();
         for (index, point) in self.points.iter().enumerate() {
             let track_y_m = datum + point.y;
-            let Some(rail_point) = rail.at(track_y_m) else {
+            let Some((rail_z, rail_curvature)) = rail.at(track_y_m) else {
                 continue;
             };
-            let interpenetration_m = point.z - rail_point.z;
+            let interpenetration_m = point.z - rail_z;
             silhouette.push(SilhouettePoint {
                 index,
                 track_y_m,
                 interpenetration_m,
                 slope: point.slope,
-                curvature_per_m: rail_point.curvature_per_m - on_wheel[index].curvature_per_m,
+                curvature_per_m: rail_curvature - on_wheel[index].curvature_per_m,
             });
         }
     }
-}
-
-/// A point of a rail.
-pub(super) struct RailPoint {
-    pub z: f64,
-    pub slope: f64,
-    pub curvature_per_m: f64,
 }
 
 /// Interpolates a profile at mostly rising positions, without a search from the start.
@@ -160,8 +153,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Depth (cubic Hermite interpolation), its slope `dz/dy` and the curvature at `y`; `None` beyond the ends.
-    pub fn at(&mut self, y: f64) -> Option<RailPoint> {
+    /// Depth (cubic Hermite interpolation) and curvature at `y`; `None` beyond the ends.
+    pub fn at(&mut self, y: f64) -> Option<(f64, f64)> {
         let points = self.points;
         if !(points[0].y_m..=points[points.len() - 1].y_m).contains(&y) {
             return None;
@@ -177,12 +170,10 @@ impl<'a> Cursor<'a> {
         let t = (y - p.y_m) / h;
         let (m0, m1) = (self.slopes[self.i] * h, self.slopes[self.i + 1] * h);
         let dz = q.z_m - p.z_m;
-        let (second, third) = (3.0 * dz - 2.0 * m0 - m1, m0 + m1 - 2.0 * dz);
-        let z = p.z_m + t * (m0 + t * (second + t * third));
-        Some(RailPoint {
+        let z = p.z_m + t * (m0 + t * (3.0 * dz - 2.0 * m0 - m1 + t * (m0 + m1 - 2.0 * dz)));
+        Some((
             z,
-            slope: (m0 + t * (2.0 * second + 3.0 * t * third)) / h,
-            curvature_per_m: p.curvature_per_m + t * (q.curvature_per_m - p.curvature_per_m),
-        })
+            p.curvature_per_m + t * (q.curvature_per_m - p.curvature_per_m),
+        ))
     }
 }

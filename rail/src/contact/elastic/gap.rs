@@ -17,8 +17,6 @@ pub(in crate::contact) struct Gap {
     /// Depth of each strip below the rail when the tread datum is at the height of the rail's top, m; negative
     /// infinity beside the rail.
     pub(super) heights_m: Vec<f64>,
-    /// `dz/dy` of the rail below each strip; zero beside the rail.
-    pub(super) rail_slopes: Vec<f64>,
     /// The greatest height, m.
     pub highest_m: f64,
     /// The lowest height that a strip must have to be in this gap, m.
@@ -69,39 +67,32 @@ impl Gap {
     ) {
         let datum = wheel.pair.installation().datum_offset_m() + lateral_m;
         let mut rail = Cursor::new(wheel.pair);
-        let mut over_rail = |strip: &Strip| match rail.at(datum + strip.y_m) {
-            Some(rail) => (strip.z_m - rail.z, rail.slope),
-            None => (f64::NEG_INFINITY, 0.0),
+        let mut height = |strip: &Strip| {
+            let rail_z = rail.at(datum + strip.y_m).map(|(z, _)| z);
+            rail_z.map_or(f64::NEG_INFINITY, |z| strip.z_m - z)
         };
         self.firsts.clear();
-        let firsts = wheel.strips.iter().step_by(GROUP);
-        self.firsts.extend(firsts.map(|strip| over_rail(strip).0));
+        let firsts = wheel.strips.iter().step_by(GROUP).map(&mut height);
+        self.firsts.extend(firsts);
         let highest = |heights: &[f64]| heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         self.least_m = least(highest(&self.firsts));
         self.strips.clear();
         self.heights_m.clear();
-        self.rail_slopes.clear();
         let mut is_open = false;
         for (k, group) in wheel.strips.chunks(GROUP).enumerate() {
             let next = self.firsts.get(k + 1).copied();
             let is_near = |height: f64| height > self.least_m - MARGIN_M;
             if is_near(self.firsts[k]) || next.is_some_and(is_near) {
-                for strip in group {
-                    self.push(strip, over_rail(strip));
-                }
+                self.strips.extend_from_slice(group);
+                self.heights_m.extend(group.iter().map(&mut height));
                 is_open = true;
             } else if is_open {
-                self.push(&group[0], over_rail(&group[0]));
+                self.strips.push(group[0]);
+                self.heights_m.push(self.firsts[k]);
                 is_open = false;
             }
         }
         self.highest_m = highest(&self.heights_m);
-    }
-
-    fn push(&mut self, strip: &Strip, (height_m, rail_slope): (f64, f64)) {
-        self.strips.push(*strip);
-        self.heights_m.push(height_m);
-        self.rail_slopes.push(rail_slope);
     }
 }
 
@@ -112,7 +103,6 @@ impl Gap {
         Self {
             highest_m: heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             least_m: f64::NEG_INFINITY,
-            rail_slopes: vec![0.0; strips.len()],
             strips,
             heights_m,
             firsts: Vec::new(),

@@ -25,8 +25,8 @@ const OVERLAP_VALLEYS: [f64; 2] = [0.0, -0.5];
 pub struct ElasticPatch {
     /// Normal load in the zone, N.
     pub load_n: f64,
-    /// Lateral force divided by the vertical one, the tangent of the contact angle. The pressure of each strip acts along
-    /// the rail under it, so the forces are nearly the gradient of the stored energy.
+    /// `dz/dy` of the wheel in its pose: the tangent of the contact angle. As in the theory of half-spaces, the
+    /// pressure acts along one normal: the mean over the same area, with the same weights as the position.
     pub slope: f64,
     /// Position on the wheel at which the creepages hold, m from the tread datum: the mean over the area in which the
     /// undeformed bodies overlap, weighted by the square of their overlap.
@@ -78,9 +78,9 @@ impl NormalContact {
             heights: &self.line_loads,
             valleys: LOAD_VALLEYS,
         };
-        let position = |entry: usize| self.position(strips, &overlap, entry);
+        let place = |entry: usize| self.place(strips, &overlap, entry);
         let size = |entry: usize| self.size(strips, &load, entry);
-        let one_position = overlap.is_one_patch().then(|| position(0));
+        let one_place = overlap.is_one_patch().then(|| place(0));
         let one_size = load.is_one_patch().then(|| size(0));
         let mut sums = [Sums::default(); ZONES];
         for (k, &i) in self.loaded.iter().enumerate() {
@@ -88,31 +88,36 @@ impl NormalContact {
             if !(first..=last).contains(&i) || self.penetrations_m[i] <= 0.0 {
                 continue;
             }
-            let wheel_y = one_position.unwrap_or_else(|| position(i - first));
+            let place = one_place.unwrap_or_else(|| place(i - first));
             let size = one_size.unwrap_or_else(|| size(k));
             let load_n = self.line_loads[k] * strips[i].width_m;
             for (sums, share) in sums.iter_mut().zip(shares(i)) {
                 if share > 0.0 {
-                    let normal = [strips[i].cos * gap.rail_slopes[i], strips[i].cos];
-                    sums.add(share * load_n, normal, wheel_y, &size);
+                    sums.add(share * load_n, &place, &size);
                 }
             }
         }
         sums.map(|sums| sums.patch(pair))
     }
 
-    /// Position on the wheel of the patch around the strip with number `entry` in `overlap`, m.
-    fn position(&self, strips: &[Strip], overlap: &Connection<'_>, entry: usize) -> f64 {
-        let (mut total, mut sum) = (0.0, 0.0);
+    /// Position and normal of the patch around the strip with number `entry` in `overlap`.
+    fn place(&self, strips: &[Strip], overlap: &Connection<'_>, entry: usize) -> Place {
+        let mut total = 0.0;
+        let mut sum = Place::default();
         overlap.each(entry, |other, degree| {
             let strip = &strips[overlap.strips[other]];
             let depth = overlap.heights[other].max(0.0);
             // The overlap of a strip is a parabola in the rolling direction: its square is `depth^2.5` over the length.
             let weight = degree * depth * depth * depth.sqrt() * strip.width_m;
             total += weight;
-            sum += weight * strip.wheel_y_m;
+            sum.wheel_y += weight * strip.wheel_y_m;
+            sum.normal[0] += weight * strip.cos * strip.slope;
+            sum.normal[1] += weight * strip.cos;
         });
-        sum / total
+        Place {
+            wheel_y: sum.wheel_y / total,
+            normal: sum.normal.map(|component| component / total),
+        }
     }
 
     /// Size and load of the patch around the strip with number `entry` in `load`.
@@ -141,6 +146,14 @@ impl NormalContact {
     }
 }
 
+/// Position and normal of a whole patch.
+#[derive(Debug, Clone, Copy, Default)]
+struct Place {
+    wheel_y: f64,
+    /// Components of the normal: across, and down.
+    normal: [f64; 2],
+}
+
 /// Size and load of a whole patch.
 #[derive(Debug, Clone, Copy, Default)]
 struct Size {
@@ -153,21 +166,20 @@ struct Size {
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     load: f64,
-    /// Across, and down.
-    force: [f64; 2],
     wheel_y: f64,
+    normal: [f64; 2],
     semi_axes: [f64; 2],
     whole_load: f64,
     peak_pressure: f64,
 }
 
 impl Sums {
-    fn add(&mut self, load: f64, normal: [f64; 2], wheel_y: f64, size: &Size) {
+    fn add(&mut self, load: f64, place: &Place, size: &Size) {
         self.load += load;
-        for (sum, component) in self.force.iter_mut().zip(normal) {
+        self.wheel_y += load * place.wheel_y;
+        for (sum, component) in self.normal.iter_mut().zip(place.normal) {
             *sum += load * component;
         }
-        self.wheel_y += load * wheel_y;
         for (sum, semi_axis) in self.semi_axes.iter_mut().zip(size.semi_axes) {
             *sum += load * semi_axis;
         }
@@ -180,16 +192,14 @@ impl Sums {
             return ElasticPatch::default();
         }
         let mean = 1.0 / self.load;
-        let load_n = self.force[0].hypot(self.force[1]);
         let wheel_y_m = self.wheel_y * mean;
         ElasticPatch {
-            load_n,
-            slope: self.force[0] / self.force[1],
+            load_n: self.load,
+            slope: self.normal[0] / self.normal[1],
             wheel_y_m,
             wheel_z_m: pair.wheel().at(wheel_y_m).z_m,
             semi_axes_m: self.semi_axes.map(|sum| sum * mean),
-            // The strips of the whole patch press in different directions, as those of this part do.
-            whole_load_n: self.whole_load * mean * load_n * mean,
+            whole_load_n: self.whole_load * mean,
             peak_pressure_pa: self.peak_pressure * mean,
         }
     }

@@ -30,7 +30,8 @@ pub(super) struct Strip {
     /// Lateral position and depth relative to the tread datum in track axes, m.
     pub y_m: f64,
     pub z_m: f64,
-    /// Cosine of the contact angle.
+    pub slope: f64,
+    /// Cosine of the angle whose tangent is the slope.
     pub cos: f64,
     /// Radius of curvature in the rolling direction, m.
     pub radius_m: f64,
@@ -73,6 +74,7 @@ impl<'a> TurnedStrips<'a> {
                 wheel_y_m: point.y_m,
                 y_m: turned.y,
                 z_m: turned.z,
+                slope: turned.slope,
                 cos: turned.cos,
                 radius_m: (pair.installation().wheel_radius_m + point.z_m) / rolling,
             });
@@ -96,6 +98,7 @@ impl Strip {
             wheel_y_m: arc_m,
             y_m: arc_m,
             z_m: 0.0,
+            slope: 0.0,
             cos: 1.0,
             radius_m,
         }

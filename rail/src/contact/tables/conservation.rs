@@ -1,10 +1,10 @@
-//! Makes the normal forces of a row of nodes conserve energy.
+//! Makes the normal forces on the flange conserve energy.
 //!
-//! The elastic contact on strips gives the vertical force `V` well, and the lateral force nearly as the gradient of the
-//! stored energy. Where the flange carries, a small difference pumps energy into the wheelset, which then bounces. So
-//! the lateral force at a node is the gradient itself. Along the shift `y`, let `z` be the depth under a constant load
-//! and `E = integral of V dz` the energy stored at this depth. Then the gradient at constant depth is
-//! `F = V dz/dy - dE/dy`.
+//! The elastic contact on strips gives the vertical force `V` well. Its lateral force follows from one normal for each
+//! patch, as in the theory of half-spaces, and is not quite the gradient of the stored energy. On the flange the
+//! difference pumps energy into the wheelset, which then bounces. So the lateral force of steep patches becomes the
+//! gradient itself. Along the shift `y`, let `z` be the depth under a constant load and `E = integral of V dz` the
+//! energy stored at this depth. Then the gradient at constant depth is `F = V dz/dy - dE/dy`.
 
 use super::{LEVELS, ROOTS};
 use crate::contact::elastic::ElasticPatch;
@@ -13,8 +13,8 @@ use crate::contact::zones::ZONES;
 /// Minimum distance of the nodes between which depth and energy are differentiated, m. It exceeds the noise of the
 /// depths, some tenths of a micrometre, by far.
 const MIN_DISTANCE_M: f64 = 0.05e-3;
-/// Squared slope below which patches turn less than steeper ones.
-const FLAT: f64 = 0.05;
+/// Slope at which a patch makes half of the turn.
+const HALF_TURN_SLOPE: f64 = 0.4;
 /// Maximum turn of a normal, rad.
 const MAX_TURN_RAD: f64 = 0.2;
 
@@ -61,7 +61,7 @@ impl Solved {
 
 impl Solved {
     /// Changes each level by a few percent, as Hertz's contact would change with its load, so that the loads of the
-    /// patches add up to the load of the level. Until now the loads of the strips did, whose directions differ.
+    /// patches add up to the load of the level. Turning the normals changed the loads.
     fn scale_to_loads(&mut self) {
         for (level, (depth_m, patches)) in self.levels.iter_mut().enumerate() {
             let sum_n: f64 = patches.iter().map(|patch| patch.load_n).sum();
@@ -135,28 +135,22 @@ fn corrected(row: &[Option<Solved>], energies: &[[f64; LEVELS]], at: usize) -> O
     Some(turned)
 }
 
-/// Turns the normals so that the lateral force is `lateral_n`, at the same vertical force of each patch. All steep
-/// patches turn by the same angle, flat ones by less, because their normals are exact.
+/// Turns the normals by one angle so that the lateral force becomes `lateral_n`, at the same vertical force of each
+/// patch. Flat patches, for which half-spaces are a good theory, turn by less.
 fn turn(patches: &mut [ElasticPatch; ZONES], lateral_n: f64) {
-    let weight = |patch: &ElasticPatch| {
-        let square = patch.slope * patch.slope;
-        (1.0 + square) * square.max(1e-9) / (square + FLAT)
-    };
-    let (mut missing, mut weights) = (lateral_n, 0.0);
-    for patch in patches.iter().filter(|patch| patch.load_n > 0.0) {
+    let (mut missing, mut by_angle) = (lateral_n, 0.0);
+    for patch in patches.iter() {
         let vertical = patch.load_n / patch.slope.hypot(1.0);
         missing -= vertical * patch.slope;
-        weights += vertical * weight(patch);
+        by_angle += vertical * (1.0 + patch.slope * patch.slope);
     }
-    if weights <= 0.0 {
+    if by_angle <= 0.0 {
         return;
     }
-    for patch in patches.iter_mut().filter(|patch| patch.load_n > 0.0) {
-        let angle = patch.slope.atan();
-        let wanted = (patch.slope + missing / weights * weight(patch)).atan();
-        let slope = wanted
-            .clamp(angle - MAX_TURN_RAD, angle + MAX_TURN_RAD)
-            .tan();
+    let angle = (missing / by_angle).clamp(-MAX_TURN_RAD, MAX_TURN_RAD);
+    for patch in patches.iter_mut() {
+        let steepness = (patch.slope / HALF_TURN_SLOPE).powi(4);
+        let slope = (patch.slope.atan() + angle * steepness / (1.0 + steepness)).tan();
         let factor = slope.hypot(1.0) / patch.slope.hypot(1.0);
         patch.load_n *= factor;
         patch.whole_load_n *= factor;
