@@ -59,6 +59,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             let (pose, depth_m) = (moving.pose(), moving.depth.value());
             let reader = dispatch!(self.level, simd => source.locate(simd, &pose, depth_m));
             let mut zones = LoadedZones::new(reader.loaded_zones(), wheel);
+            let growth = Tangent::constant(reader.growth_per_m());
             let (mut penetration_m, mut wheel_y_m) = (0.0_f64, f64::MAX);
             let mut wrench = Wrench::splat(Tangent::constant(0.0));
             while zones.are_left() {
@@ -66,7 +67,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
                 let [lateral, roll, yaw] = moving.pose;
                 let coordinates = [lateral, roll, yaw, moving.depth];
                 let (approach, numbers) = reader.differentiated(zone, coordinates);
-                let patch = moving.patch(&self.surface, approach, numbers, [true; 4]);
+                let patch = moving.patch(&self.surface, [approach, growth], numbers, [true; 4]);
                 wrench.accumulate(&patch.wrench, |sum, term| sum + term);
                 let mut output = patch.output.values();
                 output.position[1] *= sign;

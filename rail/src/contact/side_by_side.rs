@@ -53,6 +53,7 @@ struct TransposedOutput<S: Simd> {
     fours: [[f64x4<S>; 4]; 4],
     dissipation: f64x4<S>,
     peak_pressure: f64x4<S>,
+    stiffness: f64x4<S>,
 }
 
 impl<S: Simd> TransposedOutput<S> {
@@ -70,6 +71,7 @@ impl<S: Simd> TransposedOutput<S> {
             creep: [longitudinal, lateral, moment],
             dissipation,
             peak_pressure,
+            stiffness,
         } = output;
         let y = y * load(y.simd, &SIDES);
         Self {
@@ -81,6 +83,7 @@ impl<S: Simd> TransposedOutput<S> {
             ],
             dissipation,
             peak_pressure,
+            stiffness,
         }
     }
 
@@ -103,6 +106,7 @@ impl<S: Simd> TransposedOutput<S> {
             creep: [longitudinal, lateral, moment],
             dissipation: self.dissipation[lane],
             peak_pressure: self.peak_pressure[lane],
+            stiffness: self.stiffness[lane],
         });
     }
 }
@@ -167,6 +171,8 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
         let loaded = [left_reader.loaded_zones(), right_reader.loaded_zones()];
         let [p, q] = [left_reader.approach_m(), right_reader.approach_m()];
         let approach = load(simd, &[p, q, p, q]).not_negative();
+        let [p, q] = [left_reader.growth_per_m(), right_reader.growth_per_m()];
+        let growth = load(simd, &[p, q, p, q]);
         let mut left_zones = LoadedZones::new(loaded[0], left);
         let mut right_zones = LoadedZones::new(loaded[1], right);
         // One lane for each wheel.
@@ -184,7 +190,7 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
             let mut numbers =
                 P::Reader::numbers_in_lanes(simd, [left_reader, right_reader], [a, b, c, d]);
             numbers.load *= load(simd, &ones(used));
-            let patch = moving.patch(&self.surface, approach, numbers, used);
+            let patch = moving.patch(&self.surface, [approach, growth], numbers, used);
             wrench.accumulate(&patch.wrench, |sum, term| {
                 let (first, second) = simd.split_f64x4(term);
                 sum + (first + second)

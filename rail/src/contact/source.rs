@@ -46,6 +46,9 @@ pub trait PatchReader {
     /// Depth below the first touch, m.
     fn approach_m(&self) -> f64;
 
+    /// Derivative of the load with respect to the depth, divided by the load, 1/m; zero without load.
+    fn growth_per_m(&self) -> f64;
+
     /// The numbers of the patch of one zone.
     fn numbers(&self, zone: usize) -> PatchNumbers<f64>;
 
@@ -156,6 +159,15 @@ impl PatchReader for ComputedContact<'_> {
 
     fn approach_m(&self) -> f64 {
         self.solution.approach_m
+    }
+
+    /// As in Hertz's contact.
+    fn growth_per_m(&self) -> f64 {
+        if self.solution.approach_m > 0.0 {
+            1.5 / self.solution.approach_m
+        } else {
+            0.0
+        }
     }
 
     fn numbers(&self, zone: usize) -> PatchNumbers<f64> {

@@ -136,6 +136,7 @@ pub(super) struct PatchOutput<T> {
     pub creep: [T; 3],
     pub dissipation: T,
     pub peak_pressure: T,
+    pub stiffness: T,
 }
 
 impl PatchOutput<Tangent> {
@@ -154,6 +155,7 @@ impl PatchOutput<Tangent> {
             creep: three(self.creep),
             dissipation: self.dissipation.value(),
             peak_pressure: self.peak_pressure.value(),
+            stiffness: self.stiffness.value(),
         }
     }
 }
@@ -199,13 +201,13 @@ impl<T: CreepNumber> MovingWheel<T> {
         }
     }
 
-    /// Evaluates the patch of `numbers` on a wheel that is `approach` below its first touch, m, in the lanes that are
-    /// `used`.
+    /// Evaluates the patch of `numbers` in the lanes that are `used`, on a wheel that is `approach` below its first touch,
+    /// m, and whose load grows with the depth by `growth` times itself, 1/m.
     #[inline(always)]
     pub fn patch<L: CreepLaw>(
         &self,
         surface: &Surface<L>,
-        approach: T,
+        [approach, growth]: [T; 2],
         numbers: PatchNumbers<T>,
         used: [bool; 4],
     ) -> Patch<T> {
@@ -283,6 +285,7 @@ impl<T: CreepNumber> MovingWheel<T> {
                 creep,
                 dissipation,
                 peak_pressure,
+                stiffness: elastic_load * growth / rail_cos,
             },
         }
     }

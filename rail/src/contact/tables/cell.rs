@@ -48,6 +48,8 @@ struct Load<T> {
     root: T,
     /// Load, N.
     load: T,
+    /// Derivative of the squared root with respect to the depth, divided by the squared root, 1/m.
+    growth: T,
     /// Weight of the records at the greater one of the two loads that enclose the load.
     above: T,
 }
@@ -86,6 +88,7 @@ impl Load<f64> {
     const NONE: Self = Self {
         root: 0.0,
         load: 0.0,
+        growth: 0.0,
         above: 0.0,
     };
 }
@@ -97,7 +100,8 @@ impl<T: Number> Load<T> {
     /// Below the lowest load, the patches are those at the lowest load; above the highest, those at the highest.
     #[inline(always)]
     fn new(passed: usize, depth: T, [low, high]: [T; 2]) -> Self {
-        let part = (depth - low) / (high - low);
+        let per_depth = (high - low).reciprocal();
+        let part = (depth - low) * per_depth;
         let (from, to) = (SQUARES[passed - 1], SQUARES[passed]);
         let square = part * (to - from) + from;
         let root = square.sqrt();
@@ -105,6 +109,7 @@ impl<T: Number> Load<T> {
         Self {
             root,
             load: square * root,
+            growth: per_depth * (to - from) / (square + TINY),
             above: -((-above + 1.0).not_negative()) + 1.0,
         }
     }
@@ -297,6 +302,11 @@ impl PatchReader for Cell<'_> {
     #[inline(always)]
     fn approach_m(&self) -> f64 {
         self.depth_m - self.depths_m[0]
+    }
+
+    #[inline(always)]
+    fn growth_per_m(&self) -> f64 {
+        1.5 * self.load.growth
     }
 
     fn numbers(&self, zone: usize) -> PatchNumbers<f64> {
