@@ -124,8 +124,8 @@ fn wheelset<L: CreepLaw>(law: L, loaded: Loaded) -> Wheelset<L> {
             3
         }
         Loaded::Four => {
-            motion.vertical_m = -0.75e-3;
-            [rails[0].lateral_m, rails[1].lateral_m] = [6.68e-3, -6.68e-3];
+            motion.vertical_m = -0.7e-3;
+            [rails[0].lateral_m, rails[1].lateral_m] = [6.55e-3, -6.55e-3];
             4
         }
     };

@@ -112,8 +112,8 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
         .collect();
     let periods = (crossings.len() - 1) as f64 / 2.0;
     let found = periods / (step_s * (crossings.last().unwrap() - crossings[0]) as f64);
-    // The wheelset stands on the contacts. The contacts stand on the masses of the rails, and these on their springs. The
-    // primary springs above have 2.15 MN/m per side.
+    // The wheelset stands on the contacts. The contacts stand on the masses of the rails, and these on their springs.
+    // The primary springs above have 2.15 MN/m per side.
     let patches = || {
         state.contacts()[3]
             .wheels

@@ -201,8 +201,8 @@ impl<T: CreepNumber> MovingWheel<T> {
         }
     }
 
-    /// Evaluates the patch of `numbers` in the lanes that are `used`, on a wheel that is `approach` below its first touch,
-    /// m, and whose load grows with the depth by `growth` times itself, 1/m.
+    /// Evaluates the patch of `numbers` in the lanes that are `used`, on a wheel that is `approach` below its first
+    /// touch, m, and whose load grows with the depth by `growth` times itself, 1/m.
     #[inline(always)]
     pub fn patch<L: CreepLaw>(
         &self,

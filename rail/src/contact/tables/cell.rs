@@ -1,8 +1,8 @@
 //! One cell of the tables: interpolation between four of its nodes and the two loads that enclose the load.
 //!
-//! A cell is divided into six tetrahedra, each for one order of the positions along shift, roll and yaw. Its corners are
-//! reached from the first node of the cell by steps along the axes, the axis of the greatest position first
-//! (Kuhn's triangulation). Four nodes cost half as much as eight, and derivatives are differences of neighbours.
+//! A cell is divided into six tetrahedra, each for one order of the positions along shift, roll and yaw. Its corners
+//! are reached from the first node of the cell by steps along the axes, the axis of the greatest position first (Kuhn's
+//! triangulation). Four nodes cost half as much as eight, and derivatives are differences of neighbours.
 
 use std::array::from_fn;
 
