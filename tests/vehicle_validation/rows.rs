@@ -64,7 +64,11 @@ impl Kept {
     }
 
     pub fn mean(&self, sweep: &Sweep, point: u64, index: &str) -> Estimate {
-        let values: Vec<f64> = self.values(sweep, point, index).into_iter().flatten().collect();
+        let values: Vec<f64> = self
+            .values(sweep, point, index)
+            .into_iter()
+            .flatten()
+            .collect();
         Estimate::of(&values).expect("seeds")
     }
 

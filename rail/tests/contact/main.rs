@@ -3,6 +3,7 @@
 mod book;
 mod cache;
 mod common;
+mod conservation;
 mod creep;
 mod derivatives;
 mod elastic;
