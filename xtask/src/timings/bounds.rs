@@ -12,8 +12,8 @@ const MAX_PACKAGES: [(&str, usize); 2] = [
     ("dashpot-vehicle-model", 80),
 ];
 
-/// Maximum processor time of `cargo run --release` from scratch, in seconds of the reference processor: two of its cores
-/// provide this in two minutes.
+/// Maximum processor time of `cargo run --release` from scratch, in seconds of the reference processor: two of its
+/// cores provide this in two minutes.
 const MAX_PROCESSOR_S: f64 = 240.0;
 
 /// Allowance for the error of the estimated slowness.

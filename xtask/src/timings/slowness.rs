@@ -6,8 +6,8 @@
 use super::unit::Unit;
 use crate::run::Outcome;
 
-/// Packages, with the seconds of processor time that each takes on the reference processor, on which the whole build took
-/// 222 s and two idle cores finished it in 115 s.
+/// Packages, with the seconds of processor time that each takes on the reference processor, on which the whole build
+/// took 222 s and two idle cores finished it in 115 s.
 const REFERENCE_S: [(&str, f64); 17] = [
     ("parquet", 17.3),
     ("falcon_mdf", 12.2),
