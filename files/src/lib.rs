@@ -3,7 +3,6 @@
 #![warn(missing_docs)]
 
 pub mod case;
-pub mod contact;
 pub mod damper;
 mod error;
 pub mod harmonic;

@@ -5,7 +5,8 @@
 use std::sync::Arc;
 
 use dashpot_rail::contact::{
-    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
+    WheelsetContact,
 };
 use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, Polach, ShenHedrickElkins};
 
@@ -53,8 +54,8 @@ fn print(
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = Pair::standard(Installation::default())?;
-    let geometry = ContactGeometry::new(pair, Steel::default())?;
-    let tables = Arc::new(Tables::new(geometry));
+    let geometry = ContactGeometry::new(pair, Steel::default(), 0.5 * LOAD_N)?;
+    let tables = Arc::new(Tables::new(geometry, Grid::default())?);
     print("Kalker's book of tables", &tables, KalkerBook::new())?;
     print("Polach", &tables, Polach)?;
     print("Shen, Hedrick and Elkins", &tables, ShenHedrickElkins)

@@ -1,6 +1,6 @@
 //! Errors from building or stepping a run.
 
-use dashpot_rail::contact::{GeometryError, NotTheseTables, PairError, SurfaceError};
+use dashpot_rail::contact::{CacheError, GeometryError, PairError, SurfaceError};
 use dashpot_rail::vehicle::VehicleError;
 
 use super::OutsideError;
@@ -19,25 +19,15 @@ pub enum VehicleRunError {
     /// The wheel profiles do not fit the rail profiles.
     #[error(transparent)]
     Pair(#[from] PairError),
-    /// The steel is out of bounds.
+    /// No contact geometry exists for this wheel load.
     #[error("wheel-rail contact: {0}")]
     Geometry(#[from] GeometryError),
     /// Invalid friction coefficient or normal damping.
     #[error("wheel-rail contact: {0}")]
     Surface(#[from] SurfaceError),
-    /// The bytes are not the contact tables of this vehicle.
+    /// The contact tables cannot be computed or cached.
     #[error("contact tables: {0}")]
-    Tables(#[from] NotTheseTables),
-    /// The number of tables or geometries is not that of the distinct pairs of wheel and rail.
-    #[error(
-        "contact tables: {sources}, allowed: {pairs}, one for each distinct pair of wheel and rail"
-    )]
-    Sources {
-        /// Number of tables or geometries.
-        sources: usize,
-        /// Number of pairs.
-        pairs: usize,
-    },
+    Tables(#[from] CacheError),
     /// A damper cannot be external.
     #[error("external damper `{name}`: {source}")]
     Outside {

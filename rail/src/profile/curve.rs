@@ -54,7 +54,6 @@ pub enum CurveError {
 
 /// One sample of a profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ProfilePoint {
     /// Lateral position, positive to the field side, m.
@@ -68,8 +67,7 @@ pub struct ProfilePoint {
 }
 
 /// A named profile: samples [`SAMPLE_SPACING_M`] apart along the arc length, with rising `y`.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Debug, Clone)]
 pub struct Profile {
     name: String,
     points: Vec<ProfilePoint>,

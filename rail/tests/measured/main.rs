@@ -3,6 +3,5 @@
 mod common;
 mod damaged;
 mod formats;
-mod mistakes;
 mod overhang;
 mod smoothing;

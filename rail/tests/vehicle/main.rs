@@ -2,7 +2,6 @@
 
 mod between_bodies;
 mod closed_forms;
-mod contacts;
 mod curves;
 mod errors;
 mod flange;

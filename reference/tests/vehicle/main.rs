@@ -8,4 +8,3 @@ mod common;
 mod damper_parameters;
 mod dampers;
 mod running;
-mod unequal;

@@ -11,7 +11,7 @@ pub use body::{BodyIndices, UnbalancedIndices};
 use body::{BodySums, unbalanced};
 use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::Standstill;
-pub use nadal::{Nadal, NadalWheel};
+pub use nadal::Nadal;
 use ride::Ride;
 pub use ride::{RideError, RideIndices, check_ride};
 use serde::Serialize;
@@ -39,10 +39,8 @@ pub struct Indices {
     pub ride: Vec<RideIndices>,
     /// Distance over which wheel and wheelset forces are averaged, m.
     pub window_m: f64,
-    /// Nadal's limit of `Y/Q`; the lowest if wheels have different limits.
+    /// Nadal's limit of `Y/Q`.
     pub nadal: Nadal,
-    /// Nadal's limits of all wheels: one for each distinct wheel profile and friction.
-    pub nadal_limits: Vec<Nadal>,
     /// Forces of each wheelset.
     pub wheelsets: Vec<WheelsetIndices>,
     /// Maximum magnitude of each damper's force, N.
@@ -55,7 +53,7 @@ pub struct Indexer {
     ticks: u64,
     step_s: f64,
     tick_m: f64,
-    nadal: Vec<Nadal>,
+    nadal: Nadal,
     bodies: Vec<BodySums>,
     unbalanced: Statistics,
     /// `None` if the ride indices are not defined for this step size.
@@ -90,7 +88,7 @@ impl Indexer {
         } = case;
         let tick_m = speed_m_per_s * step_s;
         let window = ((WINDOW_M / tick_m).round() as usize).max(1);
-        let (nadal, nadal_of) = Nadal::of_case(case);
+        let nadal = Nadal::new(case.friction);
         // Every vehicle that can run has an equilibrium at standstill; without one, loads are not compared with it.
         let standstill = Standstill::new(vehicle).ok();
         let axle_load_n = |index: usize| {
@@ -103,16 +101,15 @@ impl Indexer {
             ticks: 0,
             step_s: *step_s,
             tick_m,
+            nadal,
             bodies: bodies.map(|body| BodySums::new(&body.name)).collect(),
             unbalanced: Statistics::default(),
             ride: Ride::new(vehicle, *step_s).ok(),
             wheelsets: wheelsets
                 .map(|(index, wheelset)| {
-                    let limits = nadal_of[index].map(|of_wheel| nadal[of_wheel].limit);
-                    WheelsetSums::new(&wheelset.name, axle_load_n(index), window, limits)
+                    WheelsetSums::new(&wheelset.name, axle_load_n(index), window, nadal.limit)
                 })
                 .collect(),
-            nadal,
             dampers: vec![0.0; vehicle.dampers().count()],
         }
     }
@@ -146,13 +143,11 @@ impl Indexer {
         }
     }
 
-    /// Returns the indices of all ticks so far; `None` before the first tick, or if the vehicle has no wheelsets.
+    /// Returns the indices of all ticks so far; `None` before the first tick.
     pub fn indices(&self) -> Option<Indices> {
         if self.ticks == 0 {
             return None;
         }
-        let lowest = self.nadal.iter();
-        let lowest = lowest.min_by(|a, b| a.limit.total_cmp(&b.limit))?;
         let ride = self.ride.as_ref();
         let wheelsets = self.wheelsets.iter();
         Some(Indices {
@@ -161,8 +156,7 @@ impl Indexer {
             unbalanced: unbalanced(&self.unbalanced),
             ride: ride.map(Ride::indices).unwrap_or_default(),
             window_m: WINDOW_M,
-            nadal: lowest.clone(),
-            nadal_limits: self.nadal.clone(),
+            nadal: self.nadal,
             wheelsets: wheelsets
                 .map(|wheelset| wheelset.indices(self.tick_m))
                 .collect(),

@@ -42,14 +42,15 @@ pub(super) struct WheelsetSums {
 }
 
 impl WheelsetSums {
-    /// Starts with windows of `window` ticks and Nadal's limits of the left and the right wheel.
-    pub fn new(name: &str, axle_load_n: Option<f64>, window: usize, nadal: [f64; 2]) -> Self {
+    /// Starts with windows of `window` ticks and Nadal's limit `nadal`.
+    pub fn new(name: &str, axle_load_n: Option<f64>, window: usize, nadal: f64) -> Self {
+        let wheel = WheelSums::new(window, nadal);
         Self {
             name: name.to_owned(),
             axle_load_n,
             lateral: Windowed::new(window),
             wear: Statistics::default(),
-            wheels: nadal.map(|limit| WheelSums::new(window, limit)),
+            wheels: [wheel.clone(), wheel],
         }
     }
 

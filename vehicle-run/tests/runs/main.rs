@@ -1,6 +1,4 @@
 //! Runs of vehicles: coupling with external dampers, and indices.
 
-mod contacts;
 mod coupled;
 mod vehicle_indices;
-mod wear;
