@@ -12,8 +12,8 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::step_bank;
 use dashpot_files::case::{Case, CaseOptions};
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact, WheelsetForces,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    WheelsetForces,
 };
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};
@@ -127,8 +127,8 @@ fn vehicle(criterion: &mut Criterion) {
     let installation = Installation::default().with_wheel_radius_m(0.625);
     let pair = Pair::standard(installation).expect("the standard pair is valid");
     let geometry =
-        ContactGeometry::new(pair, Steel::default(), 101e3).expect("the default steel is valid");
-    let tables = Tables::new(geometry, Grid::default()).expect("the default grid is valid");
+        ContactGeometry::new(pair, Steel::default()).expect("the default steel is valid");
+    let tables = Tables::new(geometry);
     let tables = Arc::new(tables);
     let ideal = CaseOptions::new("locomotive", "ideal", 180.0).case();
     let ideal = ideal.expect("vehicle and track ship");

@@ -10,9 +10,7 @@ use dashpot::damper;
 use dashpot_core::telemetry::{Sample, Telemetry};
 use dashpot_core::{Damper, step_bank};
 use dashpot_files::case::Case;
-use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::Vehicle;
 
@@ -102,11 +100,8 @@ fn a_vehicle_steps_and_restores_without_allocation() {
     let case = Case::load("straight-180").unwrap();
     let installation = Installation::default().with_wheel_radius_m(0.625);
     let pair = Pair::standard(installation).unwrap();
-    let geometry = ContactGeometry::new(pair, Steel::default(), 101e3).unwrap();
-    let mut grid = Grid::default();
-    grid.roll_rad.cells = [1, 2, 1];
-    grid.yaw_squared_rad2.cells = [0, 2, 1];
-    let tables = Arc::new(Tables::new(geometry, grid).unwrap());
+    let geometry = ContactGeometry::new(pair, Steel::default()).unwrap();
+    let tables = Arc::new(Tables::new(geometry));
     let contact = WheelsetContact::new(tables, KalkerBook::new(), Friction::default()).unwrap();
     let vehicle = Vehicle::new(&case.vehicle, Arc::new(contact), 1e-3).unwrap();
     let track = case.track.build().unwrap();

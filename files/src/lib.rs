@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 
 pub mod case;
+pub mod contact;
 pub mod damper;
 mod error;
 pub mod harmonic;

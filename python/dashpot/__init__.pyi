@@ -175,6 +175,7 @@ def vehicle(
     normal_damping_s_per_m: float | None = None,
     step_us: float | None = None,
     push_m: float | None = None,
+    contact: dict[str, Any] | None = None,
     dampers: dict[str, _Path | Damper] | dict[str, _Path] | dict[str, Damper] | None = None,
     overrides: _Overrides | None = None,
     signals: Sequence[str] | None = None,
@@ -235,7 +236,11 @@ class Contact:
     @property
     def shifts(self) -> dict[str, NDArray[np.float64]]: ...
     @property
-    def force_jump(self) -> dict[str, float] | None: ...
+    def elastic_conicity(self) -> dict[str, NDArray[np.float64]] | None: ...
+    @property
+    def wheels(self) -> dict[str, NDArray[np.float64]] | None: ...
+    @property
+    def patches(self) -> dict[str, NDArray[np.float64]] | None: ...
 
 def contact(
     wheel: _Path | None = None,
@@ -252,6 +257,17 @@ def contact(
     rail_format: str | None = None,
     wheel_mirror: str | None = None,
     rail_mirror: str | None = None,
+    left_wheel: _Path | None = None,
+    left_rail: _Path | None = None,
+    left_wheel_format: str | None = None,
+    left_rail_format: str | None = None,
+    left_wheel_mirror: str | None = None,
+    left_rail_mirror: str | None = None,
+    load_n: float | None = None,
+    lateral_m: Sequence[float] | None = None,
+    yaw_rad: float | None = None,
+    speed_m_per_s: float | None = None,
+    friction: float | None = None,
 ) -> Contact: ...
 def creep_forces(
     creepages: NDArray[np.float64],

@@ -1,27 +1,30 @@
-//! Wheel-rail contact: the geometry of a pair of profiles, and creep forces.
+//! Wheel-rail contact: the geometry of a wheelset on its track, and its contact under load.
+
+use std::sync::Arc;
 
 use dashpot_files::profile;
-use dashpot_rail::contact::{Installation, Pair, Steel};
-use dashpot_rail::creep::{CreepLaw, Creepage, KalkerBook, KalkerTable, LoadedContact};
-use dashpot_rail::profile::Body;
-use dashpot_rail::profile::measured::{DEFAULT_SMOOTHING_M, Options};
-use dashpot_study::wheelset_geometry::{ForceJump, Shift, WheelsetGeometry};
-use numpy::{Ix2, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel};
+use dashpot_rail::indices::RollingRadiusDifference;
+use dashpot_rail::profile::measured::{DEFAULT_SMOOTHING_M, Options, Reading};
+use dashpot_rail::profile::{Body, Profile};
+use dashpot_study::loaded_wheelset::{
+    LoadedPatch, LoadedShift, LoadedWheel, LoadedWheelset, Running,
+};
+use dashpot_study::profile_ends::end_contacts;
+use dashpot_study::wheelset_geometry::{Conicity, Shift, WheelsetGeometry};
+use numpy::PyArray1;
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays;
+use crate::contact_warnings;
 use crate::error::{Outcome, Refusal, refuse};
-use crate::interruption::run_cancellable;
 use crate::overrides::path;
 
-/// Rows between two checks for an interruption.
-const ROWS_A_LOOK: usize = 1 << 12;
+/// Named column of rows.
+type Column<Row> = (&'static str, fn(&Row) -> f64);
 
-/// Extracts one value from a row.
-type Column = fn(&Shift) -> f64;
-
-/// Geometry of a wheelset on a track. `dashpot.contact` returns it.
+/// Contact of a wheelset on a track. `dashpot.contact` returns it.
 ///
 /// >>> import dashpot
 /// >>> dashpot.contact().shifts["lateral_shift_m"].shape
@@ -30,7 +33,14 @@ type Column = fn(&Shift) -> f64;
 pub struct Contact {
     conicity: Py<PyDict>,
     shifts: Py<PyDict>,
-    force_jump: Option<ForceJump>,
+    under_load: Option<UnderLoad>,
+}
+
+/// Results under load.
+struct UnderLoad {
+    conicity: Py<PyDict>,
+    wheels: Py<PyDict>,
+    patches: Py<PyDict>,
 }
 
 #[pymethods]
@@ -42,33 +52,6 @@ impl Contact {
         self.conicity.clone_ref(py)
     }
 
-    /// The force jump that makes contact tables of this pair impossible; `None` without such a jump.
-    ///
-    /// It is a dictionary with the position (`lateral_m`, `roll_rad`, `yaw_rad`), the load `load_n`, the jump `jump_n`,
-    /// and `allowed_n`, the jump that the stiffness of the contact allows.
-    ///
-    /// >>> import dashpot
-    /// >>> dashpot.contact().force_jump is None
-    /// True
-    #[getter]
-    fn force_jump<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(jump) = &self.force_jump else {
-            return Ok(None);
-        };
-        let numbers = PyDict::new(py);
-        for (name, number) in [
-            ("lateral_m", jump.lateral_m),
-            ("roll_rad", jump.roll_rad),
-            ("yaw_rad", jump.yaw_rad),
-            ("load_n", jump.load_n),
-            ("jump_n", jump.jump_n),
-            ("allowed_n", jump.allowed_n),
-        ] {
-            numbers.set_item(name, number)?;
-        }
-        Ok(Some(numbers))
-    }
-
     /// Geometry of the rigid wheelset at lateral shifts (m), positive to the right, in steps of 25 um: arrays of
     /// rolling radius difference, roll, contact angles and contact positions on the wheels, named as in the output of
     /// `dashpot contact --format json`.
@@ -76,22 +59,56 @@ impl Contact {
     fn shifts(&self, py: Python<'_>) -> Py<PyDict> {
         self.shifts.clone_ref(py)
     }
+
+    /// Equivalent conicity on elastic patches, as `conicity`; None without a load.
+    #[getter]
+    fn elastic_conicity(&self, py: Python<'_>) -> Option<Py<PyDict>> {
+        let under_load = self.under_load.as_ref()?;
+        Some(under_load.conicity.clone_ref(py))
+    }
+
+    /// Wheels under load, an array per quantity and a row per wheel; `side` is -1 for the left and 1 for the right
+    /// wheel. The names are those of `dashpot contact --format json`. A shift without equilibrium has no rows. None
+    /// without a load.
+    #[getter]
+    fn wheels(&self, py: Python<'_>) -> Option<Py<PyDict>> {
+        let under_load = self.under_load.as_ref()?;
+        Some(under_load.wheels.clone_ref(py))
+    }
+
+    /// Contact patches under load, as `wheels` with a row per patch. Lateral quantities are positive to the field side;
+    /// forces and moments act on the wheel. None without a load.
+    #[getter]
+    fn patches(&self, py: Python<'_>) -> Option<Py<PyDict>> {
+        let under_load = self.under_load.as_ref()?;
+        Some(under_load.patches.clone_ref(py))
+    }
 }
 
-/// Computes the geometry of a wheel on a rail. Each profile is built in (`s1002`, `uic60`) or a file in the format of
-/// MiniProf, SIMPACK or GENSYS, or with two columns.
+/// Computes the contact of a wheelset. Each profile is built in (`s1002`, `uic60`) or a file in the format of MiniProf,
+/// SIMPACK or GENSYS, or with two columns; `left_wheel` and `left_rail` are given if the left side differs.
 ///
 /// The formats and mirrors are those of the command `dashpot contact`; give them if the file does not state them.
+///
+/// With `load_n`, the vertical load of each wheel, the result has the elastic patches, forces and conicity, at the
+/// shifts `lateral_m` (default: every millimetre up to 8 mm), for the yaw, speed and friction given. A `UserWarning`
+/// reports a rail file that contains its inclination, or a contact at the end of a profile.
 ///
 /// >>> import dashpot
 /// >>> conicity = dashpot.contact(gauge_m=1.435).conicity
 /// >>> round(float(conicity["equivalent_conicity"][5]), 2)  # at 3 mm
 /// 0.18
+/// >>> loaded = dashpot.contact(load_n=100e3, lateral_m=[3e-3])
+/// >>> [round(float(load_n), -4) for load_n in loaded.patches["load_n"]]
+/// [100000.0, 100000.0]
 #[pyfunction]
 #[pyo3(signature = (
     wheel=None, rail=None, *, gauge_m=None, gauge_depth_m=None, back_to_back_m=None, back_to_datum_m=None,
     wheel_radius_m=None, inclination=None, smoothing_m=None,
-    wheel_format=None, rail_format=None, wheel_mirror=None, rail_mirror=None
+    wheel_format=None, rail_format=None, wheel_mirror=None, rail_mirror=None,
+    left_wheel=None, left_rail=None, left_wheel_format=None, left_rail_format=None,
+    left_wheel_mirror=None, left_rail_mirror=None,
+    load_n=None, lateral_m=None, yaw_rad=None, speed_m_per_s=None, friction=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn contact(
@@ -109,6 +126,17 @@ pub fn contact(
     rail_format: Option<&str>,
     wheel_mirror: Option<&str>,
     rail_mirror: Option<&str>,
+    left_wheel: Option<&Bound<'_, PyAny>>,
+    left_rail: Option<&Bound<'_, PyAny>>,
+    left_wheel_format: Option<&str>,
+    left_rail_format: Option<&str>,
+    left_wheel_mirror: Option<&str>,
+    left_rail_mirror: Option<&str>,
+    load_n: Option<f64>,
+    lateral_m: Option<Vec<f64>>,
+    yaw_rad: Option<f64>,
+    speed_m_per_s: Option<f64>,
+    friction: Option<f64>,
 ) -> Outcome<Contact> {
     let usual = Installation::default();
     let installation = Installation::default()
@@ -118,47 +146,230 @@ pub fn contact(
         .with_gauge_m(gauge_m.unwrap_or(usual.gauge_m))
         .with_gauge_depth_m(gauge_depth_m.unwrap_or(usual.gauge_depth_m))
         .with_inclination(inclination.unwrap_or(usual.inclination));
-    let of_wheel = options(wheel_format, wheel_mirror, smoothing_m)?;
-    let of_rail = options(rail_format, rail_mirror, smoothing_m)?;
-    let wheel = wheel.map_or_else(|| Ok("s1002".into()), path)?;
-    let rail = rail.map_or_else(|| Ok("uic60".into()), path)?;
-    let (pair, geometry, force_jump) = py.detach(|| {
-        let (wheel, _) = profile::load(&wheel, Body::Wheel, &of_wheel)?;
-        let (rail, _) = profile::load(&rail, Body::Rail, &of_rail)?;
-        let pair = Pair::new(wheel, &rail, installation)?;
-        let geometry = WheelsetGeometry::new(&pair)?;
-        let force_jump = ForceJump::find(&pair);
-        Ok::<_, Refusal>((pair, geometry, force_jump))
-    })?;
-    let conicities = geometry.conicities(&pair);
-    let conicity = PyDict::new(py);
-    let amplitudes = conicities.iter().map(|one| one.amplitude_m);
-    conicity.set_item("amplitude_m", PyArray1::from_iter(py, amplitudes))?;
-    let values = conicities
-        .iter()
-        .map(|one| one.equivalent_conicity.unwrap_or(f64::NAN));
-    conicity.set_item("equivalent_conicity", PyArray1::from_iter(py, values))?;
-    let rows: Vec<Shift> = geometry.contacts.iter().map(Shift::from).collect();
-    let columns: [(&str, Column); 7] = [
-        ("lateral_shift_m", |row| row.lateral_shift_m),
-        ("rolling_radius_difference_m", |row| {
-            row.rolling_radius_difference_m
-        }),
-        ("roll_rad", |row| row.roll_rad),
-        ("contact_angle_left_rad", |row| row.contact_angle_left_rad),
-        ("contact_angle_right_rad", |row| row.contact_angle_right_rad),
-        ("wheel_place_left_m", |row| row.wheel_place_left_m),
-        ("wheel_place_right_m", |row| row.wheel_place_right_m),
-    ];
-    let shifts = PyDict::new(py);
-    for (name, of) in columns {
-        shifts.set_item(name, PyArray1::from_iter(py, rows.iter().map(of)))?;
+    let usual = Running::default();
+    let running = load_n.map(|load_n| {
+        usual
+            .with_load_n(load_n)
+            .with_yaw_rad(yaw_rad.unwrap_or(usual.yaw_rad))
+            .with_speed_m_per_s(speed_m_per_s.unwrap_or(usual.speed_m_per_s))
+            .with_friction(friction.unwrap_or(usual.friction))
+    });
+    let is_load_described =
+        lateral_m.is_some() || yaw_rad.is_some() || speed_m_per_s.is_some() || friction.is_some();
+    if running.is_none() && is_load_described {
+        return refuse(
+            "load_n: none, required with lateral_m, yaw_rad, speed_m_per_s and friction",
+        );
     }
+    let named = |name: Option<&Bound<'_, PyAny>>, format, mirror| -> Outcome<_> {
+        let name = name.map(path).transpose()?;
+        Ok((name, options(format, mirror, smoothing_m)?))
+    };
+    let (wheel, wheel_options) = named(wheel, wheel_format, wheel_mirror)?;
+    let (rail, rail_options) = named(rail, rail_format, rail_mirror)?;
+    let is_stated =
+        |format: Option<&str>, mirror: Option<&str>| format.is_some() || mirror.is_some();
+    for (argument, is_missing) in [
+        (
+            "left_wheel",
+            left_wheel.is_none() && is_stated(left_wheel_format, left_wheel_mirror),
+        ),
+        (
+            "left_rail",
+            left_rail.is_none() && is_stated(left_rail_format, left_rail_mirror),
+        ),
+    ] {
+        if is_missing {
+            return refuse(format!(
+                "{argument}: none, required with {argument}_format and {argument}_mirror"
+            ));
+        }
+    }
+    let left_wheel = named(left_wheel, left_wheel_format, left_wheel_mirror)?;
+    let left_rail = named(left_rail, left_rail_format, left_rail_mirror)?;
+    let computed = py.detach(|| {
+        let wheel = wheel.unwrap_or_else(|| "s1002".into());
+        let rail = rail.unwrap_or_else(|| "uic60".into());
+        let (wheel, _) = profile::load(&wheel, Body::Wheel, &wheel_options)?;
+        let rail = profile::load(&rail, Body::Rail, &rail_options)?;
+        let left = |(name, options): &(Option<String>, Options), body| -> Outcome<_> {
+            let name = name.as_ref();
+            Ok(name
+                .map(|name| profile::load(name, body, options))
+                .transpose()?)
+        };
+        let left_wheel = left(&left_wheel, Body::Wheel)?;
+        let left_rail = left(&left_rail, Body::Rail)?;
+        let right = Pair::new(wheel.clone(), &rail.0, installation)?;
+        let is_symmetric = left_wheel.is_none() && left_rail.is_none();
+        let left_pair = Pair::new(
+            left_wheel.map_or(wheel, |(wheel, _)| wheel),
+            left_rail.as_ref().map_or(&rail.0, |(rail, _)| rail),
+            installation,
+        )?;
+        let geometry = WheelsetGeometry::new([&left_pair, &right])?;
+        let elastic = running
+            .map(|running| under_load([&left_pair, &right], is_symmetric, running, lateral_m))
+            .transpose()?;
+        let loaded = elastic.as_ref().map_or(&[][..], |(shifts, _)| shifts);
+        let ends = end_contacts([&left_pair, &right], &geometry.contacts, loaded);
+        let rails: Vec<(Profile, Option<Reading>)> =
+            [Some(rail), left_rail].into_iter().flatten().collect();
+        let tilts = contact_warnings::laid_twice(&rails, installation.inclination);
+        let mut warnings = tilts;
+        warnings.extend(contact_warnings::at_ends(&ends, is_symmetric));
+        Ok::<_, Refusal>((geometry, elastic, warnings))
+    })?;
+    let (geometry, elastic, warnings) = computed;
+    for words in warnings {
+        let words = std::ffi::CString::new(words).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &words, 1)?;
+    }
+    let radius_m = installation.wheel_radius_m;
     Ok(Contact {
-        conicity: conicity.unbind(),
-        shifts: shifts.unbind(),
-        force_jump,
+        conicity: conicity(py, &geometry.rolling, radius_m)?,
+        shifts: shifts(py, &geometry)?,
+        under_load: elastic
+            .map(|(shifts, rolling)| {
+                Ok::<_, Refusal>(UnderLoad {
+                    conicity: conicity(py, &rolling, radius_m)?,
+                    wheels: wheels(py, &shifts)?,
+                    patches: patches(py, &shifts)?,
+                })
+            })
+            .transpose()?,
     })
+}
+
+/// Computes the wheelset under load, and its rolling radius difference on elastic patches.
+fn under_load(
+    [left, right]: [&Pair; 2],
+    is_symmetric: bool,
+    running: Running,
+    lateral_m: Option<Vec<f64>>,
+) -> Outcome<(Vec<LoadedShift>, RollingRadiusDifference)> {
+    let geometry = |pair: &Pair| ContactGeometry::new(pair.clone(), Steel::default()).map(Arc::new);
+    let right = geometry(right)?;
+    let left = if is_symmetric {
+        Arc::clone(&right)
+    } else {
+        geometry(left)?
+    };
+    let wheelset = LoadedWheelset::new([left, right], running)?;
+    let lateral_m = lateral_m.unwrap_or_else(|| wheelset.usual_shifts_m());
+    Ok((
+        wheelset.at(&lateral_m)?,
+        wheelset.rolling_radius_difference()?,
+    ))
+}
+
+/// A dictionary with an array per column.
+fn arrays<Row>(py: Python<'_>, rows: &[Row], columns: &[Column<Row>]) -> Outcome<Py<PyDict>> {
+    let dictionary = PyDict::new(py);
+    for (name, of) in columns {
+        dictionary.set_item(name, PyArray1::from_iter(py, rows.iter().map(of)))?;
+    }
+    Ok(dictionary.unbind())
+}
+
+fn conicity(
+    py: Python<'_>,
+    rolling: &RollingRadiusDifference,
+    radius_m: f64,
+) -> Outcome<Py<PyDict>> {
+    let rows = Conicity::over_amplitude(rolling, radius_m);
+    arrays(
+        py,
+        &rows,
+        &[
+            ("amplitude_m", |row| row.amplitude_m),
+            ("equivalent_conicity", |row| {
+                row.equivalent_conicity.unwrap_or(f64::NAN)
+            }),
+        ],
+    )
+}
+
+fn shifts(py: Python<'_>, geometry: &WheelsetGeometry) -> Outcome<Py<PyDict>> {
+    let rows: Vec<Shift> = geometry.contacts.iter().map(Shift::from).collect();
+    arrays(
+        py,
+        &rows,
+        &[
+            ("lateral_shift_m", |row| row.lateral_shift_m),
+            ("rolling_radius_difference_m", |row| {
+                row.rolling_radius_difference_m
+            }),
+            ("roll_rad", |row| row.roll_rad),
+            ("contact_angle_left_rad", |row| row.contact_angle_left_rad),
+            ("contact_angle_right_rad", |row| row.contact_angle_right_rad),
+            ("wheel_place_left_m", |row| row.wheel_place_left_m),
+            ("wheel_place_right_m", |row| row.wheel_place_right_m),
+        ],
+    )
+}
+
+fn wheels(py: Python<'_>, shifts: &[LoadedShift]) -> Outcome<Py<PyDict>> {
+    type Row<'a> = (f64, i8, &'a LoadedWheel);
+    let rows: Vec<Row<'_>> = shifts
+        .iter()
+        .flat_map(|shift| {
+            let wheels = shift.wheels();
+            wheels.map(|(side, wheel)| (shift.lateral_shift_m, side, wheel))
+        })
+        .collect();
+    arrays(
+        py,
+        &rows,
+        &[
+            ("lateral_shift_m", |row| row.0),
+            ("side", |row| f64::from(row.1)),
+            ("vertical_force_n", |row| row.2.vertical_force_n),
+            ("lateral_force_n", |row| row.2.lateral_force_n),
+            ("derailment_coefficient", |row| row.2.derailment_coefficient),
+            ("longitudinal_force_n", |row| row.2.longitudinal_force_n),
+            ("rolling_radius_m", |row| row.2.rolling_radius_m),
+        ],
+    )
+}
+
+fn patches(py: Python<'_>, shifts: &[LoadedShift]) -> Outcome<Py<PyDict>> {
+    type Row<'a> = (f64, i8, &'a LoadedPatch);
+    let rows: Vec<Row<'_>> = shifts
+        .iter()
+        .flat_map(|shift| {
+            shift.wheels().flat_map(move |(side, wheel)| {
+                let patches = wheel.patches.iter();
+                patches.map(move |patch| (shift.lateral_shift_m, side, patch))
+            })
+        })
+        .collect();
+    arrays(
+        py,
+        &rows,
+        &[
+            ("lateral_shift_m", |row| row.0),
+            ("side", |row| f64::from(row.1)),
+            ("load_n", |row| row.2.load_n),
+            ("wheel_y_m", |row| row.2.wheel_y_m),
+            ("track_y_m", |row| row.2.track_y_m),
+            ("track_z_m", |row| row.2.track_z_m),
+            ("contact_angle_rad", |row| row.2.contact_angle_rad),
+            ("semi_axis_rolling_m", |row| row.2.semi_axis_rolling_m),
+            ("semi_axis_across_m", |row| row.2.semi_axis_across_m),
+            ("peak_pressure_pa", |row| row.2.peak_pressure_pa),
+            ("rolling_radius_m", |row| row.2.rolling_radius_m),
+            ("longitudinal_creepage", |row| row.2.longitudinal_creepage),
+            ("lateral_creepage", |row| row.2.lateral_creepage),
+            ("spin_creepage_per_m", |row| row.2.spin_creepage_per_m),
+            ("longitudinal_creep_force_n", |row| {
+                row.2.longitudinal_creep_force_n
+            }),
+            ("lateral_creep_force_n", |row| row.2.lateral_creep_force_n),
+            ("spin_moment_n_m", |row| row.2.spin_moment_n_m),
+            ("dissipation_w", |row| row.2.dissipation_w),
+        ],
+    )
 }
 
 fn options(
@@ -170,97 +381,4 @@ fn options(
         .with_format(format.map(str::parse).transpose().or_else(refuse)?)
         .with_mirror(mirror.map(str::parse).transpose().or_else(refuse)?)
         .with_smoothing_m(smoothing_m.unwrap_or(DEFAULT_SMOOTHING_M)))
-}
-
-/// Computes creep forces on the wheel by the exact theory of rolling contact, from Kalker's book of tables.
-///
-/// `creepages` is a float64 array with the columns longitudinal, lateral (1) and spin (1/m). The result has one row for
-/// each of its rows, with the columns longitudinal force, lateral force (N) and spin moment (N m).
-///
-/// `a_m` and `b_m` are the semi-axes of the contact in the rolling and in the lateral direction. The shear modulus and
-/// Poisson's ratio are those of steel by default.
-///
-/// >>> import dashpot, numpy
-/// >>> braking = numpy.array([[1.6e-3, 0.0, 0.0]])
-/// >>> forces = dashpot.creep_forces(braking, load_n=106.7e3, a_m=6.304e-3, b_m=12.61e-3, friction=0.33,
-/// ...     shear_modulus_pa=82e9, poisson_ratio=0.28)
-/// >>> bool(abs(forces[0, 0] / -27.57e3 - 1) < 0.02)  # an independent solver gives 27.57 kN
-/// True
-#[pyfunction]
-#[pyo3(signature = (creepages, *, load_n, a_m, b_m, friction, shear_modulus_pa=None, poisson_ratio=None))]
-#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
-pub fn creep_forces<'py>(
-    py: Python<'py>,
-    creepages: &Bound<'py, PyAny>,
-    load_n: f64,
-    a_m: f64,
-    b_m: f64,
-    friction: f64,
-    shear_modulus_pa: Option<f64>,
-    poisson_ratio: Option<f64>,
-) -> Outcome<Bound<'py, PyArray2<f64>>> {
-    let rows = arrays::read::<f64, Ix2>("creepages", creepages)?;
-    let columns = rows.shape()[1];
-    if columns != 3 {
-        return refuse(format!(
-            "creepages: {columns} columns, allowed: 3, longitudinal, lateral and spin"
-        ));
-    }
-    let shear_modulus_pa = shear_modulus_pa.unwrap_or_else(|| Steel::default().shear_modulus_pa());
-    let poisson_ratio = poisson_ratio.unwrap_or(Steel::default().poisson_ratio);
-    let given = [
-        ("load_n", load_n),
-        ("a_m", a_m),
-        ("b_m", b_m),
-        ("friction", friction),
-        ("shear_modulus_pa", shear_modulus_pa),
-    ];
-    if let Some((name, wrong)) = given
-        .into_iter()
-        .find(|(_, value)| !(*value > 0.0 && value.is_finite()))
-    {
-        return refuse(format!("{name}: {wrong}, allowed: above 0"));
-    }
-    for (name, axis_m) in [("a_m", a_m), ("b_m", b_m)] {
-        if !(1e-6..=1.0).contains(&axis_m) {
-            return refuse(format!("{name}: {axis_m}, allowed: 1e-6 to 1"));
-        }
-    }
-    let numbers = rows.as_slice().map_err(PyErr::from)?;
-    if let Some(index) = numbers.iter().position(|number| !number.is_finite()) {
-        return refuse(format!(
-            "creepages: row {} has {}, allowed: finite numbers",
-            index / columns,
-            numbers[index]
-        ));
-    }
-    let forces: Vec<f64> = py.detach(|| {
-        let kalker = KalkerTable::new(poisson_ratio).map(|table| table.at(a_m / b_m));
-        let contact = LoadedContact {
-            load_n,
-            a_m,
-            b_m,
-            shear_modulus_pa,
-            kalker: kalker?,
-            friction,
-        };
-        let book = KalkerBook::new();
-        let (rows, _) = numbers.as_chunks::<3>();
-        let mut forces = Vec::with_capacity(numbers.len());
-        run_cancellable(|is_unwanted| {
-            let parts = rows.chunks(ROWS_A_LOOK);
-            for &[longitudinal, lateral, spin_per_m] in
-                parts.take_while(|_| !is_unwanted()).flatten()
-            {
-                let creepage = Creepage {
-                    longitudinal,
-                    lateral,
-                    spin_per_m,
-                };
-                forces.extend(book.forces(&contact, &creepage).components());
-            }
-        })?;
-        Ok::<_, Refusal>(forces)
-    })?;
-    Ok(PyArray1::from_vec(py, forces).reshape([rows.shape()[0], 3])?)
 }

@@ -12,9 +12,10 @@ use dashpot_files::profile::NamedProfileError;
 use dashpot_files::study::StudyFileError;
 use dashpot_files::track::TrackFileError;
 use dashpot_files::vehicle::VehicleFileError;
-use dashpot_rail::contact::PairError;
+use dashpot_rail::contact::{GeometryError, PairError};
 use dashpot_rail::creep::KalkerError;
 use dashpot_rail::indices::RollingRadiusError;
+use dashpot_study::loaded_wheelset::LoadedWheelsetError;
 use dashpot_study::sweep::RunError;
 use dashpot_testbench::TestbenchError;
 use dashpot_vehicle_run::VehicleRunError;
@@ -186,7 +187,9 @@ macro_rules! without_file {
 without_file!(
     BuildError,
     ClearanceError,
+    GeometryError,
     KalkerError,
+    LoadedWheelsetError,
     PairError,
     RollingRadiusError,
     SavedStateError,

@@ -9,6 +9,9 @@ mod built;
 mod calibration;
 mod calibration_words;
 mod contact;
+mod contact_table;
+mod contact_warnings;
+mod creep_forces;
 mod damper;
 mod error;
 mod interruption;
@@ -38,7 +41,9 @@ mod _dashpot {
     #[pymodule_export]
     use crate::calibration::{Calibrated, calibrate};
     #[pymodule_export]
-    use crate::contact::{Contact, contact, creep_forces};
+    use crate::contact::{Contact, contact};
+    #[pymodule_export]
+    use crate::creep_forces::creep_forces;
     #[pymodule_export]
     use crate::damper::Damper;
     #[pymodule_export]

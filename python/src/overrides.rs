@@ -43,7 +43,7 @@ pub fn assignments(overrides: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<String>>
 }
 
 /// Writes a value as TOML.
-fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> {
+pub fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> {
     if let Ok(value) = value.cast::<PyBool>() {
         return Ok(value.is_true().to_string());
     }
@@ -73,6 +73,6 @@ fn written(key: &Bound<'_, PyAny>, value: &Bound<'_, PyAny>) -> Outcome<String> 
 }
 
 /// Quotes a text in the syntax that TOML and JSON share.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

@@ -10,6 +10,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::contact_table::contact_assignments;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::Interruption;
 use crate::json;
@@ -96,6 +97,9 @@ impl VehicleRun {
 /// Runs a vehicle along a track. Give a case (a shipped one or a TOML file), whose values the other arguments override,
 /// or a track and a speed.
 ///
+/// `contact` is a dictionary with keys of the table `[contact]` of a case file: profiles, gauge, inclination and
+/// friction. File names in it are relative to the working directory.
+///
 /// `dampers` is a dictionary from dampers, by direction or name, to their replacements: a preset, a file or a `Damper`.
 /// `overrides` changes values of the vehicle. Both work like the command's `--damper` and `--set`. `signals` selects
 /// the signals of the history; default: all. Ctrl-C cancels the run.
@@ -106,10 +110,13 @@ impl VehicleRun {
 /// np.float64(0.5)
 /// >>> sorted(run.indices)[:2]
 /// ['bodies', 'duration_s']
+/// >>> contact = {"rail_inclination": 0.05, "friction_over_distance": [[0, 0.4, 0.4], [20, 0.4, 0.2]]}
+/// >>> dashpot.vehicle("straight-180", duration_s=0.1, contact=contact).is_completed
+/// True
 #[pyfunction]
 #[pyo3(signature = (
     case=None, *, vehicle=None, track=None, speed_km_h=None, duration_s=None, start_m=None, friction=None,
-    normal_damping_s_per_m=None, step_us=None, push_m=None, dampers=None, overrides=None, signals=None
+    normal_damping_s_per_m=None, step_us=None, push_m=None, contact=None, dampers=None, overrides=None, signals=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn vehicle(
@@ -124,6 +131,7 @@ pub fn vehicle(
     normal_damping_s_per_m: Option<f64>,
     step_us: Option<f64>,
     push_m: Option<f64>,
+    contact: Option<&Bound<'_, PyAny>>,
     dampers: Option<&Bound<'_, PyAny>>,
     overrides: Option<&Bound<'_, PyAny>>,
     signals: Option<Vec<String>>,
@@ -151,6 +159,7 @@ pub fn vehicle(
         ));
     };
     options.dampers.extend(replacements(dampers)?);
+    options.overrides.extend(contact_assignments(contact)?);
     options.overrides.extend(assignments(overrides)?);
     run(py, &options, signals.as_deref())
 }

@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import tempfile
+import warnings
 
 import dashpot
 import numpy
@@ -22,7 +23,6 @@ class Contacts(Test):
             value = geometry.conicity["equivalent_conicity"][place]
             expected = math.nan if row["equivalent_conicity"] is None else row["equivalent_conicity"]
             numpy.testing.assert_equal(value, expected)
-        self.assertEqual(geometry.force_jump, told["force_jump"])
         self.assertEqual(list(geometry.shifts), list(told["shifts"][0]))
         for place, row in enumerate(told["shifts"]):
             self.assertEqual({name: column[40 * place] for name, column in geometry.shifts.items()}, row)
@@ -34,18 +34,57 @@ class Contacts(Test):
             "--rail", PROFILES / "uic60.ban", "--gauge-m", 1.432, "--inclination", 0.05,
         )
 
-    def test_a_pair_whose_force_jumps_is_that_of_the_command(self):
-        rows = (PROFILES / "s1002.csv").read_text().split("y_mm,z_mm\n")[1].split()
-        points = [tuple(map(float, row.split(","))) for row in rows]
-        # Waves of 10 mm and 0.15 mm worn into the tread.
-        wave = [0.15 * math.sin(0.2 * math.pi * y) * (-20 <= y < 40) for y, _ in points]
+    def assert_has_rows(self, table, rows):
+        """Compares a table of arrays with rows of the command, which have the same names."""
+        for place, row in enumerate(rows):
+            for name, value in row.items():
+                if name in table and value is None:
+                    self.assertTrue(numpy.isnan(table[name][place]), name)
+                elif name in table:
+                    self.assertEqual(table[name][place], value, name)
+        self.assertEqual({column.shape for column in table.values()}, {(len(rows),)})
+
+    def test_a_loaded_wheelset_is_that_of_the_command(self):
+        loaded = dashpot.contact(
+            left_wheel=PROFILES / "s1002.whl", load_n=80e3, lateral_m=[0.0, 4e-3], yaw_rad=3e-3, speed_m_per_s=20.0,
+            friction=0.3,
+        )
+        told = json.loads(command(
+            "contact", "--no-plots", "--format", "json", "--left-wheel", PROFILES / "s1002.whl", "--load-kn", 80,
+            "--lateral-mm", "0,4", "--yaw-mrad", 3, "--speed-km-h", 72, "--friction", 0.3,
+        ))["under_load"]
+        self.assert_has_rows(loaded.elastic_conicity, told["conicity"])
+        wheels = [
+            {"lateral_shift_m": shift["lateral_shift_m"], "side": side, **shift[name]}
+            for shift in told["shifts"] for side, name in ((-1, "left"), (1, "right"))
+        ]
+        self.assert_has_rows(loaded.wheels, wheels)
+        patches = [{**patch, "side": wheel["side"]} for wheel in wheels for patch in wheel["patches"]]
+        self.assert_has_rows(loaded.patches, patches)
+        self.assertLessEqual(set(patches[0]), set(loaded.patches))
+        numpy.testing.assert_allclose(loaded.wheels["vertical_force_n"], 80e3, rtol=1e-3)
+
+    def test_without_a_load_there_are_no_patches(self):
+        geometry = dashpot.contact()
+        self.assertEqual((geometry.patches, geometry.wheels, geometry.elastic_conicity), (None, None, None))
+        self.assert_refused("load_n: none, required with lateral_m, yaw_rad, speed_m_per_s and friction", dashpot.contact,
+                            friction=0.3)
+        self.assert_refused("load_n: 0, allowed: 1000 to 400000", dashpot.contact, load_n=0)
+        self.assert_refused("lateral_m: 0.02, allowed: -0.012 to 0.012", dashpot.contact, load_n=1e5, lateral_m=[0.02])
+
+    def test_a_rail_that_contains_its_inclination_is_named(self):
+        rail = numpy.loadtxt(PROFILES / "uic60.csv", delimiter=",", skiprows=2)
+        angle = math.atan(0.025)
+        laid = rail @ numpy.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
         with tempfile.TemporaryDirectory() as folder:
-            worn = pathlib.Path(folder, "worn.csv")
-            text = "".join(f"{y},{z + by}\n" for (y, z), by in zip(points, wave))
-            worn.write_text("y_mm,z_mm\n" + text)
-            geometry = dashpot.contact(worn)
-            self.assert_is_that_of_the_command(geometry, "--wheel", worn)
-            self.assertGreater(geometry.force_jump["jump_n"], geometry.force_jump["allowed_n"])
+            path = pathlib.Path(folder) / "laid.csv"
+            numpy.savetxt(path, laid, fmt="%.4f")
+            with self.assertWarnsRegex(UserWarning, "rail laid: .* Use inclination=0"):
+                dashpot.contact(rail=path)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                conicity = dashpot.contact(rail=path, inclination=0).conicity["equivalent_conicity"]
+            self.assertAlmostEqual(conicity[5], dashpot.contact().conicity["equivalent_conicity"][5], 2)
 
     def test_errors_have_the_words_of_the_command(self):
         self.assert_refused(refusal("contact", "--wheel", "s1003"), dashpot.contact, "s1003")

@@ -101,6 +101,33 @@ class Vehicles(Test):
         with self.assertRaises(dashpot.DashpotError):
             dashpot.vehicle("straight-180", overrides={"body.mass": 1.0})
 
+    def test_the_contact_is_that_of_the_command(self):
+        contact = {"rail_inclination": 0.05, "gauge_m": 1.437,
+                   "friction_over_distance": numpy.array([[0, 0.4, 0.4], [5, 0.4, 0.1]])}
+        with tempfile.TemporaryDirectory() as folder:
+            # A straight tread with a cone of 1:20 and a flange of 60 degrees.
+            wheel = pathlib.Path(folder, "cone.csv")
+            points = [(y, -y / 20 if y > -38 else 1.9 + math.sqrt(3) * (-38 - y)) for y in range(-50, 60)]
+            points = [(y, -z if y > -38 else z) for y, z in points]
+            tip = max(z for _, z in points)
+            back = [(-50 - i, tip - i * i / 4) for i in range(6, 0, -1)]
+            rows = [f"{y},{z}" for y, z in back + points]
+            wheel.write_text("y_mm,z_mm\n" + "\n".join(rows) + "\n")
+            contact["wheel"] = wheel
+            command("vehicle", "--case", "curve-r300", "--duration-s", 0.5, "--no-page", "--output", "told",
+                    "--rail-inclination", 0.05, "--gauge-m", 1.437, "--wheel", wheel,
+                    "--set", "contact.friction_over_distance=[[0, 0.4, 0.4], [5, 0.4, 0.1]]", folder=folder)
+            told = pandas.read_csv(pathlib.Path(folder, "told", "history.csv"), float_precision="round_trip")
+            run = dashpot.vehicle("curve-r300", duration_s=0.5, contact=contact)
+        pandas.testing.assert_frame_equal(pandas.DataFrame(run.history), told, check_exact=True, check_dtype=False)
+        self.assertEqual(run.indices["nadal"]["profile"], "cone")
+        self.assert_refused("contact: list, allowed: a dictionary such as {\"gauge_m\": 1.432}", dashpot.vehicle,
+                            "straight-180", contact=[1])
+        with self.assertRaisesRegex(dashpot.DashpotError, "contact.gauge=.*did you mean `gauge_m`"):
+            dashpot.vehicle("straight-180", contact={"gauge": 1.43})
+        with self.assertRaisesRegex(dashpot.DashpotError, "^contact.gauge_m: .*allowed: "):
+            dashpot.vehicle("straight-180", contact={"gauge_m": 1.2})
+
     def test_names_may_be_paths(self):
         named = dashpot.vehicle("straight-180", duration_s=0.1, signals=["body_vertical_m"])
         path = dashpot.vehicle(DATA / "cases" / "straight-180.toml", duration_s=0.1, signals=["body_vertical_m"])

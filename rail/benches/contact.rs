@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact, WheelsetForces,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+    WheelsetForces,
 };
 use dashpot_rail::creep::{CreepLaw, Fastsim, Friction, KalkerBook, Polach, ShenHedrickElkins};
 
@@ -71,9 +71,8 @@ fn measure(
 fn contact(criterion: &mut Criterion) {
     let pair = Pair::standard(Installation::default()).expect("the standard pair is valid");
     let geometry =
-        ContactGeometry::new(pair, Steel::default(), 100e3).expect("the default steel is valid");
-    let tables = Tables::new(geometry, Grid::default()).expect("the default grid is valid");
-    let tables = Arc::new(tables);
+        ContactGeometry::new(pair, Steel::default()).expect("the default steel is valid");
+    let tables = Arc::new(Tables::new(geometry));
     let friction = Friction::default();
     let falling = friction.with_residual_ratio(0.4);
     measure(

@@ -5,8 +5,7 @@
 use std::sync::Arc;
 
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 };
 use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, Polach, ShenHedrickElkins};
 
@@ -54,8 +53,8 @@ fn print(
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = Pair::standard(Installation::default())?;
-    let geometry = ContactGeometry::new(pair, Steel::default(), 0.5 * LOAD_N)?;
-    let tables = Arc::new(Tables::new(geometry, Grid::default())?);
+    let geometry = ContactGeometry::new(pair, Steel::default())?;
+    let tables = Arc::new(Tables::new(geometry));
     print("Kalker's book of tables", &tables, KalkerBook::new())?;
     print("Polach", &tables, Polach)?;
     print("Shen, Hedrick and Elkins", &tables, ShenHedrickElkins)

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables,
-    WheelsetContact,
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 };
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::track::{self, Defect, Generation, Rails, Spectrum, Track};
@@ -33,11 +32,8 @@ static ALLOCATOR: Counting = Counting;
 #[test]
 fn forces_are_computed_without_allocating() {
     let pair = Pair::standard(Installation::default()).unwrap();
-    let mut grid = Grid::default();
-    grid.roll_rad.cells = [1, 2, 1];
-    grid.yaw_squared_rad2.cells = [0, 1, 1];
-    let geometry = ContactGeometry::new(pair, Steel::default(), 100e3).unwrap();
-    let tables = Tables::new(geometry, grid).unwrap();
+    let geometry = ContactGeometry::new(pair, Steel::default()).unwrap();
+    let tables = Tables::new(geometry);
     let contact =
         WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default()).unwrap();
     let irregularity = Generation::new(Spectrum::german_low())

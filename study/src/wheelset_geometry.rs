@@ -1,8 +1,6 @@
 //! Wheelset geometry as a function of lateral shift: rigid contact, rolling radii, equivalent conicity.
 
-use dashpot_rail::contact::{
-    Axis, ContactGeometry, Grid, Jump, MAX_JUMP, Pair, RigidContact, Steel, Tables,
-};
+use dashpot_rail::contact::{Pair, RigidContact};
 use dashpot_rail::indices::{RollingRadiusDifference, RollingRadiusError};
 use serde::Serialize;
 
@@ -13,59 +11,6 @@ const MAX_SHIFT_M: f64 = 0.012;
 const CELLS: usize = 960;
 /// Number of amplitudes, 0.5 mm apart, at which the equivalent conicity is computed.
 const AMPLITUDES: u32 = 16;
-
-/// Wheel load at which the search for force jumps runs, N.
-const LOAD_N: f64 = 100e3;
-
-/// A jump of the contact force, too large for contact tables.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct ForceJump {
-    /// Lateral shift of the right wheel on its rail, positive to the field side, m.
-    pub lateral_m: f64,
-    /// Roll of the wheel, rad.
-    pub roll_rad: f64,
-    /// Yaw of the wheel, rad.
-    pub yaw_rad: f64,
-    /// Wheel load at the jump, N.
-    pub load_n: f64,
-    /// Jump of the vertical force, N.
-    pub jump_n: f64,
-    /// Jump that the stiffness of the contact allows, N.
-    pub allowed_n: f64,
-}
-
-impl From<Jump> for ForceJump {
-    fn from(jump: Jump) -> Self {
-        Self {
-            lateral_m: jump.pose.lateral_m,
-            roll_rad: jump.pose.roll_rad,
-            yaw_rad: jump.pose.yaw_rad,
-            load_n: jump.load_n,
-            jump_n: jump.jump_n,
-            allowed_n: jump.allowed_n,
-        }
-    }
-}
-
-impl ForceJump {
-    /// Finds the largest force jump of `pair` at a wheel load of 100 kN that is too large for contact tables. Returns
-    /// `None` if there is no such jump at any of the examined rolls (0, 6 and 12 mrad to both sides) and yaws (0 and 20
-    /// mrad).
-    pub fn find(pair: &Pair) -> Option<Self> {
-        let grid = Grid::default()
-            .with_roll_rad(Axis {
-                ends: [-12e-3, -12e-3, 12e-3, 12e-3],
-                cells: [0, 4, 0],
-            })
-            .with_yaw_squared_rad2(Axis {
-                ends: [0.0, 0.0, 4e-4, 4e-4],
-                cells: [0, 1, 0],
-            });
-        let geometry = ContactGeometry::new(pair.clone(), Steel::default(), LOAD_N).ok()?;
-        let jump = Tables::greatest_jump(&geometry, &grid).ok()??;
-        (jump.excess() > MAX_JUMP).then(|| jump.into())
-    }
-}
 
 /// Rigid contact of a wheelset as a function of its lateral shift, from left to right.
 pub struct WheelsetGeometry {
@@ -118,15 +63,16 @@ impl From<&RigidContact> for Shift {
 }
 
 impl WheelsetGeometry {
-    /// Computes the geometry for a wheel and rail pair.
+    /// Computes the geometry for a left and a right pair of profiles. The left pair is given as its mirror image, as if
+    /// it were on the right side.
     ///
     /// # Errors
     /// Returns an error if the contacts do not define a rolling radius difference.
-    pub fn new(pair: &Pair) -> Result<Self, RollingRadiusError> {
+    pub fn new(sides: [&Pair; 2]) -> Result<Self, RollingRadiusError> {
         let mut scratch = Vec::new();
         let contacts: Vec<RigidContact> = (0..=CELLS)
             .map(|i| MAX_SHIFT_M * (2.0 * i as f64 / CELLS as f64 - 1.0))
-            .map(|shift| pair.rigid_contact(shift, 0.0, &mut scratch))
+            .map(|shift| RigidContact::of_sides(sides, shift, 0.0, &mut scratch))
             .collect();
         let rolling = RollingRadiusDifference::new(
             contacts.iter().map(|contact| contact.lateral_m).collect(),
@@ -137,15 +83,16 @@ impl WheelsetGeometry {
         )?;
         Ok(Self { contacts, rolling })
     }
+}
 
-    /// Computes the equivalent conicity at amplitudes from 0.5 mm to 8 mm.
-    pub fn conicities(&self, pair: &Pair) -> Vec<Conicity> {
-        let radius_m = pair.installation().wheel_radius_m;
+impl Conicity {
+    /// Computes the equivalent conicity at amplitudes from 0.5 mm to 8 mm, for wheels of the nominal radius `radius_m`.
+    pub fn over_amplitude(rolling: &RollingRadiusDifference, radius_m: f64) -> Vec<Self> {
         (1..=AMPLITUDES)
             .map(|i| f64::from(i) * 0.5e-3)
-            .map(|amplitude_m| Conicity {
+            .map(|amplitude_m| Self {
                 amplitude_m,
-                equivalent_conicity: self.rolling.equivalent_conicity(amplitude_m, radius_m),
+                equivalent_conicity: rolling.equivalent_conicity(amplitude_m, radius_m),
             })
             .collect()
     }

@@ -9,7 +9,7 @@ use crate::files::{line_count, rust_files};
 use crate::workspaces::{WORKSPACES, folder_of, packages};
 
 /// Folders of all crates, from the bottom up. A crate may use only those listed before it; tests may use any.
-const ORDER: [&str; 24] = [
+const ORDER: [&str; 25] = [
     "xtask",
     "core",
     "capi",
@@ -17,6 +17,7 @@ const ORDER: [&str; 24] = [
     "tests/no_std_consumer",
     "firmware",
     "rail",
+    "wear",
     "reference",
     "workers",
     "files",

@@ -2,19 +2,17 @@
 
 use std::sync::{Arc, OnceLock};
 
-use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::track::{Irregularity, Layout, Part, Track};
 use dashpot_rail::vehicle::{Vehicle, VehicleParameters, VehicleState};
 
 pub type Contact = Arc<WheelsetContact<KalkerBook>>;
 
-/// S1002 on UIC 60 under the locomotive's wheel load, with friction 0.3 and this normal damping.
+/// S1002 on UIC 60, with friction 0.3 and this normal damping.
 pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
-    let tables = TABLES.get_or_init(|| Arc::new(Tables::new(geometry(), Grid::default()).unwrap()));
+    let tables = TABLES.get_or_init(|| Arc::new(Tables::new(geometry())));
     let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction()).unwrap();
     Arc::new(contact.with_normal_damping(normal_damping_s_per_m).unwrap())
 }
@@ -27,7 +25,7 @@ pub fn contact_without_tables() -> WheelsetContact<KalkerBook, ContactGeometry> 
 fn geometry() -> ContactGeometry {
     let installation = Installation::default().with_wheel_radius_m(0.625);
     let pair = Pair::standard(installation).unwrap();
-    ContactGeometry::new(pair, Steel::default(), 101.3e3).unwrap()
+    ContactGeometry::new(pair, Steel::default()).unwrap()
 }
 
 fn friction() -> Friction {

@@ -1,7 +1,7 @@
 //! Text of `docs/vehicle-validation.md`.
 
 use crate::claim::{LIMITED_PERCENT, NONE_PERCENT, Verdict};
-use crate::rows::{Kept, percent};
+use crate::rows::{Kept, early_endings, percent};
 use crate::trends::{Compared, compare, table};
 use xtask::vehicle_validation::SEEDS;
 
@@ -14,6 +14,7 @@ pub fn text(paper: &Kept, wide: &Kept, stand_ins: &Kept) -> String {
     let count = |verdict: Verdict| others.iter().filter(|row| row.verdict == verdict).count();
     let [holds, not_shown, not] =
         [Verdict::Holds, Verdict::NotShown, Verdict::DoesNotHold].map(count);
+    let early = early_endings(&[paper, wide, stand_ins]);
     let limited_hold = limited.iter().filter(|row| row.verdict == Verdict::Holds);
     format!(
         "# The paper's vehicle studies compared with ours
@@ -33,7 +34,7 @@ absolute values.
 - RMS_Dc, RMS_Wn and RMS_Fy belong to the leading wheelset: the larger Y/Q of its wheels, its wear number and its lateral force.
   RMS_Ay is the lateral acceleration of the body. All are root mean squares of the whole run, with a contact damping of 5 s/m.
 - A change is the difference between the two ends of a range on the same irregularity: the mean over the seeds with its
-  95 % confidence interval (Student).
+  95 % confidence interval (Student). {early}
 - A rise or fall holds if the interval lies on that side of zero. **Rises** and **is influenced** do not hold if the change is
   within {NONE_PERCENT} %, unless the paper calls it slight. **Hardly changes** holds within {NONE_PERCENT} %. **Flat above** holds if the slope above,
   including its interval, is less than a quarter of the slope below. **Limited fluctuation** holds if the range of the means is

@@ -4,7 +4,7 @@ use dashpot_files::study::{Sweep, Value};
 
 use xtask::vehicle_validation::SEEDS;
 
-use crate::rows::{Kept, percent};
+use crate::rows::{Kept, early_endings, percent};
 
 /// Maximum degradation of the ride index, relative to a new damper (%).
 const WORSE_PERCENT: f64 = 5.0;
@@ -90,6 +90,7 @@ fn between([mean, high, low]: [Option<f64>; 3], factor: f64, digits: usize, unit
 fn above_limit(kept: &Kept, sweep: &str, value: f64, index: &str) -> String {
     let sweep = kept.sweep(sweep);
     let values = kept.values(sweep, kept.point(sweep, None, value), index);
+    let values: Vec<f64> = values.into_iter().flatten().collect();
     let above = values.iter().filter(|value| **value > 1.0).count();
     format!("{above} of {}", values.len())
 }
@@ -118,7 +119,9 @@ pub fn text(kept: &Kept) -> String {
         let alone = [first, kept.point(sweep, Some("8000000"), 2e-3), together];
         alone.map(|point| percent(&kept.change(sweep, [0, point], vertical)))
     };
+    let early = early_endings(&[kept]);
     let new_values = kept.values(kept.sweep("vertical clearance"), 0, vertical);
+    let new_values: Vec<f64> = new_values.into_iter().flatten().collect();
     let mean = new_values.iter().sum::<f64>() / new_values.len() as f64;
     let square = |value: &f64| (value - mean).powi(2);
     let variance = new_values.iter().map(square).sum::<f64>() / (new_values.len() - 1) as f64;
@@ -147,6 +150,7 @@ pub fn text(kept: &Kept) -> String {
 out-of-service` draws the figures over 8 seeds. The ride is computed on straight track of class 6 at 180 km/h for 5 s, with seeds
 1 to {SEEDS}; hunting is computed on ideal track after a push to the flange. The vehicle is the public
 stand-in of [the validation](vehicle-validation.md). Other vehicles have other limits, so run the study with yours (`vehicle = \"...\"`).
+{early}
 
 A damper as new has a clearance 2a of 0.5 mm, an effective stiffness Ke of 8 MN/m (lateral 7 MN/m), and oil at 20 °C. Our criterion is a **ride**
 {WORSE_PERCENT} % worse than new (Sperling's index, maximum of three points; {WORSE_PERCENT} % correspond to 18 % more acceleration). Brackets contain

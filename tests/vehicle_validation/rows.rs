@@ -52,32 +52,30 @@ impl Kept {
         found.unwrap_or_else(|| panic!("sweep {}: no value {last}", sweep.name))
     }
 
-    /// Values of an index at a point, one per seed.
-    pub fn values(&self, sweep: &Sweep, point: u64, index: &str) -> Vec<f64> {
+    /// Values of an index at a point, one per seed; `None` if the run ended early.
+    pub fn values(&self, sweep: &Sweep, point: u64, index: &str) -> Vec<Option<f64>> {
         let observed = &self.study.observed;
         let number = observed.iter().position(|observed| observed.name == index);
         let number = number.unwrap_or_else(|| panic!("{index} is not observed"));
         let numbers = self.study.numbers(sweep, point);
         numbers
-            .map(|case| {
-                let value = self.rows[&case].observed[number];
-                value.unwrap_or_else(|| panic!("case {case} has no {index}"))
-            })
+            .map(|case| self.rows[&case].observed[number])
             .collect()
     }
 
     pub fn mean(&self, sweep: &Sweep, point: u64, index: &str) -> Estimate {
-        Estimate::of(&self.values(sweep, point, index)).expect("seeds")
+        let values: Vec<f64> = self
+            .values(sweep, point, index)
+            .into_iter()
+            .flatten()
+            .collect();
+        Estimate::of(&values).expect("seeds")
     }
 
-    /// Relative change of an index between two points in percent: the mean over the seeds. Both points have the same
-    /// irregularities.
+    /// Relative change of an index between two points in percent: the mean over the seeds whose runs reached their ends.
+    /// Both points have the same irregularities.
     pub fn change(&self, sweep: &Sweep, points: [u64; 2], index: &str) -> Estimate {
-        let of_seeds = |point| -> Vec<Option<f64>> {
-            let values = self.values(sweep, point, index);
-            values.into_iter().map(Some).collect()
-        };
-        let [from, to] = points.map(of_seeds);
+        let [from, to] = points.map(|point| self.values(sweep, point, index));
         Estimate::of_change(&from, &to).expect("seeds")
     }
 
@@ -89,6 +87,24 @@ impl Kept {
         let greatest = means.iter().copied().fold(f64::MIN, f64::max);
         let least = means.iter().copied().fold(f64::MAX, f64::min);
         100.0 * (greatest - least) * means.len() as f64 / means.iter().sum::<f64>()
+    }
+}
+
+/// A sentence about the runs that ended early.
+pub fn early_endings(studies: &[&Kept]) -> String {
+    let rows = studies.iter().flat_map(|kept| kept.rows.values());
+    let early: Vec<&str> = rows
+        .clone()
+        .map(|row| &*row.ending)
+        .filter(|ending| *ending != "completed")
+        .collect();
+    match early.len() {
+        0 => "Every run reached its end.".into(),
+        count => format!(
+            "{count} of {} runs ended early, and means and changes leave out their seeds: {}.",
+            rows.count(),
+            early.join("; ")
+        ),
     }
 }
 

@@ -34,8 +34,15 @@ impl Model {
         }
         let case: CoupledCase = serde_json::from_slice(&text).map_err(|error| in_file(&error))?;
         let contact = case.contact().map_err(|error| error.to_string())?;
-        let tables = contact.tables_in(resources);
-        let vehicle = tables.and_then(|tables| Coupled::new(&case, tables));
+        let tables = contact.pairs().iter().map(|pair| {
+            let name = pair.tables_file_name().map_err(|error| error.to_string())?;
+            let path = resources.join(name);
+            let in_tables = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+            let bytes = std::fs::read(&path).map_err(|error| in_tables(&error))?;
+            pair.tables_from(&bytes).map_err(|error| in_tables(&error))
+        });
+        let tables: Vec<_> = tables.collect::<Result<_, String>>()?;
+        let vehicle = Coupled::new(&case, &tables);
         let vehicle = vehicle.map_err(|error| error.to_string())?;
         let saved = vehicle.save().map_err(|error| error.to_string())?;
         Ok(Self {

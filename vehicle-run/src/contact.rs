@@ -1,132 +1,182 @@
-//! Wheel-rail contact of a vehicle: standard profiles under its mean wheel load.
+//! Wheel-rail contact of a vehicle: its distinct pairs of profiles, their tables, and the contact of each wheelset.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
+use dashpot_files::case::Case;
+use dashpot_files::contact::{ContactParameters, SharedProfile};
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
+    ContactGeometry, Installation, Pair, PatchSource, Steel, Tables, WheelsetContact,
 };
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::vehicle::{Standstill, VehicleError, VehicleParameters};
 
 use super::VehicleRunError;
 
-/// Inputs that determine the contact tables.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TablesKey {
-    /// Wheel radius of the first wheelset, m.
-    pub wheel_radius_m: f64,
-    /// Mean wheel load of the vehicle at standstill, N.
-    pub mean_wheel_load_n: f64,
+/// Contact of a wheelset.
+pub type Contact<S = Tables> = Arc<WheelsetContact<KalkerBook, S>>;
+
+/// A wheel on its rail: the inputs that determine contact tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WheelOnRail {
+    wheel: SharedProfile,
+    rail: SharedProfile,
+    installation: Installation,
 }
 
-/// Inputs that determine the contact of a vehicle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+impl WheelOnRail {
+    /// Builds the contact geometry, without tables.
+    ///
+    /// # Errors
+    /// A dimension is out of bounds, or the profiles do not fit each other.
+    pub fn geometry(&self) -> Result<ContactGeometry, VehicleRunError> {
+        let pair = Pair::new((*self.wheel).clone(), &self.rail, self.installation)?;
+        Ok(ContactGeometry::new(pair, Steel::default())?)
+    }
+
+    /// Returns the contact tables, 4 to 5 MB. They are computed once and kept in the user's cache folder; where it
+    /// cannot be written, they are computed each time, in two seconds of processor time.
+    ///
+    /// # Errors
+    /// See [`Self::geometry`].
+    pub fn tables(&self) -> Result<Arc<Tables>, VehicleRunError> {
+        let cached = Tables::cached(&cache_folder(), self.geometry()?);
+        Ok(Arc::new(cached.tables))
+    }
+
+    /// Reads the contact tables from the bytes of a file.
+    ///
+    /// # Errors
+    /// The bytes are not these tables.
+    pub fn tables_from(&self, bytes: &[u8]) -> Result<Arc<Tables>, VehicleRunError> {
+        let tables = Tables::from_bytes(self.geometry()?, bytes);
+        Ok(Arc::new(tables.map_err(VehicleRunError::Tables)?))
+    }
+
+    /// Name of the file of the contact tables.
+    ///
+    /// # Errors
+    /// See [`Self::geometry`].
+    pub fn tables_file_name(&self) -> Result<String, VehicleRunError> {
+        Ok(Tables::file_name(&self.geometry()?))
+    }
+}
+
+/// Inputs that determine the contact of each wheelset of a vehicle.
+#[derive(Debug, Clone, PartialEq)]
 pub struct ContactSetup {
-    tables: TablesKey,
-    friction: f64,
+    /// Distinct pairs of wheel and rail.
+    pairs: Vec<WheelOnRail>,
+    /// Pairs of the left and the right side of each wheelset.
+    wheelsets: Vec<[usize; 2]>,
+    friction: Friction,
     normal_damping_s_per_m: f64,
 }
 
 impl ContactSetup {
-    /// Derives the setup from a vehicle, a friction coefficient and the normal damping (s/m).
+    /// Derives the setup from a vehicle, its contact, the static friction coefficient and the normal damping (s/m).
     ///
     /// # Errors
     /// Invalid vehicle, or one without wheelsets.
     pub fn new(
         vehicle: &VehicleParameters,
+        contact: &ContactParameters,
         friction: f64,
         normal_damping_s_per_m: f64,
     ) -> Result<Self, VehicleError> {
-        let standstill = Standstill::new(vehicle)?;
-        let loads = standstill.axle_loads_n();
-        let first = vehicle.wheelsets.first();
+        Standstill::new(vehicle)?;
+        if vehicle.wheelsets.is_empty() {
+            return Err(VehicleError::NoWheelset);
+        }
+        let mut pairs: Vec<WheelOnRail> = Vec::new();
+        let mut wheelsets = Vec::with_capacity(vehicle.wheelsets.len());
+        for (number, wheelset) in vehicle.wheelsets.iter().enumerate() {
+            wheelsets.push([0, 1].map(|side| {
+                let pair = WheelOnRail {
+                    wheel: contact.wheel(number, side).clone(),
+                    rail: contact.rail(side).clone(),
+                    installation: contact.installation(wheelset.radius_m),
+                };
+                let known = pairs.iter().position(|known| *known == pair);
+                known.unwrap_or_else(|| {
+                    pairs.push(pair);
+                    pairs.len() - 1
+                })
+            }));
+        }
         Ok(Self {
-            tables: TablesKey {
-                wheel_radius_m: first.ok_or(VehicleError::NoWheelset)?.radius_m,
-                mean_wheel_load_n: loads.iter().sum::<f64>() / (2 * loads.len()) as f64,
-            },
-            friction,
+            pairs,
+            wheelsets,
+            friction: contact.friction(friction),
             normal_damping_s_per_m,
         })
     }
 
-    /// Inputs of the contact tables. Setups that differ only in friction or damping share their tables.
-    pub fn tables_key(&self) -> TablesKey {
-        self.tables
-    }
-
-    /// Returns the contact tables, about 43 MB. They are computed once and kept in the user's cache folder.
+    /// Derives the setup of a case.
     ///
     /// # Errors
-    /// No contact geometry exists for the wheel load, or the cache folder cannot be used.
-    pub fn tables(&self) -> Result<Arc<Tables>, VehicleRunError> {
-        let tables = Tables::cached(&cache_folder(), self.geometry()?, Grid::default())?;
-        Ok(Arc::new(tables))
+    /// Same errors as [`Self::new`].
+    pub fn of_case(case: &Case) -> Result<Self, VehicleError> {
+        let damping_s_per_m = case.normal_damping_s_per_m;
+        Self::new(&case.vehicle, &case.contact, case.friction, damping_s_per_m)
     }
 
-    /// Loads the contact tables from another folder, under the file name of [`Self::tables_file`]; computes and writes
-    /// nothing.
+    /// Distinct pairs of wheel and rail, whose tables [`Self::contacts`] needs. Setups that differ only in friction or
+    /// damping have equal pairs.
+    pub fn pairs(&self) -> &[WheelOnRail] {
+        &self.pairs
+    }
+
+    /// Returns the contact of each wheelset with creep forces from Kalker's book. `sources` are the tables or
+    /// geometries of [`Self::pairs`]. Equal wheelsets share a contact.
     ///
     /// # Errors
-    /// The file is missing or contains other tables.
-    pub fn tables_in(&self, folder: &Path) -> Result<Arc<Tables>, VehicleRunError> {
-        let tables = Tables::kept(folder, self.geometry()?, Grid::default())?;
-        Ok(Arc::new(tables))
+    /// Friction or damping is out of bounds, or the number of sources differs from that of the pairs.
+    pub fn contacts<S: PatchSource>(
+        &self,
+        sources: &[Arc<S>],
+    ) -> Result<Vec<Contact<S>>, VehicleRunError> {
+        if sources.len() != self.pairs.len() {
+            return Err(VehicleRunError::Sources {
+                sources: sources.len(),
+                pairs: self.pairs.len(),
+            });
+        }
+        let mut built: Vec<([usize; 2], Contact<S>)> = Vec::new();
+        for sides in &self.wheelsets {
+            if built.iter().any(|(known, _)| known == sides) {
+                continue;
+            }
+            let of_sides = sides.map(|pair| Arc::clone(&sources[pair]));
+            let contact = WheelsetContact::with_sides(of_sides, KalkerBook::new(), self.friction)?;
+            let contact = contact.with_normal_damping(self.normal_damping_s_per_m)?;
+            built.push((*sides, Arc::new(contact)));
+        }
+        let of_sides = |sides: &[usize; 2]| {
+            let found = built.iter().find(|(known, _)| known == sides);
+            found.map(|(_, contact)| Arc::clone(contact))
+        };
+        Ok(self.wheelsets.iter().filter_map(of_sides).collect())
     }
 
-    /// File in which [`Self::tables`] keeps the contact tables.
+    /// Returns the contact of each wheelset with tables; computes and caches them if necessary.
     ///
     /// # Errors
-    /// See [`Self::geometry`].
-    pub fn tables_file(&self) -> Result<PathBuf, VehicleRunError> {
-        let name = Tables::file_name(&self.geometry()?, &Grid::default());
-        Ok(cache_folder().join(name))
+    /// See [`WheelOnRail::tables`] and [`Self::contacts`].
+    pub fn tabulated(&self) -> Result<Vec<Contact>, VehicleRunError> {
+        let tables: Result<Vec<_>, _> = self.pairs.iter().map(WheelOnRail::tables).collect();
+        self.contacts(&tables?)
     }
 
-    /// Builds the contact geometry: S1002 wheels with the first wheelset's radius on UIC 60 rails at 1:40, with the
-    /// elastic deformation at the mean wheel load.
+    /// Returns the contact of each wheelset without tables, for a few evaluations.
     ///
     /// # Errors
-    /// No contact geometry exists for the wheel load.
-    pub fn geometry(&self) -> Result<ContactGeometry, VehicleRunError> {
-        let installation = Installation::default().with_wheel_radius_m(self.tables.wheel_radius_m);
-        let pair = Pair::standard(installation)?;
-        let load_n = self.tables.mean_wheel_load_n;
-        Ok(ContactGeometry::new(pair, Steel::default(), load_n)?)
+    /// See [`WheelOnRail::geometry`] and [`Self::contacts`].
+    pub fn exact(&self) -> Result<Vec<Contact<ContactGeometry>>, VehicleRunError> {
+        let geometries = self.pairs.iter().map(|pair| pair.geometry().map(Arc::new));
+        let geometries: Result<Vec<_>, _> = geometries.collect();
+        self.contacts(&geometries?)
     }
-}
-
-/// Friction with a constant coefficient.
-pub fn friction(coefficient: f64) -> Friction {
-    Friction::constant(coefficient)
-}
-
-/// Builds the tabulated contact of a vehicle; computes and caches its tables if necessary.
-///
-/// # Errors
-/// See [`ContactSetup::new`], [`ContactSetup::tables`] and [`from_tables`].
-pub fn tabulated(
-    vehicle: &VehicleParameters,
-    friction_coefficient: f64,
-    normal_damping_s_per_m: f64,
-) -> Result<Arc<WheelsetContact<KalkerBook>>, VehicleRunError> {
-    let setup = ContactSetup::new(vehicle, friction_coefficient, normal_damping_s_per_m)?;
-    from_tables(setup.tables()?, &setup)
-}
-
-/// Builds the tabulated contact from existing tables, with creep forces from Kalker's book.
-///
-/// # Errors
-/// Friction or damping is out of bounds.
-pub fn from_tables(
-    tables: Arc<Tables>,
-    setup: &ContactSetup,
-) -> Result<Arc<WheelsetContact<KalkerBook>>, VehicleRunError> {
-    let friction = friction(setup.friction);
-    let contact = WheelsetContact::new(tables, KalkerBook::new(), friction)?;
-    let damping = setup.normal_damping_s_per_m;
-    Ok(Arc::new(contact.with_normal_damping(damping)?))
 }
 
 /// Folder `dashpot` in the user's cache folder, or in the folder for temporary files if there is no home folder.

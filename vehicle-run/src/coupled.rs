@@ -8,7 +8,7 @@ use dashpot_rail::vehicle::VehicleState;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-use super::contact::{self, ContactSetup};
+use super::contact::ContactSetup;
 use super::recorded::all_signals;
 use super::signals::{Signal, slug};
 use super::{Ending, Run, VehicleRunError, outside_index};
@@ -55,13 +55,7 @@ impl CoupledCase {
     /// # Errors
     /// Invalid vehicle.
     pub fn contact(&self) -> Result<ContactSetup, VehicleRunError> {
-        let case = &self.case;
-        let damping_s_per_m = case.normal_damping_s_per_m;
-        Ok(ContactSetup::new(
-            &case.vehicle,
-            case.friction,
-            damping_s_per_m,
-        )?)
+        Ok(ContactSetup::of_case(&self.case)?)
     }
 }
 
@@ -135,18 +129,18 @@ pub struct Coupled {
 }
 
 impl Coupled {
-    /// Places the vehicle at the start of its case. `tables` are those of [`CoupledCase::contact`].
+    /// Places the vehicle at the start of its case. `tables` are those of the pairs of [`CoupledCase::contact`].
     ///
     /// # Errors
     /// Case of another version, invalid vehicle, unknown damper, or two signals with the same name.
-    pub fn new(coupled: &CoupledCase, tables: Arc<Tables>) -> Result<Self, VehicleRunError> {
+    pub fn new(coupled: &CoupledCase, tables: &[Arc<Tables>]) -> Result<Self, VehicleRunError> {
         if coupled.version != env!("CARGO_PKG_VERSION") {
             let version = coupled.version.clone();
             return Err(VehicleRunError::Version { version });
         }
         let case = &coupled.case;
-        let contact = contact::from_tables(tables, &coupled.contact()?)?;
-        let mut run = Run::on(case, contact, Arc::new(case.track.build()?))?;
+        let contacts = coupled.contact()?.contacts(tables)?;
+        let mut run = Run::on(case, contacts, Arc::new(case.track.build()?))?;
         let names: Vec<String> = run.vehicle().damper_names().map(str::to_owned).collect();
         let indices = outside_indices(case, &coupled.outside)?;
         let outside: Vec<Outside> = indices

@@ -1,6 +1,6 @@
 //! Errors from building or stepping a run.
 
-use dashpot_rail::contact::{CacheError, GeometryError, PairError, SurfaceError};
+use dashpot_rail::contact::{GeometryError, NotTheseTables, PairError, SurfaceError};
 use dashpot_rail::vehicle::VehicleError;
 
 use super::OutsideError;
@@ -19,15 +19,25 @@ pub enum VehicleRunError {
     /// The wheel profiles do not fit the rail profiles.
     #[error(transparent)]
     Pair(#[from] PairError),
-    /// No contact geometry exists for this wheel load.
+    /// The steel is out of bounds.
     #[error("wheel-rail contact: {0}")]
     Geometry(#[from] GeometryError),
     /// Invalid friction coefficient or normal damping.
     #[error("wheel-rail contact: {0}")]
     Surface(#[from] SurfaceError),
-    /// The contact tables cannot be computed or cached.
+    /// The bytes are not the contact tables of this vehicle.
     #[error("contact tables: {0}")]
-    Tables(#[from] CacheError),
+    Tables(#[from] NotTheseTables),
+    /// The number of tables or geometries is not that of the distinct pairs of wheel and rail.
+    #[error(
+        "contact tables: {sources}, allowed: {pairs}, one for each distinct pair of wheel and rail"
+    )]
+    Sources {
+        /// Number of tables or geometries.
+        sources: usize,
+        /// Number of pairs.
+        pairs: usize,
+    },
     /// A damper cannot be external.
     #[error("external damper `{name}`: {source}")]
     Outside {

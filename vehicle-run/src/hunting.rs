@@ -1,15 +1,14 @@
 //! Nonlinear critical speed: the lowest speed at which a lateral disturbance leads to a limit cycle of hunting.
 
 use std::ops::RangeInclusive;
-use std::sync::Arc;
 
-use dashpot_rail::contact::WheelsetContact;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleParameters, VehicleState};
 use serde::Serialize;
 
 use super::VehicleRunError;
+use super::contact::Contact;
 
 /// Step size, s.
 const STEP_S: f64 = 1e-3;
@@ -68,16 +67,16 @@ pub struct Hunting {
 }
 
 impl Hunting {
-    /// Builds the vehicle with `contact`.
+    /// Builds the vehicle with the contact of each wheelset.
     ///
     /// # Errors
     /// Invalid vehicle parameters.
     pub fn new(
         parameters: &VehicleParameters,
-        contact: Arc<WheelsetContact<KalkerBook>>,
+        contacts: Vec<Contact>,
     ) -> Result<Self, VehicleRunError> {
         Ok(Self {
-            vehicle: Vehicle::new(parameters, contact, STEP_S)?,
+            vehicle: Vehicle::with_contacts(parameters, contacts, STEP_S, None)?,
             track: Track::default(),
         })
     }

@@ -4,22 +4,24 @@ use std::fmt;
 use std::sync::Arc;
 
 use dashpot_core::Damper;
-use dashpot_rail::contact::{Status, WheelsetContact};
+use dashpot_rail::contact::Status;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleState};
 
+use super::VehicleRunError;
+use super::contact::{Contact, ContactSetup};
 use super::hunting::push_aside;
 use super::overturning::Overturned;
 use super::signals::SIDES;
 use super::validity::END_LOAD_RATIO;
-use super::{VehicleRunError, contact};
 use dashpot_files::case::{Case, Fault};
 
 /// Run of a vehicle on its track, before or between ticks.
 #[derive(Debug, Clone)]
 pub struct Run {
     vehicle: Vehicle<KalkerBook>,
+    contacts: Vec<Contact>,
     track: Arc<Track>,
     state: VehicleState,
     faults: Vec<BuiltFault>,
@@ -201,22 +203,22 @@ impl Run {
     /// # Errors
     /// Invalid vehicle, track or contact.
     pub fn new(case: &Case) -> Result<Self, VehicleRunError> {
-        let contact =
-            contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
-        Self::on(case, contact, Arc::new(case.track.build()?))
+        let contacts = ContactSetup::of_case(case)?.tabulated()?;
+        Self::on(case, contacts, Arc::new(case.track.build()?))
     }
 
-    /// Places the vehicle of `case` at its start, with a contact from [`contact::tabulated`] and a built track that
-    /// several runs can share.
+    /// Places the vehicle of `case` at its start, with the contact of each wheelset from [`ContactSetup`] and a built
+    /// track, which several runs can share.
     ///
     /// # Errors
     /// Invalid vehicle.
     pub fn on(
         case: &Case,
-        contact: Arc<WheelsetContact<KalkerBook>>,
+        contacts: Vec<Contact>,
         track: Arc<Track>,
     ) -> Result<Self, VehicleRunError> {
-        let vehicle = Vehicle::on_rails(&case.vehicle, contact, case.step_s, case.rails)?;
+        let vehicle =
+            Vehicle::with_contacts(&case.vehicle, contacts.clone(), case.step_s, case.rails)?;
         let mut state = vehicle.at_rest(&track, case.start_m, case.speed_m_per_s)?;
         if case.push_m != 0.0 {
             push_aside(&vehicle, &mut state, &track, case.push_m)?;
@@ -237,6 +239,7 @@ impl Run {
         Ok(Self {
             ticks: (case.duration_s / case.step_s).round() as u64,
             vehicle,
+            contacts,
             track,
             state,
             faults,
@@ -257,6 +260,11 @@ impl Run {
     /// The vehicle.
     pub fn vehicle(&self) -> &Vehicle<KalkerBook> {
         &self.vehicle
+    }
+
+    /// The contact of each wheelset.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts
     }
 
     /// Current state of the vehicle.

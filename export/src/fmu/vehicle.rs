@@ -24,7 +24,8 @@ const UNITS: [(&str, &str); 5] = [
 impl Fmu {
     /// Returns the FMU of a vehicle with the variables of `coupled`. The names of its functions start with
     /// `identifier`, which consists of ASCII letters, digits and `_`. `library` is the static library of
-    /// `dashpot-vehicle-model`; `tables` is the name and content of the file with the contact tables.
+    /// `dashpot-vehicle-model`; `tables` are the names and contents of the files with the contact
+    /// tables.
     ///
     /// # Errors
     /// Returns an error if the identifier in capitals is not a valid C constant name, if the case cannot be written, or
@@ -34,7 +35,7 @@ impl Fmu {
         identifier: &str,
         case: &CoupledCase,
         coupled: &Coupled,
-        tables: (String, Vec<u8>),
+        tables: Vec<(String, Vec<u8>)>,
         library: PathBuf,
     ) -> Result<Self, ExportError> {
         check(identifier)?;
@@ -74,7 +75,9 @@ impl Fmu {
             has_input_derivatives: false,
             may_end: true,
             about: about(case),
-            resources: vec![(CoupledCase::FILE.into(), json), tables],
+            resources: std::iter::once((CoupledCase::FILE.into(), json))
+                .chain(tables)
+                .collect(),
             sources,
             library: Some(library),
         })

@@ -8,8 +8,8 @@ use super::{CaseError, CaseOptions};
 /// Maximum initial lateral offset, m; flange contact begins at about 6 mm.
 const MAX_PUSH_M: f64 = 0.02;
 
-/// Checks all numbers.
-pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
+/// Checks all numbers; `friction` is the coefficient after the overrides.
+pub(super) fn check(options: &CaseOptions, friction: f64) -> Result<(), CaseError> {
     let steps_us = STEP_S.map(|step_s| (step_s * 1e6).round());
     let numbers = [
         (
@@ -19,7 +19,7 @@ pub(super) fn check(options: &CaseOptions) -> Result<(), CaseError> {
         ),
         ("duration_s", options.duration_s, [1e-3, 36e3]),
         ("start_m", options.start_m, [-1e6, 1e6]),
-        ("friction", options.friction, [0.0, 2.0]),
+        ("friction", friction, [0.0, 2.0]),
         (
             "normal_damping_s_per_m",
             options.normal_damping_s_per_m,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use dashpot_rail::vehicle::VehicleError;
 
+use crate::contact::{ContactError, TABLE};
 use crate::track::TrackFileError;
 use crate::vehicle::VehicleFileError;
 use crate::{FileError, UnknownName};
@@ -45,6 +46,17 @@ pub enum CaseError {
     /// Invalid track.
     #[error(transparent)]
     Track(#[from] TrackFileError),
+    /// Invalid override of the contact; the form is `contact.key=value`.
+    #[error("override {assignment}: {reason}")]
+    Override {
+        /// The override.
+        assignment: String,
+        /// The problem.
+        reason: String,
+    },
+    /// Invalid wheels, rails or friction.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
     /// Invalid rail support.
     #[error(transparent)]
     Rails(VehicleError),
@@ -80,6 +92,8 @@ impl Origin {
             CaseError::Vehicle(_) => "vehicle".into(),
             CaseError::Track(_) => "track".into(),
             CaseError::Rails(_) => "rails".into(),
+            CaseError::Override { assignment, .. } => assignment.clone(),
+            CaseError::Contact(error) => format!("{TABLE}.{}", error.key),
             _ => String::new(),
         };
         let line = match error {

@@ -14,6 +14,7 @@ pub use fault::{Fault, FaultOptions};
 pub use parts::{CaseNumbers, CaseParts};
 use tables::CaseTables;
 
+use crate::contact::{self, ContactOptions, ContactParameters};
 use crate::overrides::explain;
 use crate::shipped::{Found, Shipped};
 use crate::track::{self, TrackParameters};
@@ -63,8 +64,10 @@ pub struct Case {
     pub duration_s: f64,
     /// Initial distance of the vehicle's centre along the track, m.
     pub start_m: f64,
-    /// Static friction coefficient between wheel and rail.
+    /// Static friction coefficient between wheel and rail, where [`Case::contact`] has no other.
     pub friction: f64,
+    /// Profiles, dimensions and friction of wheels and rails.
+    pub contact: ContactParameters,
     /// Normal contact damping divided by the normal force, s/m.
     pub normal_damping_s_per_m: f64,
     /// Time step, s.
@@ -131,7 +134,7 @@ pub struct CaseOptions {
     pub track: String,
     /// Damper replacements, applied before the overrides.
     pub dampers: Vec<Replacement>,
-    /// Vehicle overrides `part.key=value`.
+    /// Overrides of the vehicle, `part.key=value`, and of the contact, `contact.key=value`.
     pub overrides: Vec<String>,
     /// Speed, km/h.
     pub speed_km_h: f64,
@@ -141,6 +144,8 @@ pub struct CaseOptions {
     pub start_m: f64,
     /// Static friction coefficient between wheel and rail.
     pub friction: f64,
+    /// Wheels, rails and friction; overrides `contact.key=value` are applied on top.
+    pub contact: ContactOptions,
     /// Normal contact damping divided by the normal force, s/m.
     pub normal_damping_s_per_m: f64,
     /// Time step, us.
@@ -169,6 +174,7 @@ impl CaseOptions {
             duration_s: 10.0,
             start_m: 0.0,
             friction: 0.4,
+            contact: ContactOptions::default(),
             normal_damping_s_per_m: NORMAL_DAMPING_S_PER_M,
             step_us: 1000.0,
             push_m: 0.0,
@@ -208,7 +214,7 @@ impl CaseOptions {
             name: found.name.clone(),
             message: explain(&error),
         })?;
-        Ok(tables.options(found))
+        tables.options(found)
     }
 
     /// Keys of a case's numbers.
@@ -235,6 +241,9 @@ impl CaseOptions {
             _ => return,
         };
         *number = value;
+        if key == "friction" {
+            self.contact.friction = None;
+        }
         if key == "speed_km_h" {
             self.name = None;
         }
@@ -253,6 +262,14 @@ impl CaseOptions {
         name.clone_into(&mut self.track);
         self.name = None;
         self.forget_line("track");
+    }
+
+    /// Replaces each value of the contact that `contact` has.
+    pub fn replace_contact(&mut self, contact: ContactOptions) {
+        for key in contact.given() {
+            self.forget_line(&format!("{}.{key}", contact::TABLE));
+        }
+        self.contact.replace_by(contact);
     }
 
     /// Forgets the line of `key`, whose value no longer comes from the file.
@@ -274,13 +291,34 @@ impl CaseOptions {
         })
     }
 
+    /// Applies the overrides of the contact, so that only those of the vehicle are left.
+    fn with_contact_applied(&self) -> Result<Self, CaseError> {
+        let mut applied = self.clone();
+        let overrides = contact::apply_overrides(&mut applied.contact, &self.overrides);
+        applied.overrides =
+            overrides.map_err(|(assignment, reason)| CaseError::Override { assignment, reason })?;
+        if let Some(friction) = applied.contact.friction.take() {
+            applied.friction = friction;
+        }
+        Ok(applied)
+    }
+
     fn resolve(&self) -> Result<Case, CaseError> {
-        bounds::check(self)?;
+        let Self {
+            friction,
+            contact,
+            overrides,
+            ..
+        } = &self.with_contact_applied()?;
+        bounds::check(self, *friction)?;
         if let Some(rails) = &self.rails {
             rails.check().map_err(CaseError::Rails)?;
         }
-        let vehicle = vehicle::load_with(&self.vehicle, &self.dampers, &self.overrides)?;
-        let track = track::load(&self.track)?;
+        let (vehicle, wheels) = vehicle::load_with_wheels(&self.vehicle, &self.dampers, overrides)?;
+        let contact = ContactParameters::new(&vehicle, wheels, contact, *friction)?;
+        let mut track = track::load(&self.track)?;
+        track.gauge_changes = contact.gauge_changes();
+        track.friction_ratios = contact.friction_ratios(*friction);
         let faults = fault::resolve(&self.faults, &vehicle, self.duration_s)?;
         let default_name = || {
             let Self {
@@ -298,7 +336,8 @@ impl CaseOptions {
             speed_m_per_s: self.speed_km_h / 3.6,
             duration_s: self.duration_s,
             start_m: self.start_m,
-            friction: self.friction,
+            friction: *friction,
+            contact,
             normal_damping_s_per_m: self.normal_damping_s_per_m,
             step_s: self.step_us / 1e6,
             push_m: self.push_m,

@@ -8,8 +8,10 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::error::Origin;
-use super::{CaseOptions, FaultOptions};
-use crate::lines::line_at;
+use super::{CaseError, CaseOptions, FaultOptions};
+use crate::FileError;
+use crate::contact::{ContactOptions, TABLE};
+use crate::lines::{line_at, lines_of_keys};
 use crate::shipped::{Found, resolve_name};
 use crate::vehicle::Replacement;
 
@@ -34,6 +36,7 @@ pub(super) struct CaseTables {
     dampers: BTreeMap<String, Spanned<String>>,
     #[serde(default)]
     fault: Vec<Spanned<FaultTable>>,
+    contact: Option<ContactOptions>,
 }
 
 /// Elastic rail support.
@@ -84,7 +87,10 @@ impl FaultTable {
 
 impl CaseTables {
     /// Converts the tables to options with their positions in the file.
-    pub fn options(self, found: &Found) -> CaseOptions {
+    ///
+    /// # Errors
+    /// The friction is given twice.
+    pub fn options(self, found: &Found) -> Result<CaseOptions, CaseError> {
         let Found { name, text, folder } = found;
         let mut lines = BTreeMap::new();
         let mut at = |key: &str, start: usize| {
@@ -106,7 +112,8 @@ impl CaseTables {
         };
         let duration_s = number("duration_s", self.duration_s, defaults.duration_s);
         let start_m = number("start_m", self.start_m, defaults.start_m);
-        let friction = number("friction", self.friction, defaults.friction);
+        let has_friction = self.friction.is_some();
+        let mut friction = number("friction", self.friction, defaults.friction);
         let normal_damping_s_per_m = number(
             "normal_damping_s_per_m",
             self.normal_damping_s_per_m,
@@ -126,9 +133,24 @@ impl CaseTables {
             at(&replacement.to_string(), start);
             dampers.push(replacement);
         }
+        let mut contact = self.contact.unwrap_or_default();
+        contact.resolve_files(folder);
+        for (key, line) in lines_of_keys(text, TABLE) {
+            lines.insert(format!("{TABLE}.{key}"), line);
+        }
+        if let Some(in_contact) = contact.friction.take() {
+            let line = lines.get("contact.friction").copied().unwrap_or(1);
+            if has_friction {
+                let message = "friction is also given outside [contact], allowed: one of the two";
+                return Err(FileError::in_line(Path::new(name), line, message).into());
+            }
+            lines.insert("friction".into(), line);
+            friction = in_contact;
+        }
         let mut overrides = Vec::new();
         for assignment in self.set {
-            at(assignment.get_ref(), assignment.span().start);
+            let line = line_at(text, assignment.span().start);
+            lines.insert(assignment.get_ref().clone(), line);
             overrides.push(assignment.into_inner());
         }
         let faults = self.fault.iter();
@@ -140,13 +162,14 @@ impl CaseTables {
         };
         let faults = self.fault.into_iter();
         let faults = faults.map(|fault| fault.into_inner().options(folder));
-        CaseOptions {
+        Ok(CaseOptions {
             name: Some(self.name),
             dampers,
             overrides,
             duration_s,
             start_m,
             friction,
+            contact,
             normal_damping_s_per_m,
             step_us,
             push_m,
@@ -154,6 +177,6 @@ impl CaseTables {
             faults: faults.collect(),
             origin: Some(origin),
             ..defaults
-        }
+        })
     }
 }

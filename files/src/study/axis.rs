@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use crate::case::CaseOptions;
+use crate::contact::{ContactOptions, TABLE};
 use crate::overrides::did_you_mean;
 use crate::shipped::resolve_name;
 use crate::vehicle::Replacement;
@@ -42,8 +43,10 @@ impl Value {
 
 /// True if the values of a parameter may be file names.
 pub(super) fn may_name_files(parameter: &str) -> bool {
-    let is_number = CaseOptions::NUMBERS.contains(&parameter);
-    !is_number && parameter != WORN_DAMPER && !parameter.contains('.')
+    match parameter.split_once('.') {
+        Some((table, key)) => table == TABLE && ContactOptions::FILES.contains(&key),
+        None => !CaseOptions::NUMBERS.contains(&parameter) && parameter != WORN_DAMPER,
+    }
 }
 
 impl fmt::Display for Value {
@@ -73,7 +76,7 @@ pub fn format_number(number: f64) -> String {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// One of: a number of the case (`speed_km_h`); `vehicle` or `track`; `dampers.table.key` or `part.key` as in an
-    /// override of the vehicle; dampers to replace (`vertical`); or `worn_damper`.
+    /// override of the vehicle; `contact.key`; dampers to replace (`vertical`); or `worn_damper`.
     pub parameter: String,
     /// Values, in the order of the cases.
     pub values: Vec<Value>,

@@ -10,6 +10,7 @@ use super::figure::{Figure, FigureTable};
 use super::vary::VaryTable;
 use super::{StudyFileError, StudyParameters, Sweep};
 use crate::case::{CaseError, CaseNumbers, CaseParts};
+use crate::contact::ContactOptions;
 use crate::lines::line_at;
 use crate::overrides::did_you_mean;
 use crate::shipped::{Found, resolve_name};
@@ -42,6 +43,7 @@ struct SweepTable {
     normal_damping_s_per_m: Option<f64>,
     step_us: Option<f64>,
     push_m: Option<f64>,
+    contact: Option<ContactOptions>,
     #[serde(default)]
     dampers: BTreeMap<String, String>,
     #[serde(default)]
@@ -193,6 +195,10 @@ impl SweepTable {
             .iter()
             .map(|(dampers, damper)| Replacement::named(dampers.clone(), resolve(damper)));
         case.dampers.extend(replacements);
+        if let Some(mut contact) = self.contact {
+            contact.resolve_files(folder);
+            case.replace_contact(contact);
+        }
         case.overrides.extend(self.set);
         let mut axes: Vec<Axis> = Vec::new();
         for vary in self.vary {

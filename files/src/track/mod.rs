@@ -63,6 +63,10 @@ pub struct TrackParameters {
     pub irregularity: IrregularityParameters,
     /// Single defects.
     pub defects: Vec<Defect>,
+    /// Changes of the gauge along the track, `[distance, change]`, m; empty if it does not change.
+    pub gauge_changes: Vec<[f64; 2]>,
+    /// Factors on the friction coefficient along the track, `[distance, left, right]`; empty if they are 1.
+    pub friction_ratios: Vec<[f64; 3]>,
     /// Name of the file in error messages.
     file: PathBuf,
     /// Line of the irregularity in the file.
@@ -81,6 +85,8 @@ impl TrackParameters {
             self.irregularity()?,
             self.defects.clone(),
         )
+        .and_then(|track| track.with_gauge(&self.gauge_changes))
+        .and_then(|track| track.with_friction(&self.friction_ratios))
         .map_err(|error| self.in_irregularity(error))
     }
 

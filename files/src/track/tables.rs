@@ -97,6 +97,8 @@ impl TrackTables {
             name: self.name,
             layout: track.layout().clone(),
             defects: track.defects().to_vec(),
+            gauge_changes: Vec::new(),
+            friction_ratios: Vec::new(),
             irregularity,
             file: file.to_owned(),
             irregularity_line,

@@ -3,6 +3,7 @@
 use dashpot_rail::vehicle::VehicleError;
 
 use super::Replacement;
+use crate::contact::ContactError;
 use crate::damper::DamperError;
 use crate::{FileError, UnknownName};
 
@@ -57,6 +58,14 @@ pub enum VehicleFileError {
         element: String,
         /// The problem with its damper.
         source: Box<DamperError>,
+    },
+    /// Invalid wheels.
+    #[error("{name}: {source}")]
+    Contact {
+        /// Name of the file or vehicle, with the line of the value.
+        name: String,
+        /// The problem.
+        source: ContactError,
     },
     /// Invalid parts.
     #[error("{name}: {source}")]

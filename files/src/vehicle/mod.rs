@@ -16,6 +16,8 @@ pub use error::VehicleFileError;
 pub use replacement::Replacement;
 use tables::VehicleFile;
 
+use crate::contact::{self, Wheels};
+use crate::lines;
 use crate::overrides::{self, Override, did_you_mean, explain};
 use crate::shipped::{Found, Shipped};
 
@@ -81,6 +83,25 @@ pub fn load_with(
     replacements: &[Replacement],
     overrides: &[String],
 ) -> Result<VehicleParameters, VehicleFileError> {
+    Ok(load_with_wheels(name, replacements, overrides)?.0)
+}
+
+/// Same as [`load_with`], but also loads the wheels, whose files are relative to the vehicle file.
+///
+/// # Errors
+/// Same errors as [`load_with`]; also an error for an unknown or invalid wheel profile.
+///
+/// ```
+/// let (vehicle, wheels) = dashpot_files::vehicle::load_with_wheels("coach", &[], &[])?;
+/// assert_eq!(wheels.profiles.len(), vehicle.wheelsets.len());
+/// assert_eq!(wheels.profiles[0][1].name(), "S1002");
+/// # Ok::<(), dashpot_files::vehicle::VehicleFileError>(())
+/// ```
+pub fn load_with_wheels(
+    name: &str,
+    replacements: &[Replacement],
+    overrides: &[String],
+) -> Result<(VehicleParameters, Wheels), VehicleFileError> {
     let found = SHIPPED.find::<VehicleFileError>(name)?;
     parse_in(&found, replacements, overrides)
 }
@@ -99,14 +120,14 @@ pub fn parse(
         text: text.to_owned().into(),
         folder: PathBuf::new(),
     };
-    parse_in(&found, &[], overrides)
+    Ok(parse_in(&found, &[], overrides)?.0)
 }
 
 fn parse_in(
     found: &Found,
     replacements: &[Replacement],
     overrides: &[String],
-) -> Result<VehicleParameters, VehicleFileError> {
+) -> Result<(VehicleParameters, Wheels), VehicleFileError> {
     let Found { name, text, folder } = found;
     let in_text = |error: toml::de::Error| VehicleFileError::Text {
         name: name.clone(),
@@ -123,12 +144,13 @@ fn parse_in(
     for assignment in part_overrides {
         set(&mut tree, assignment)?;
     }
-    let file: VehicleFile = tree
+    let mut file: VehicleFile = tree
         .try_into()
         .map_err(|error| VehicleFileError::Overridden {
             name: name.clone(),
             message: explain(&error),
         })?;
+    let wheels_table = std::mem::take(&mut file.contact);
     let mut vehicle = file.vehicle(&replaced, |part| locate(name, text, part))?;
     for assignment in damper_overrides {
         change::apply(&mut vehicle, assignment)?;
@@ -140,7 +162,15 @@ fn parse_in(
             .map_or_else(|| name.clone(), |part| locate(name, text, part)),
         source,
     })?;
-    Ok(vehicle)
+    let wheels = wheels_table.wheels(&vehicle, folder);
+    let wheels = wheels.map_err(|source| VehicleFileError::Contact {
+        name: match lines::lines_of_keys(text, contact::TABLE).get(source.key) {
+            Some(line) => format!("{name}:{line}"),
+            None => name.clone(),
+        },
+        source,
+    })?;
+    Ok((vehicle, wheels))
 }
 
 /// Returns the file name with the line of a part. The name of one of several identical parts ends with a number, which

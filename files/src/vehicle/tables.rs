@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use super::Replacement;
 use super::error::VehicleFileError;
+use crate::contact::WheelsTable;
 use crate::damper;
 
 #[derive(Deserialize)]
@@ -32,6 +33,8 @@ pub(super) struct VehicleFile {
     traction_rod: Vec<TractionRodTable>,
     #[serde(default)]
     ride_point: Vec<RidePointTable>,
+    #[serde(default)]
+    pub(super) contact: WheelsTable,
 }
 
 #[derive(Deserialize)]

@@ -3,6 +3,7 @@
 use std::fs;
 
 use dashpot_files::case::{CASES, Case, CaseOptions, FaultOptions};
+use dashpot_files::contact::ContactParameters;
 use dashpot_files::track::{self, IrregularityParameters};
 use dashpot_files::{damper, vehicle};
 use dashpot_rail::vehicle::RailSupport;
@@ -42,6 +43,7 @@ fn every_key_is_read() {
     let vehicle = vehicle::load_with("coach", &replaced, &["body.mass_kg=35e3".into()]).unwrap();
     let expected = Case {
         name: "ride".into(),
+        contact: ContactParameters::standard(&vehicle),
         vehicle,
         track: track::load("straight").unwrap(),
         speed_m_per_s: 25.0,

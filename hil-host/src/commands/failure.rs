@@ -186,6 +186,10 @@ impl From<CaseError> for Failure {
                 "{} {value}, allowed: {min} to {max}",
                 option_of(key)
             )),
+            CaseError::Override { assignment, reason } => {
+                Self::wrong_use(format!("--set {assignment}: {reason}"))
+            }
+            CaseError::Contact(error) => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }

@@ -36,6 +36,7 @@ mod streams;
 pub mod sweep;
 pub mod vehicle;
 pub mod verify;
+mod wheel_rail;
 
 use arguments::{DamperArguments, Format, RealtimeArguments};
 use failure::Outcome;

@@ -1,19 +1,20 @@
 //! `dashpot modes`: computes axle loads, natural modes and critical speed of a vehicle.
 
 use std::io::{self, Write};
-use std::sync::Arc;
 
 use dashpot_rail::contact::{ContactGeometry, WheelsetContact};
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::vehicle::{Mode, Running, Standstill, VehicleError, VehicleParameters};
 use serde::Serialize;
 
+use super::wheel_rail::WheelRailArguments;
 use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::NORMAL_DAMPING_S_PER_M;
+use dashpot_files::contact::{self, ContactOptions, ContactParameters, Wheels};
 use dashpot_files::vehicle::{self, VehicleFileError};
 use dashpot_vehicle_run::contact::ContactSetup;
-use dashpot_vehicle_run::{VehicleRunError, contact, hunting};
+use dashpot_vehicle_run::{VehicleRunError, hunting};
 
 /// Compute axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping and mode shape.
 #[derive(Debug, Clone, clap::Args)]
@@ -26,11 +27,11 @@ pub struct ModesArguments {
     /// Vehicle: built-in name (locomotive, coach) or TOML file.
     #[arg(long, default_value = "locomotive", value_name = "VEHICLE")]
     pub vehicle: String,
-    /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3. May be repeated.
+    /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3, or of the contact, such as
+    /// contact.residual_friction_ratio=0.5. May be repeated.
     #[arg(long = "set", value_name = "PART.KEY=VALUE")]
     pub overrides: Vec<String>,
-    /// Speed on straight track, km/h [default: standstill]. The wheels have the profile S1002, the rails UIC 60 at an
-    /// inclination of 1:40.
+    /// Speed on straight track, km/h [default: standstill].
     #[arg(long, value_name = "KM/H")]
     pub speed_km_h: Option<f64>,
     /// Search up to 500 km/h for the linear critical speed, at which a mode becomes unstable, and for the nonlinear
@@ -40,6 +41,9 @@ pub struct ModesArguments {
     /// Friction coefficient between wheel and rail.
     #[arg(long, default_value_t = 0.4, value_name = "MU")]
     pub friction: f64,
+    /// Wheels and rails.
+    #[command(flatten)]
+    pub contact: WheelRailArguments,
     /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -72,6 +76,9 @@ type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
 
 /// Speeds at which modes are computed, km/h.
 const SPEEDS_KM_H: std::ops::RangeInclusive<f64> = 1.0..=700.0;
+
+/// Friction coefficients.
+const FRICTION: std::ops::RangeInclusive<f64> = 0.0..=2.0;
 
 /// Maximum speed and step of the search for a critical speed, km/h.
 const MAX_SEARCH_KM_H: f64 = 500.0;
@@ -113,7 +120,13 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
         )));
     }
     let name = &arguments.vehicle;
-    let vehicle = vehicle::load(name, &arguments.overrides)?;
+    let mut options = ContactOptions::default();
+    let overrides = contact::apply_overrides(&mut options, &arguments.overrides);
+    let overrides = overrides.map_err(|(assignment, reason)| {
+        Failure::wrong_use(format!("--set {assignment}: {reason}"))
+    })?;
+    arguments.contact.add_to(&mut options);
+    let (vehicle, wheels) = vehicle::load_with_wheels(name, &[], &overrides)?;
     let refused = |source| VehicleFileError::Vehicle {
         name: name.clone(),
         source,
@@ -121,11 +134,13 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     let standstill = Standstill::new(&vehicle).map_err(refused)?;
     let (mut hunting, mut speed_km_h) = (None, arguments.speed_km_h);
     let modes = if arguments.hunting || speed_km_h.is_some() {
-        let contact = contact(name, &vehicle, arguments.friction)?;
+        let setup = setup(arguments, &vehicle, wheels, &options)?;
+        let contacts = setup.exact().map_err(|error| of_vehicle(name, &error))?;
+        let contacts: Vec<&Contact> = contacts.iter().map(AsRef::as_ref).collect();
         if arguments.hunting {
-            let critical = critical_speed_km_h(&vehicle, &contact).map_err(refused)?;
+            let critical = critical_speed_km_h(&vehicle, &contacts).map_err(refused)?;
             speed_km_h = Some(critical.unwrap_or(MAX_SEARCH_KM_H));
-            let cycle = limit_cycle(name, &vehicle, arguments.friction, critical)?;
+            let cycle = limit_cycle(name, &vehicle, &setup, critical)?;
             hunting = Some(HuntingRow {
                 critical_speed_km_h: critical,
                 greatest_speed_km_h: MAX_SEARCH_KM_H,
@@ -134,7 +149,7 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
             });
         }
         let modes =
-            modes_at(&vehicle, &contact, speed_km_h.unwrap_or_default()).map_err(refused)?;
+            modes_at(&vehicle, &contacts, speed_km_h.unwrap_or_default()).map_err(refused)?;
         modes
             .into_iter()
             .filter(|mode| mode.undamped_hz() < MAX_MODE_HZ)
@@ -152,33 +167,51 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     print_report(arguments.format, &report, print)
 }
 
-/// Creates the exact contact, without tables.
-fn contact(name: &str, vehicle: &VehicleParameters, friction: f64) -> Outcome<Contact> {
-    let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
-    let profiles = ContactSetup::new(vehicle, friction, NORMAL_DAMPING_S_PER_M);
-    let geometry = profiles
-        .map_err(VehicleRunError::from)
-        .and_then(|profiles| profiles.geometry());
-    let geometry = geometry.map_err(refused)?;
-    WheelsetContact::new(
-        Arc::new(geometry),
-        KalkerBook::new(),
-        contact::friction(friction),
-    )
-    .map_err(|error| Failure::wrong_use(format!("--friction: {error}")))
+/// Resolves the contact of the vehicle with the values of the options.
+///
+/// # Errors
+/// An invalid value, or values of one rail or along the track: the linear equations are those of uniform track.
+fn setup(
+    arguments: &ModesArguments,
+    vehicle: &VehicleParameters,
+    wheels: Wheels,
+    options: &ContactOptions,
+) -> Outcome<ContactSetup> {
+    let friction = options.friction.unwrap_or(arguments.friction);
+    if !FRICTION.contains(&friction) {
+        let (min, max) = (FRICTION.start(), FRICTION.end());
+        return Err(Failure::wrong_use(format!(
+            "--friction: {friction}, allowed: {min} to {max}"
+        )));
+    }
+    let contact = ContactParameters::new(vehicle, wheels, options, friction)
+        .map_err(|error| Failure::wrong_use(error.to_string()))?;
+    if !(contact.gauge_over_distance.is_empty() && contact.friction_over_distance.is_empty()) {
+        return Err(Failure::wrong_use(
+            "contact: values of one rail or along the track, allowed: values of the whole track, because modes are \
+             those of a vehicle on uniform track",
+        ));
+    }
+    let setup = ContactSetup::new(vehicle, &contact, friction, NORMAL_DAMPING_S_PER_M);
+    setup.map_err(|error| of_vehicle(&arguments.vehicle, &error.into()))
+}
+
+/// Reports an invalid vehicle.
+fn of_vehicle(name: &str, error: &VehicleRunError) -> Failure {
+    Failure::new(format!("{name}: {error}"))
 }
 
 /// Finds the lowest speed with a limit cycle, from a tenth of the linear critical speed to slightly above it.
 fn limit_cycle(
     name: &str,
     vehicle: &VehicleParameters,
-    friction: f64,
+    setup: &ContactSetup,
     critical_km_h: Option<f64>,
 ) -> Outcome<Option<hunting::Outcome>> {
-    let refused = |error: VehicleRunError| Failure::new(format!("{name}: {error}"));
-    let contact = contact::tabulated(vehicle, friction, NORMAL_DAMPING_S_PER_M).map_err(refused)?;
+    let refused = |error: VehicleRunError| of_vehicle(name, &error);
+    let contacts = setup.tabulated().map_err(refused)?;
     let max_m_per_s = 1.02 * critical_km_h.unwrap_or(MAX_SEARCH_KM_H) / 3.6;
-    let hunting = hunting::Hunting::new(vehicle, contact).map_err(refused)?;
+    let hunting = hunting::Hunting::new(vehicle, contacts).map_err(refused)?;
     hunting
         .critical(0.1 * max_m_per_s..=max_m_per_s)
         .map_err(refused)
@@ -186,19 +219,19 @@ fn limit_cycle(
 
 fn modes_at(
     vehicle: &VehicleParameters,
-    contact: &Contact,
+    contacts: &[&Contact],
     km_h: f64,
 ) -> Result<Vec<Mode>, VehicleError> {
-    Running::new(vehicle, contact, km_h / 3.6)?.modes()
+    Running::with_contacts(vehicle, contacts, km_h / 3.6)?.modes()
 }
 
 /// Finds the lowest speed at which a mode is unstable: search in steps, then bisection to 0.01 km/h.
 fn critical_speed_km_h(
     vehicle: &VehicleParameters,
-    contact: &Contact,
+    contacts: &[&Contact],
 ) -> Result<Option<f64>, VehicleError> {
     let grows = |km_h: f64| -> Result<bool, VehicleError> {
-        let modes = modes_at(vehicle, contact, km_h)?;
+        let modes = modes_at(vehicle, contacts, km_h)?;
         Ok(modes.iter().any(|mode| mode.damping_ratio() < 0.0))
     };
     let mut stable = 0.0;

@@ -45,6 +45,7 @@ mod standard_streams;
 mod step_size;
 mod sweep;
 mod vehicle;
+mod vehicle_contact;
 mod verify;
 mod verify_probed;
 mod wheel_load_beyond_the_model;

@@ -229,7 +229,7 @@ fn errors_name_the_problem_its_location_and_the_allowed_values() {
         (
             &["--speed-km-h", "80", "--friction", "3"],
             2,
-            "--friction: static friction coefficient: 3, allowed: 0 to 2",
+            "--friction: 3, allowed: 0 to 2",
         ),
         (
             &["--set", "body.mass_kg=-3"],

@@ -42,7 +42,13 @@ fn a_case_writes_histories_indices_and_a_page() {
     let results = folder.path().join("results");
     assert_eq!(
         files_in(&results),
-        ["history.csv", "indices.json", "report.html", "spectra.csv"]
+        [
+            "history.csv",
+            "indices.json",
+            "report.html",
+            "spectra.csv",
+            "wear.csv"
+        ]
     );
     assert_eq!(report["ending"]["reason"], "completed");
     assert_eq!(report["ticks"], 10_000);
@@ -104,6 +110,19 @@ fn a_case_writes_histories_indices_and_a_page() {
         for (found, [_, expected]) in found.iter().zip(expected) {
             assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
         }
+    }
+    // The wear over the profiles agrees with the summary, which says that it is an estimate.
+    let wear = &report["wear"];
+    assert!(wear["note"].as_str().unwrap().starts_with("Estimate"));
+    assert_eq!(wear["law"], "Archard, KTH chart");
+    let profiles = fs::read_to_string(results.join("wear.csv")).unwrap();
+    let depths = column(&profiles, "depth_um_per_1000km");
+    let wheels = wear["wheels"].as_array().unwrap();
+    assert_eq!((wheels.len(), depths.len() % 12), (12, 0));
+    for (wheel, depths) in wheels.iter().zip(depths.chunks(depths.len() / 12)) {
+        let deepest = depths.iter().copied().fold(0.0, f64::max);
+        let reported = number(&wheel["max_depth_um_per_1000km"]);
+        assert!(reported > 0.0 && (deepest / reported - 1.0).abs() < 1e-9);
     }
     // In the curve, the rails carry weight and centripetal force.
     let sum: f64 = (1..=6)
@@ -402,7 +421,13 @@ fn an_interrupted_run_keeps_what_was_computed() {
     assert!(error.contains("interrupted at"), "{error}");
     assert_eq!(
         files_in(&results),
-        ["history.csv", "indices.json", "report.html", "spectra.csv"]
+        [
+            "history.csv",
+            "indices.json",
+            "report.html",
+            "spectra.csv",
+            "wear.csv"
+        ]
     );
     let history = fs::read_to_string(results.join("history.csv")).unwrap();
     let fields = |line: &str| line.split(',').count();

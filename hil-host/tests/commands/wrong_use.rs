@@ -422,6 +422,35 @@ fn contact() {
             &["--wheel-format", "miniprof"],
             "s1002 is built in; a format or mirror is allowed for profile files only",
         ),
+        (&["--load-kn", "0"], "--load-kn: 0, allowed: 1 to 400 kN"),
+        (
+            &["--load-kn", "nan"],
+            "--load-kn: NaN, allowed: 1 to 400 kN",
+        ),
+        (
+            &["--load-kn", "100", "--lateral-mm", "0,13"],
+            "--lateral-mm: 13, allowed: -12 to 12 mm",
+        ),
+        (
+            &["--load-kn", "100", "--yaw-mrad", "-60"],
+            "--yaw-mrad: -60, allowed: -50 to 50 mrad",
+        ),
+        (
+            &["--load-kn", "100", "--speed-km-h", "0"],
+            "--speed-km-h: 0, allowed: 3.6 to 720 km/h",
+        ),
+        (
+            &["--load-kn", "100", "--friction", "1.2"],
+            "--friction: 1.2, allowed: 0.01 to 1",
+        ),
+        (&["--friction", "0.3"], "--load-kn <LOAD_KN>"),
+        (&["--lateral-mm", "3"], "--load-kn <LOAD_KN>"),
+        (
+            &["--left-wheel", "s1003"],
+            "s1003: no such profile, allowed: s1002",
+        ),
+        (&["--left-rail-mirror", "y"], "--left-rail <NAME|FILE>"),
+        (&["--rail", "-", "--left-rail", "-"], "--left-rail"),
     ] {
         wrong_use(&contact, options, part);
     }

@@ -179,7 +179,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
     }
     for line in [
         "case.json b' ' case.json: not the case that this FMU was exported with\n",
-        ".tables b' ' : damaged, or tables of another version\n",
+        ".tables b' ' : contact tables: damaged, or contact tables of other profiles or of another version\n",
         ".tables None : No such file or directory",
     ] {
         assert!(outputs[0].contains(line), "{line} in {}", outputs[0]);

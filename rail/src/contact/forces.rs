@@ -31,6 +31,10 @@ pub struct PatchForces {
     pub creep: CreepForces,
     /// Power dissipated by friction, W.
     pub dissipation_w: f64,
+    /// Maximum normal pressure of the whole patch that this one is a part of, Pa.
+    pub peak_pressure_pa: f64,
+    /// Derivative of the elastic load with respect to a motion along the normal, N/m.
+    pub stiffness_n_per_m: f64,
 }
 
 /// Forces of one rail on its wheel.
@@ -92,6 +96,8 @@ impl PatchForces {
             creepage: Creepage::of(patch.creepage),
             creep: CreepForces::of_components(patch.creep),
             dissipation_w: patch.dissipation,
+            peak_pressure_pa: patch.peak_pressure,
+            stiffness_n_per_m: patch.stiffness,
         };
     }
 

@@ -81,7 +81,11 @@ impl Installation {
         0.5 * self.back_to_back_m + self.back_to_datum_m
     }
 
-    pub(super) fn check(&self) -> Result<(), InstallationError> {
+    /// Checks every dimension, and the play between wheelset and rails.
+    ///
+    /// # Errors
+    /// A dimension is out of bounds.
+    pub fn check(&self) -> Result<(), InstallationError> {
         let allowed = [
             ("wheel radius", self.wheel_radius_m, 0.1, 1.0),
             ("back-to-back distance", self.back_to_back_m, 0.4, 2.0),

@@ -7,7 +7,8 @@ use fearless_simd::{Simd, f64x4};
 use super::motion::Tangent;
 use super::surface::Surface;
 use crate::creep::{
-    ContactLanes, CreepDerivatives, CreepLaw, Creepage, KalkerCoefficients, LoadedContact,
+    ContactLanes, CreepDerivatives, CreepLaw, Creepage, KalkerCoefficients, KalkerLookup,
+    LoadedContact,
 };
 use crate::math::each::Each;
 use crate::math::number::Number;
@@ -23,6 +24,8 @@ pub(super) struct Contact<T> {
     pub kalker: KalkerCoefficients<T>,
     /// Longitudinal creepage, lateral creepage, and spin, 1/m.
     pub creepage: [T; 3],
+    /// Factor on the friction coefficient of the surface.
+    pub friction_ratio: T,
 }
 
 /// A number type for which creep laws can be evaluated.
@@ -34,6 +37,9 @@ pub(super) trait CreepNumber: Number {
         reference_speed: Self,
         used: [bool; 4],
     ) -> [Self; 3];
+
+    /// Kalker's coefficients of an ellipse.
+    fn kalker(lookup: &KalkerLookup, semi_axes: [Self; 2]) -> KalkerCoefficients<Self>;
 }
 
 impl<S: Simd> CreepNumber for f64x4<S> {
@@ -49,11 +55,17 @@ impl<S: Simd> CreepNumber for f64x4<S> {
             semi_axes: contact.semi_axes,
             shear_modulus: surface.shear_modulus_pa,
             kalker: contact.kalker,
-            friction: surface.friction_in_lanes(contact.creepage, reference_speed),
+            friction: surface.friction_in_lanes(contact.creepage, reference_speed)
+                * contact.friction_ratio,
             creepage: contact.creepage,
         };
         let forces = surface.law.forces_in_lanes(&contacts, used);
         forces.each(|force| force * contact.fraction)
+    }
+
+    #[inline(always)]
+    fn kalker(lookup: &KalkerLookup, semi_axes: [Self; 2]) -> KalkerCoefficients<Self> {
+        lookup.at_lanes(semi_axes)
     }
 }
 
@@ -68,6 +80,8 @@ impl CreepNumber for Tangent {
         let creepage = Creepage::of(contact.creepage.map(|number| number.value()));
         let sliding_speed = creepage.magnitude() * reference_speed.value();
         let KalkerCoefficients { c11, c22, c23, c33 } = contact.kalker;
+        // The ratio depends on the rail, not on the motion.
+        let ratio = contact.friction_ratio.value();
         let loaded = LoadedContact {
             load_n: contact.load.value(),
             a_m: contact.semi_axes[0].value(),
@@ -79,10 +93,10 @@ impl CreepNumber for Tangent {
                 c23: c23.value(),
                 c33: c33.value(),
             },
-            friction: surface.friction.at(sliding_speed),
+            friction: surface.friction.at(sliding_speed) * ratio,
         };
         let derivatives = surface.law.forces_with_derivatives(&loaded, &creepage);
-        let friction_slope = surface.friction.slope_at(sliding_speed);
+        let friction_slope = surface.friction.slope_at(sliding_speed) * ratio;
         let friction = if friction_slope == 0.0 || sliding_speed == 0.0 {
             Self::constant(loaded.friction)
         } else {
@@ -91,6 +105,10 @@ impl CreepNumber for Tangent {
             Self::function(loaded.friction, [(friction_slope, sliding)])
         };
         contact.differentiated(&derivatives, friction)
+    }
+
+    fn kalker(lookup: &KalkerLookup, semi_axes: [Self; 2]) -> KalkerCoefficients<Self> {
+        lookup.at_dual(semi_axes)
     }
 }
 

@@ -32,10 +32,10 @@ pub struct Motion {
     pub yaw_rate_rad_per_s: f64,
 }
 
-/// Displacement of one rail from its nominal position, by track irregularity or its own movement.
+/// Displacement of one rail from its nominal position, by track irregularity or its own movement, and its friction.
 ///
 /// The fields are complete; none will be added.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RailDisplacement {
     /// Lateral displacement, right positive, m.
     pub lateral_m: f64,
@@ -49,6 +49,24 @@ pub struct RailDisplacement {
     pub roll_rad: f64,
     /// Rate of `roll_rad` at the wheel, rad/s.
     pub roll_rate_rad_per_s: f64,
+    /// Factor on the friction coefficient of the contact, dimensionless; 1 if the rail has the friction of the contact.
+    /// Below 1e-6 there is no friction.
+    pub friction_ratio: f64,
+}
+
+impl Default for RailDisplacement {
+    /// No displacement, and the friction of the contact.
+    fn default() -> Self {
+        Self {
+            lateral_m: 0.0,
+            vertical_m: 0.0,
+            lateral_velocity_m_per_s: 0.0,
+            vertical_velocity_m_per_s: 0.0,
+            roll_rad: 0.0,
+            roll_rate_rad_per_s: 0.0,
+            friction_ratio: 1.0,
+        }
+    }
 }
 
 /// Speed `v0` in the denominator `hypot(speed, v0)` of all creepages, m/s. Near standstill it turns the creep forces
@@ -57,6 +75,9 @@ pub const STANDSTILL_SPEED_M_PER_S: f64 = 0.05;
 
 /// Maximum magnitude of any field, in its unit; its square does not overflow.
 const MAX_MAGNITUDE: f64 = 1e9;
+
+/// Friction ratio below which there is no friction.
+const MIN_FRICTION_RATIO: f64 = 1e-6;
 
 /// True if the magnitudes of all numbers are accepted; false for NaN.
 // Not short-circuited, so that the comparisons run in parallel.
@@ -142,6 +163,7 @@ pub(super) struct RailNumbers<T> {
     pub vertical_velocity: T,
     pub roll: T,
     pub roll_rate: T,
+    pub friction_ratio: T,
 }
 
 impl RailDisplacement {
@@ -155,7 +177,20 @@ impl RailDisplacement {
             self.vertical_velocity_m_per_s,
             self.roll_rad,
             self.roll_rate_rad_per_s,
+            self.friction_ratio,
         ])
+    }
+}
+
+impl RailDisplacement {
+    /// The friction ratio, or zero if it is so small that a creepage divided by the friction could overflow.
+    #[inline(always)]
+    fn accepted_friction_ratio(&self) -> f64 {
+        if self.friction_ratio < MIN_FRICTION_RATIO {
+            0.0
+        } else {
+            self.friction_ratio
+        }
     }
 }
 
@@ -175,6 +210,7 @@ impl<T: Number> RailNumbers<T> {
             vertical_velocity: even(|rail| rail.vertical_velocity_m_per_s),
             roll: odd(|rail| rail.roll_rad),
             roll_rate: odd(|rail| rail.roll_rate_rad_per_s),
+            friction_ratio: even(RailDisplacement::accepted_friction_ratio),
         }
     }
 }

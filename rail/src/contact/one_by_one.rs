@@ -2,18 +2,43 @@
 
 use std::array::from_fn;
 
+use fearless_simd::dispatch;
+
 use super::forces::{WheelDerivatives, WheelsetForces};
 use super::frame::Frame;
 use super::loaded_zones::LoadedZones;
 use super::motion::{MOTION_FIELDS, Motion, MotionNumbers, RailDisplacement, RailNumbers, Tangent};
-use super::silhouette::WheelPose;
-use super::source::{PatchReader, PatchSource, differentiated};
+use super::source::{PatchReader, PatchSource};
 use super::wheel::{MovingWheel, Wrench, status};
 use super::wheelset::WheelsetContact;
-use super::zones::ZONES;
 use crate::creep::CreepLaw;
 
+/// Sign of quantities that change when mirrored about the track centre, for the left (0) and the right wheel.
+fn sign(side: usize) -> f64 {
+    if side == 0 { -1.0 } else { 1.0 }
+}
+
 impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
+    /// The right wheel, or the mirror image of the left wheel, over its rail.
+    #[inline]
+    pub(super) fn moving_wheel(
+        &self,
+        side: usize,
+        motion: &Motion,
+        rails: &[RailDisplacement; 2],
+    ) -> MovingWheel<Tangent> {
+        let sign = sign(side);
+        let numbers = MotionNumbers::new(motion, Tangent::variable, |value, field| {
+            Tangent::variable(value, field) * sign
+        });
+        let rail = RailNumbers::new(
+            |field| Tangent::constant(field(&rails[side])),
+            |field| Tangent::constant(sign * field(&rails[side])),
+        );
+        let lengths = self.lengths[side].map(|length| Tangent::constant(*length));
+        MovingWheel::new(Frame::new(&numbers), rail, lengths)
+    }
+
     #[inline]
     pub(super) fn update_one_by_one(
         &self,
@@ -27,42 +52,30 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         }
         let mut wrenches = Wrench::splat([0.0; 2]);
         for side in 0..2 {
-            let sign = if side == 0 { -1.0 } else { 1.0 };
-            let numbers = MotionNumbers::new(motion, Tangent::variable, |value, field| {
-                Tangent::variable(value, field) * sign
-            });
-            let rail = RailNumbers::new(
-                |field| Tangent::constant(field(&rails[side])),
-                |field| Tangent::constant(sign * field(&rails[side])),
-            );
-            let lengths = self.lengths[side].map(|length| Tangent::constant(*length));
-            let moving = MovingWheel::new(Frame::new(&numbers), rail, lengths);
+            let sign = sign(side);
+            let moving = self.moving_wheel(side, motion, rails);
             let wheel = &mut forces.wheels[side];
             let source = self.sources[side].as_ref();
-            let [lateral_m, roll_rad, yaw_rad] = moving.pose.map(|number| number.value());
-            let reader = source.locate(&WheelPose {
-                lateral_m,
-                roll_rad,
-                yaw_rad,
-            });
-            let heights = reader.interpenetrations_m();
-            let depth = moving.depth.value();
-            let loaded = |zone: usize| u32::from(heights[zone] + depth > 0.0) << zone;
-            let mut zones = LoadedZones::new((0..ZONES).map(loaded).sum(), wheel);
+            let (pose, depth_m) = (moving.pose(), moving.depth.value());
+            let reader = dispatch!(self.level, simd => source.locate(simd, &pose, depth_m));
+            let mut zones = LoadedZones::new(reader.loaded_zones(), wheel);
+            let growth = Tangent::constant(reader.growth_per_m());
             let (mut penetration_m, mut wheel_y_m) = (0.0_f64, f64::MAX);
             let mut wrench = Wrench::splat(Tangent::constant(0.0));
             while zones.are_left() {
                 let (zone, _) = zones.advance();
-                let (interpenetration, numbers) =
-                    differentiated(&reader, zone, heights[zone], moving.pose);
-                let depth = interpenetration + moving.depth;
-                let patch = moving.patch(&self.surface, depth, numbers, [true; 4]);
+                let [lateral, roll, yaw] = moving.pose;
+                let coordinates = [lateral, roll, yaw, moving.depth];
+                let (approach, numbers) = reader.differentiated(zone, coordinates);
+                let patch = moving.patch(&self.surface, [approach, growth], numbers, [true; 4]);
                 wrench.accumulate(&patch.wrench, |sum, term| sum + term);
                 let mut output = patch.output.values();
                 output.position[1] *= sign;
                 wheel.patches[zone].set(output);
                 penetration_m = penetration_m.max(output.penetration);
-                wheel_y_m = wheel_y_m.min(output.wheel_y);
+                if output.load > 0.0 {
+                    wheel_y_m = wheel_y_m.min(output.wheel_y);
+                }
             }
             wheel.status = status(
                 source.geometry().pair(),

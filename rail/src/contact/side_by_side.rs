@@ -10,6 +10,7 @@ use super::forces::{PatchForces, WheelsetForces};
 use super::frame::Frame;
 use super::loaded_zones::LoadedZones;
 use super::motion::{Motion, MotionNumbers, RailDisplacement, RailNumbers};
+use super::silhouette::WheelPose;
 use super::source::{PatchReader, PatchSource};
 use super::wheel::{MovingWheel, PatchOutput, Wrench, status};
 use super::wheelset::WheelsetContact;
@@ -51,6 +52,8 @@ struct TransposedOutput<S: Simd> {
     /// Four results per vector, one vector for each lane.
     fours: [[f64x4<S>; 4]; 4],
     dissipation: f64x4<S>,
+    peak_pressure: f64x4<S>,
+    stiffness: f64x4<S>,
 }
 
 impl<S: Simd> TransposedOutput<S> {
@@ -67,6 +70,8 @@ impl<S: Simd> TransposedOutput<S> {
             creepage: [xi, eta, phi],
             creep: [longitudinal, lateral, moment],
             dissipation,
+            peak_pressure,
+            stiffness,
         } = output;
         let y = y * load(y.simd, &SIDES);
         Self {
@@ -77,6 +82,8 @@ impl<S: Simd> TransposedOutput<S> {
                 rows([phi, longitudinal, lateral, moment]),
             ],
             dissipation,
+            peak_pressure,
+            stiffness,
         }
     }
 
@@ -98,16 +105,10 @@ impl<S: Simd> TransposedOutput<S> {
             creepage: [xi, eta, phi],
             creep: [longitudinal, lateral, moment],
             dissipation: self.dissipation[lane],
+            peak_pressure: self.peak_pressure[lane],
+            stiffness: self.stiffness[lane],
         });
     }
-}
-
-/// Bit mask of the lanes that are greater than zero.
-#[inline(always)]
-fn above_zero<S: Simd>(numbers: f64x4<S>) -> u32 {
-    let simd = numbers.simd;
-    let above = simd.simd_gt_f64x4(numbers, simd.splat_f64x4(0.0));
-    simd.to_bitmask_mask64x4(above) as u32
 }
 
 /// 1 in the lanes that are used, else 0. A table costs less than converting the booleans.
@@ -124,6 +125,24 @@ fn ones(used: [bool; 4]) -> [f64; 4] {
     };
     let [a, b, c, d] = used.each(usize::from);
     ONES[a | b << 1 | c << 2 | d << 3]
+}
+
+/// Finds the patches of the wheel in a lane.
+// Not a closure, because a closure that is called twice is not inlined.
+#[inline(always)]
+fn located<'a, S: Simd, P: PatchSource>(
+    simd: S,
+    source: &'a P,
+    moving: &MovingWheel<f64x4<S>>,
+    lane: usize,
+) -> P::Reader<'a> {
+    let [lateral_m, roll_rad, yaw_rad] = moving.pose.each(|number| number.lane(lane));
+    let pose = WheelPose {
+        lateral_m,
+        roll_rad,
+        yaw_rad,
+    };
+    source.locate(simd, &pose, moving.depth.lane(lane))
 }
 
 impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
@@ -146,14 +165,14 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
             self.lengths_in_lanes.map(|lengths| load(simd, lengths)),
         );
         let sources = [self.sources[0].as_ref(), self.sources[1].as_ref()];
-        let [left_reader, right_reader] = P::locate_both(simd, &self.finder, sources, moving.pose);
-        let left_heights = left_reader.interpenetrations_m();
-        let right_heights = right_reader.interpenetrations_m();
+        let left_reader = &located(simd, sources[0], &moving, 0);
+        let right_reader = &located(simd, sources[1], &moving, 1);
         let [left, right] = &mut forces.wheels;
-        let loaded = [
-            above_zero(load(simd, &left_heights) + moving.depth[0]),
-            above_zero(load(simd, &right_heights) + moving.depth[1]),
-        ];
+        let loaded = [left_reader.loaded_zones(), right_reader.loaded_zones()];
+        let [p, q] = [left_reader.approach_m(), right_reader.approach_m()];
+        let approach = load(simd, &[p, q, p, q]).not_negative();
+        let [p, q] = [left_reader.growth_per_m(), right_reader.growth_per_m()];
+        let growth = load(simd, &[p, q, p, q]);
         let mut left_zones = LoadedZones::new(loaded[0], left);
         let mut right_zones = LoadedZones::new(loaded[1], right);
         // One lane for each wheel.
@@ -169,16 +188,9 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
             }
             let used = [p, q, r, s];
             let mut numbers =
-                P::Reader::numbers_in_lanes(simd, [&left_reader, &right_reader], [a, b, c, d]);
-            numbers.load_fraction *= load(simd, &ones(used));
-            let heights = [
-                left_heights[a],
-                right_heights[b],
-                left_heights[c],
-                right_heights[d],
-            ];
-            let depth = (moving.depth + load(simd, &heights)).not_negative();
-            let patch = moving.patch(&self.surface, depth, numbers, used);
+                P::Reader::numbers_in_lanes(simd, [left_reader, right_reader], [a, b, c, d]);
+            numbers.load *= load(simd, &ones(used));
+            let patch = moving.patch(&self.surface, [approach, growth], numbers, used);
             wrench.accumulate(&patch.wrench, |sum, term| {
                 let (first, second) = simd.split_f64x4(term);
                 sum + (first + second)
@@ -236,17 +248,14 @@ mod tests {
     use fearless_simd::Level;
 
     use super::*;
-    use crate::contact::{ContactGeometry, Grid, Installation, Pair, Steel, Tables};
+    use crate::contact::{ContactGeometry, Installation, Pair, Steel, Tables};
     use crate::creep::{Friction, KalkerBook};
 
     #[test]
     fn baseline_instructions_give_the_same_forces() {
         let pair = Pair::standard(Installation::default()).unwrap();
-        let geometry = ContactGeometry::new(pair, Steel::default(), 100e3).unwrap();
-        let mut grid = Grid::default();
-        grid.roll_rad.cells = [1, 2, 1];
-        grid.yaw_squared_rad2.cells = [0, 1, 1];
-        let tables = Arc::new(Tables::new(geometry, grid).unwrap());
+        let geometry = ContactGeometry::new(pair, Steel::default()).unwrap();
+        let tables = Arc::new(Tables::new(geometry));
         let new = WheelsetContact::new(tables, KalkerBook::new(), Friction::default()).unwrap();
         let old = WheelsetContact {
             level: Level::baseline(),

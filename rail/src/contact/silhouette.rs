@@ -26,9 +26,6 @@ pub struct SilhouettePoint {
     pub track_y_m: f64,
     /// Depth of the wheel below the rail's surface when the tread datum is at the height of the rail's top, m.
     pub interpenetration_m: f64,
-    /// Interpenetration measured along the normal, `integral of cos(angle) d(interpenetration)` from the first point of
-    /// the wheel, m. It ranks points by how close they are to contact.
-    pub normal_height_m: f64,
     /// `dz/dy` of the wheel's surface across the track.
     pub slope: f64,
     /// Curvature of the rail minus that of the wheel, 1/m.
@@ -39,7 +36,6 @@ pub struct SilhouettePoint {
 #[derive(Debug, Clone)]
 pub struct TurnedWheel<'a> {
     pair: &'a Pair,
-    pub(super) roll_rad: f64,
     points: Vec<TurnedPoint>,
 }
 
@@ -98,7 +94,6 @@ impl Pair {
         let points = self.wheel().points().iter().zip(&self.wheel_slopes);
         TurnedWheel {
             pair: self,
-            roll_rad,
             points: points
                 .map(|(point, slope)| turn.point(point, *slope))
                 .collect(),
@@ -124,22 +119,16 @@ impl<'a> TurnedWheel<'a> {
         let datum = self.pair.installation().datum_offset_m() + lateral_m;
         let mut rail = Cursor::new(self.pair);
         let on_wheel = self.pair.wheel().points();
-        let (mut height, mut last) = (0.0, None);
         for (index, point) in self.points.iter().enumerate() {
             let track_y_m = datum + point.y;
             let Some((rail_z, rail_curvature)) = rail.at(track_y_m) else {
                 continue;
             };
             let interpenetration_m = point.z - rail_z;
-            if let Some((before, cos)) = last {
-                height += 0.5 * (point.cos + cos) * (interpenetration_m - before);
-            }
-            last = Some((interpenetration_m, point.cos));
             silhouette.push(SilhouettePoint {
                 index,
                 track_y_m,
                 interpenetration_m,
-                normal_height_m: height,
                 slope: point.slope,
                 curvature_per_m: rail_curvature - on_wheel[index].curvature_per_m,
             });

@@ -1,27 +1,25 @@
-//! Sources of the patches of a pose: precomputed tables, or the geometry itself.
+//! Sources of the patches of a wheel: precomputed tables, or the geometry itself.
 
 use std::array::from_fn;
 
 use fearless_simd::{Simd, SimdBase, f64x4};
 
+use super::elastic::{ElasticPatch, Fineness, Gap, Given, NormalContact, TurnedStrips};
 use super::geometry::ContactGeometry;
 use super::motion::Tangent;
+use super::patch_numbers::PatchNumbers;
 use super::silhouette::WheelPose;
-use super::tabulated_patch::{NUMBERS, PatchNumbers, TabulatedPatch};
 use super::zones::ZONES;
-use crate::math::number::Number;
 
 /// A source of the patches of a wheel.
 ///
-/// [`Tables`](super::Tables) serve real time. [`ContactGeometry`] is slow, but smooth and in double precision.
+/// [`Tables`](super::Tables) serve real time. [`ContactGeometry`] is slow, but without cells.
 pub trait PatchSource: sealed::Source {}
 
 impl<S: sealed::Source> PatchSource for S {}
 
 pub(super) mod sealed {
-    use std::fmt::Debug;
-
-    use fearless_simd::{Simd, f64x4};
+    use fearless_simd::Simd;
 
     use super::{ContactGeometry, PatchReader, WheelPose};
 
@@ -30,36 +28,28 @@ pub(super) mod sealed {
         where
             Self: 'a;
 
-        /// Locates the poses of a left and a right wheel.
-        type Finder: Clone + Debug + Send + Sync;
-
         fn geometry(&self) -> &ContactGeometry;
 
-        /// Locates `pose` in the source.
-        fn locate(&self, pose: &WheelPose) -> Self::Reader<'_>;
-
-        /// Builds the finder of a left and a right wheel.
-        fn finder(sides: [&Self; 2]) -> Self::Finder;
-
-        /// Locates the poses (lateral shift, roll, yaw) of the first two lanes, each in its own source.
-        fn locate_both<'a, S: Simd>(
-            simd: S,
-            finder: &Self::Finder,
-            sides: [&'a Self; 2],
-            pose: [f64x4<S>; 3],
-        ) -> [Self::Reader<'a>; 2];
+        /// Finds the patches of a wheel whose tread datum is `depth_m` below the top of the rail.
+        fn locate<S: Simd>(&self, simd: S, pose: &WheelPose, depth_m: f64) -> Self::Reader<'_>;
     }
 }
 
-/// Reads the patches of one pose.
+/// Reads the patches of one wheel.
 pub trait PatchReader {
     /// True if the source covers the pose.
     fn is_inside(&self) -> bool;
 
-    /// Interpenetration of each patch, m.
-    fn interpenetrations_m(&self) -> [f64; ZONES];
+    /// The zones that carry load, as a bit mask.
+    fn loaded_zones(&self) -> u32;
 
-    /// The numbers of one patch.
+    /// Depth below the first touch, m.
+    fn approach_m(&self) -> f64;
+
+    /// Derivative of the load with respect to the depth, divided by the load, 1/m; zero without load.
+    fn growth_per_m(&self) -> f64;
+
+    /// The numbers of the patch of one zone.
     fn numbers(&self, zone: usize) -> PatchNumbers<f64>;
 
     /// The numbers of four patches: the lanes are left, right, left and right wheel, each with its zone.
@@ -70,120 +60,167 @@ pub trait PatchReader {
         [a, b, c, d]: [usize; 4],
     ) -> PatchNumbers<f64x4<S>> {
         let lanes = [
-            left.numbers(a).to_array(),
-            right.numbers(b).to_array(),
-            left.numbers(c).to_array(),
-            right.numbers(d).to_array(),
+            left.numbers(a).into_array(),
+            right.numbers(b).into_array(),
+            left.numbers(c).into_array(),
+            right.numbers(d).into_array(),
         ];
         PatchNumbers::from_array(from_fn(|n| f64x4::from_fn(simd, |lane| lanes[lane][n])))
     }
 
-    /// Derivatives of one patch with respect to lateral shift, roll and yaw.
-    fn slopes(&self, zone: usize) -> [PatchSlopes; 3];
+    /// [`approach_m`](Self::approach_m) and the numbers of one zone, as functions of lateral shift, roll, yaw and
+    /// depth.
+    fn differentiated(
+        &self,
+        zone: usize,
+        coordinates: [Tangent; 4],
+    ) -> (Tangent, PatchNumbers<Tangent>);
 }
 
-/// Derivatives of a patch with respect to one coordinate of the pose.
-pub struct PatchSlopes {
-    pub interpenetration: f64,
-    pub numbers: PatchNumbers<f64>,
-}
-
-/// Interpenetration and numbers of one patch, differentiated with respect to `pose` (lateral shift, roll, yaw).
-#[inline(always)]
-pub(super) fn differentiated<R: PatchReader>(
-    reader: &R,
-    zone: usize,
-    interpenetration: f64,
-    pose: [Tangent; 3],
-) -> (Tangent, PatchNumbers<Tangent>) {
-    let (numbers, slopes) = (reader.numbers(zone).to_array(), reader.slopes(zone));
-    let function = |value: f64, slopes: [f64; 3]| {
-        Tangent::function(value, [0, 1, 2].map(|axis| (slopes[axis], pose[axis])))
-    };
-    let of_depth = slopes.each_ref().map(|slopes| slopes.interpenetration);
-    let of_numbers = slopes.map(|slopes| slopes.numbers.to_array());
-    (
-        function(interpenetration, of_depth),
-        PatchNumbers::from_array(from_fn::<_, NUMBERS, _>(|n| {
-            function(numbers[n], of_numbers.map(|slopes| slopes[n]))
-        })),
-    )
-}
-
-/// A pose evaluated from the geometry itself.
-pub struct ComputedPose<'a> {
+/// The elastic contact of one wheel, computed from the geometry itself.
+pub struct ComputedContact<'a> {
     geometry: &'a ContactGeometry,
     pose: WheelPose,
-    patches: [TabulatedPatch; ZONES],
+    depth_m: f64,
+    solution: Solution,
+}
+
+/// Patches of a wheel, and its depth below the first touch.
+struct Solution {
+    approach_m: f64,
+    patches: [ElasticPatch; ZONES],
+}
+
+/// Tolerance of the lengths of strips. The noise that it leaves is far below the differences that give derivatives.
+const TOLERANCE: f64 = 1e-9;
+/// Steps of the central differences: a micrometre, and a microradian, which is about a micrometre at the lever arm of a
+/// wheelset; and a tenth of a micrometre of depth.
+const STEPS: [f64; 4] = [1e-6, 1e-6, 1e-6, 1e-7];
+
+/// Depth below the first touch, and the numbers of a patch.
+type Values = (f64, [f64; 8]);
+
+impl ContactGeometry {
+    fn solution(&self, pose: &WheelPose, depth_m: f64) -> Solution {
+        let wheel = TurnedStrips::new(self.pair(), pose.roll_rad, pose.yaw_rad, Fineness::Fine);
+        let mut gap = Gap::default();
+        gap.fill(&wheel, pose.lateral_m, |_| -depth_m);
+        let mut contact = NormalContact::with_tolerance(TOLERANCE);
+        contact.solve(&gap, self.steel(), Given::DepthM(depth_m));
+        Solution {
+            approach_m: depth_m + gap.highest_m,
+            patches: self.patches_in(&gap, pose.lateral_m, &contact),
+        }
+    }
 }
 
 impl sealed::Source for ContactGeometry {
-    type Reader<'a> = ComputedPose<'a>;
-    type Finder = ();
+    type Reader<'a> = ComputedContact<'a>;
 
     fn geometry(&self) -> &ContactGeometry {
         self
     }
 
-    fn locate(&self, pose: &WheelPose) -> ComputedPose<'_> {
-        ComputedPose {
+    fn locate<S: Simd>(&self, _: S, pose: &WheelPose, depth_m: f64) -> ComputedContact<'_> {
+        ComputedContact {
             geometry: self,
             pose: *pose,
-            patches: self.patches(pose, &mut Vec::new()),
+            depth_m,
+            solution: self.solution(pose, depth_m),
         }
-    }
-
-    fn finder(_: [&Self; 2]) {}
-
-    fn locate_both<'a, S: Simd>(
-        _: S,
-        (): &(),
-        [left, right]: [&'a Self; 2],
-        pose: [f64x4<S>; 3],
-    ) -> [ComputedPose<'a>; 2] {
-        let in_lane = |lane: usize| {
-            let [lateral_m, roll_rad, yaw_rad] = pose.map(|number| number.lane(lane));
-            WheelPose {
-                lateral_m,
-                roll_rad,
-                yaw_rad,
-            }
-        };
-        [left.locate(&in_lane(0)), right.locate(&in_lane(1))]
     }
 }
 
-impl PatchReader for ComputedPose<'_> {
+impl ElasticPatch {
+    fn to_numbers(self) -> PatchNumbers<f64> {
+        PatchNumbers {
+            load: self.load_n,
+            whole_load: self.whole_load_n,
+            sine: self.slope / self.slope.hypot(1.0),
+            wheel_y: self.wheel_y_m,
+            wheel_z: self.wheel_z_m,
+            semi_axes: self.semi_axes_m,
+            peak_pressure: self.peak_pressure_pa,
+        }
+    }
+}
+
+impl PatchReader for ComputedContact<'_> {
     fn is_inside(&self) -> bool {
         true
     }
 
-    fn interpenetrations_m(&self) -> [f64; ZONES] {
-        self.patches.map(|patch| patch.interpenetration_m)
+    fn loaded_zones(&self) -> u32 {
+        let patches = self.solution.patches.iter().enumerate();
+        patches
+            .map(|(zone, patch)| u32::from(patch.load_n > 0.0) << zone)
+            .sum()
+    }
+
+    fn approach_m(&self) -> f64 {
+        self.solution.approach_m
+    }
+
+    /// As in Hertz's contact.
+    fn growth_per_m(&self) -> f64 {
+        if self.solution.approach_m > 0.0 {
+            1.5 / self.solution.approach_m
+        } else {
+            0.0
+        }
     }
 
     fn numbers(&self, zone: usize) -> PatchNumbers<f64> {
-        self.patches[zone].to_numbers()
+        self.solution.patches[zone].to_numbers()
     }
 
     /// Central differences.
-    fn slopes(&self, zone: usize) -> [PatchSlopes; 3] {
-        let mut scratch = Vec::new();
-        from_fn(|axis| {
-            let mut at = |step: f64| {
-                let mut pose = self.pose;
-                *[&mut pose.lateral_m, &mut pose.roll_rad, &mut pose.yaw_rad][axis] += step;
-                self.geometry.patches(&pose, &mut scratch)[zone]
+    fn differentiated(
+        &self,
+        zone: usize,
+        coordinates: [Tangent; 4],
+    ) -> (Tangent, PatchNumbers<Tangent>) {
+        let of = |solution: &Solution| {
+            let numbers = solution.patches[zone].to_numbers().into_array();
+            (solution.approach_m, numbers)
+        };
+        let slopes: [Values; 4] = from_fn(|axis| {
+            let at = |step: f64| {
+                let (mut pose, mut depth_m) = (self.pose, self.depth_m);
+                *[
+                    &mut pose.lateral_m,
+                    &mut pose.roll_rad,
+                    &mut pose.yaw_rad,
+                    &mut depth_m,
+                ][axis] += step;
+                of(&self.geometry.solution(&pose, depth_m))
             };
-            // A micrometre, or a microradian, which is about a micrometre at the lever arm of a wheelset.
-            let step = 1e-6;
-            let (before, after) = (at(-step), at(step));
-            let slope = |before: f64, after: f64| (after - before) / (2.0 * step);
-            let [from, to] = [before, after].map(|patch| patch.to_numbers().to_array());
-            PatchSlopes {
-                interpenetration: slope(before.interpenetration_m, after.interpenetration_m),
-                numbers: PatchNumbers::from_array(from_fn(|n| slope(from[n], to[n]))),
-            }
-        })
+            let step = STEPS[axis];
+            // Where the patch vanishes on one side, the difference to the other side counts.
+            let here = of(&self.solution);
+            let is_loaded = |end: &Values| end.1[0] > 0.0;
+            let end = |step: f64| Some((at(step), step)).filter(|(end, _)| is_loaded(end));
+            let ((before, from), (after, to)) = (
+                end(-step).unwrap_or((here, 0.0)),
+                end(step).unwrap_or((here, 0.0)),
+            );
+            let width = (to - from).max(step);
+            let slope = |before: f64, after: f64| (after - before) / width;
+            (
+                slope(before.0, after.0),
+                from_fn(|n| slope(before.1[n], after.1[n])),
+            )
+        });
+        let function = |value: f64, slope: &dyn Fn(&Values) -> f64| {
+            Tangent::function(
+                value,
+                from_fn::<_, 4, _>(|axis| (slope(&slopes[axis]), coordinates[axis])),
+            )
+        };
+        let (approach_m, numbers) = of(&self.solution);
+        (
+            function(approach_m, &|slopes| slopes.0),
+            PatchNumbers::from_array(from_fn(|n| function(numbers[n], &|slopes| slopes.1[n]))),
+        )
     }
 }

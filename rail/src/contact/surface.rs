@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, f64x4};
 
-use crate::creep::{Friction, FrictionError};
+use crate::creep::{Friction, FrictionError, KalkerLookup};
 use crate::math::number::{Number, load};
 
 /// Maximum normal damping, s/m; at an approach speed of 0.1 m/s it multiplies the elastic force by eleven.
@@ -31,6 +31,7 @@ pub(super) struct Surface<L> {
     pub law: L,
     pub friction: Friction,
     pub shear_modulus_pa: f64,
+    pub kalker: KalkerLookup,
     pub normal_damping_s_per_m: f64,
 }
 

@@ -5,13 +5,19 @@ use super::geometry::ContactGeometry;
 use super::loaded_contact::{Contact, CreepNumber};
 use super::motion::{RailNumbers, Tangent};
 use super::pair::Pair;
+use super::patch_numbers::PatchNumbers;
+use super::silhouette::WheelPose;
 use super::status::Status;
 use super::surface::Surface;
-use super::tabulated_patch::PatchNumbers;
 use crate::creep::{CreepLaw, MAX_CREEPAGE};
 use crate::math::each::Each;
 use crate::math::number::Number;
 
+/// Cosine of the steepest contact angle.
+const MIN_COSINE: f64 = 1e-3;
+/// Added to loads, so that a patch without load has no share like 0/0, N. Its reciprocal squared is a number of single
+/// precision, as derivatives are.
+const TINY: f64 = 1e-12;
 /// Normal penetration beyond which steel no longer stays elastic, m.
 pub const MAX_PENETRATION_M: f64 = 2e-3;
 
@@ -129,6 +135,8 @@ pub(super) struct PatchOutput<T> {
     pub creepage: [T; 3],
     pub creep: [T; 3],
     pub dissipation: T,
+    pub peak_pressure: T,
+    pub stiffness: T,
 }
 
 impl PatchOutput<Tangent> {
@@ -146,6 +154,8 @@ impl PatchOutput<Tangent> {
             creepage: three(self.creepage),
             creep: three(self.creep),
             dissipation: self.dissipation.value(),
+            peak_pressure: self.peak_pressure.value(),
+            stiffness: self.stiffness.value(),
         }
     }
 }
@@ -154,6 +164,18 @@ impl PatchOutput<Tangent> {
 pub(super) struct Patch<T> {
     pub wrench: Wrench<T>,
     pub output: PatchOutput<T>,
+}
+
+impl MovingWheel<Tangent> {
+    /// The pose relative to the rail.
+    pub fn pose(&self) -> WheelPose {
+        let [lateral_m, roll_rad, yaw_rad] = self.pose.map(|number| number.value());
+        WheelPose {
+            lateral_m,
+            roll_rad,
+            yaw_rad,
+        }
+    }
 }
 
 impl<T: CreepNumber> MovingWheel<T> {
@@ -179,29 +201,30 @@ impl<T: CreepNumber> MovingWheel<T> {
         }
     }
 
-    /// Evaluates the patch of `numbers` whose surfaces interpenetrate by `depth` along z, m, in the lanes that are
-    /// `used`.
+    /// Evaluates the patch of `numbers` in the lanes that are `used`, on a wheel that is `approach` below its first
+    /// touch, m, and whose load grows with the depth by `growth` times itself, 1/m.
     #[inline(always)]
     pub fn patch<L: CreepLaw>(
         &self,
         surface: &Surface<L>,
-        depth: T,
+        [approach, growth]: [T; 2],
         numbers: PatchNumbers<T>,
         used: [bool; 4],
     ) -> Patch<T> {
         let (frame, rail) = (&self.frame, &self.rail);
         let PatchNumbers {
+            load: elastic_load,
+            whole_load,
+            sine,
             wheel_y,
             wheel_z,
-            slope: rail_slope,
-            load_fraction: fraction,
-            stiffness,
-            a_factor,
-            b_factor,
-            kalker,
+            semi_axes,
+            peak_pressure,
         } = numbers;
-        let penetration = depth * cosine(rail_slope);
-        let slope = self.rail_roll.into_track(rail_slope);
+        let rail_cos = (-(sine * sine) + 1.0).limited(1.0).not_negative();
+        let rail_cos = (rail_cos + MIN_COSINE * MIN_COSINE).sqrt();
+        let penetration = approach * rail_cos;
+        let slope = self.rail_roll.into_track(sine / rail_cos);
         let cos = cosine(slope);
         let sin = slope * cos;
         let radius = wheel_z + self.lengths.radius;
@@ -218,26 +241,27 @@ impl<T: CreepNumber> MovingWheel<T> {
             - beside_top * rail.roll_rate
             - rail.vertical_velocity;
         let directed = frame.per_reference_speed * frame.direction;
-        let root = penetration.sqrt();
         let approach_speed = vz * cos - vy * sin;
-        // A merged patch carries a fraction of the load and of the creep forces.
+        let damping = surface.damping(approach_speed);
+        // A part of a patch carries its share of the load and of the creep forces.
         let contact = Contact {
-            load: stiffness * penetration * root * surface.damping(approach_speed),
-            fraction,
-            semi_axes: [a_factor * root, b_factor * root],
-            kalker,
+            load: whole_load * damping,
+            fraction: elastic_load / (whole_load + TINY),
+            semi_axes,
+            kalker: T::kalker(&surface.kalker, semi_axes),
             creepage: [
                 (vx * directed).limited(MAX_CREEPAGE),
                 ((vy * cos + vz * sin) * directed).limited(MAX_CREEPAGE),
                 ((wz * cos - wy * sin) * frame.per_reference_speed).limited(MAX_CREEPAGE),
             ],
+            friction_ratio: rail.friction_ratio,
         };
         let creep = T::creep_forces(&contact, surface, frame.reference_speed, used);
         let [longitudinal, lateral, spin_moment] = creep;
         let [xi, eta, phi] = contact.creepage;
         let dissipation =
             -(longitudinal * xi + lateral * eta + spin_moment * phi) * frame.reference_speed;
-        let load = contact.load * fraction;
+        let load = elastic_load * damping;
         let (fx, ft) = (longitudinal * frame.direction, lateral * frame.direction);
         let (fy, fz) = (ft * cos + load * sin, ft * sin - load * cos);
         Patch {
@@ -260,6 +284,8 @@ impl<T: CreepNumber> MovingWheel<T> {
                 creepage: contact.creepage,
                 creep,
                 dissipation,
+                peak_pressure,
+                stiffness: elastic_load * growth / rail_cos,
             },
         }
     }

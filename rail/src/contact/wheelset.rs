@@ -18,14 +18,11 @@ use crate::creep::{CreepLaw, Friction};
 /// ```
 /// # use std::sync::Arc;
 /// # use dashpot_rail::contact::{
-/// #     ContactGeometry, Grid, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
+/// #     ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
 /// # };
 /// # use dashpot_rail::creep::{Friction, Polach};
-/// # let mut grid = Grid::default();
-/// # grid.roll_rad.cells = [1, 2, 1];
-/// # grid.yaw_squared_rad2.cells = [0, 1, 1];
 /// let pair = Pair::standard(Installation::default())?;
-/// let tables = Tables::new(ContactGeometry::new(pair, Steel::default(), 100e3)?, grid)?;
+/// let tables = Tables::new(ContactGeometry::new(pair, Steel::default())?);
 /// let contact = WheelsetContact::new(Arc::new(tables), Polach, Friction::default())?;
 /// let shifted = Motion { lateral_m: 3e-3, vertical_m: 0.0708e-3, ..Motion::default() };
 /// let forces = contact.forces(&shifted, &[RailDisplacement::default(); 2]);
@@ -37,7 +34,6 @@ use crate::creep::{CreepLaw, Friction};
 pub struct WheelsetContact<L, S: PatchSource = Tables> {
     /// Sources of the left wheel (of its mirror image on the right side) and of the right wheel.
     pub(super) sources: [Arc<S>; 2],
-    pub(super) finder: S::Finder,
     pub(super) surface: Surface<L>,
     pub(super) lengths: [WheelLengths<f64>; 2],
     pub(super) lengths_in_lanes: WheelLengths<[f64; 4]>,
@@ -73,6 +69,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             law,
             friction,
             shear_modulus_pa: mean(|geometry| geometry.steel().shear_modulus_pa()),
+            kalker: left.geometry().kalker().mean(right.geometry().kalker()),
             normal_damping_s_per_m: 0.0,
         };
         let height_m = mean(|geometry| geometry.pair().installation().wheel_radius_m);
@@ -80,7 +77,6 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         let [left_lengths, right_lengths] = &lengths;
         let in_lanes = |left: &f64, right: &f64| [*left, *right, *left, *right];
         Ok(Self {
-            finder: S::finder([&left, &right]),
             surface,
             lengths_in_lanes: left_lengths.zip(right_lengths, in_lanes),
             lengths,
@@ -91,7 +87,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
 
     /// Sets the normal damping `beta` of Hunt and Crossley, s/m; the default is zero.
     ///
-    /// The load is `k penetration^1.5 (1 + beta w)`, where `w` is the approach speed of the surfaces. It is never
+    /// The elastic load is multiplied by `1 + beta w`, where `w` is the approach speed of the surfaces. It is never
     /// negative.
     ///
     /// # Errors

@@ -31,10 +31,9 @@ const AVOIDED_M: f64 = 25e-6;
 
 /// The cuts between the zones of a wheel, as functions of the lateral shift.
 ///
-/// Neighbouring zones without a valley between them share one patch
-/// ([`TurnedWheel::patches`](super::TurnedWheel::patches)), so there the position of a cut does not matter. A cut only
-/// has to follow a valley if there is one, and to move continuously, so that neighbouring nodes of the tables have the
-/// same zones.
+/// Neighbouring zones without a valley between them share one patch, so there the position of a cut does not matter. A
+/// cut only has to follow a valley if there is one, and to move continuously, so that neighbouring nodes of the tables
+/// have the same zones.
 #[derive(Debug, Clone)]
 pub struct Zones {
     flange_end: f64,

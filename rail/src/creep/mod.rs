@@ -36,6 +36,7 @@ pub mod kalker_book;
 mod law;
 mod loaded_contact;
 mod polach;
+mod shape;
 mod shen_hedrick_elkins;
 
 pub use contact_lanes::ContactLanes;
@@ -44,6 +45,7 @@ pub use derivatives::CreepDerivatives;
 pub use fastsim::Fastsim;
 pub use forces::CreepForces;
 pub use friction::{Friction, FrictionError};
+pub(crate) use kalker::KalkerLookup;
 pub use kalker::{KalkerCoefficients, KalkerError, KalkerTable};
 pub use kalker_book::KalkerBook;
 pub use law::{CreepLaw, linear_forces};

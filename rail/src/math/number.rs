@@ -102,6 +102,10 @@ impl<S: Simd> Number for f64x4<S> {
     }
 }
 
+/// A number whose last bit counts ones: added to a small number, it leaves the nearest whole one in the last 32 bits. A
+/// conversion with `as` takes more instructions, because it checks the range.
+pub const WHOLE: f64 = (3_u64 << 51) as f64;
+
 /// True if all lanes are greater than `low` and at most `high`; false for NaN.
 #[inline(always)]
 pub fn are_within<S: Simd>(numbers: f64x4<S>, low: f64, high: f64) -> bool {

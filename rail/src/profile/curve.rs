@@ -54,6 +54,7 @@ pub enum CurveError {
 
 /// One sample of a profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ProfilePoint {
     /// Lateral position, positive to the field side, m.
@@ -67,7 +68,8 @@ pub struct ProfilePoint {
 }
 
 /// A named profile: samples [`SAMPLE_SPACING_M`] apart along the arc length, with rising `y`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Profile {
     name: String,
     points: Vec<ProfilePoint>,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Location of an error in a track. Parts and defects are counted from 1.
+/// Location of an error in a track. Parts, defects and points are counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -12,6 +12,10 @@ pub enum Place {
     Defect(usize),
     /// The irregularity.
     Irregularity,
+    /// A point of the gauge over the distance.
+    Gauge(usize),
+    /// A point of the friction over the distance.
+    Friction(usize),
 }
 
 impl fmt::Display for Place {
@@ -20,6 +24,8 @@ impl fmt::Display for Place {
             Self::Part(number) => write!(f, "part {number} of the layout"),
             Self::Defect(number) => write!(f, "defect {number}"),
             Self::Irregularity => f.write_str("irregularity"),
+            Self::Gauge(number) => write!(f, "point {number} of the gauge"),
+            Self::Friction(number) => write!(f, "point {number} of the friction"),
         }
     }
 }

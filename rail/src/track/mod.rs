@@ -4,7 +4,9 @@
 //! - [`Irregularity`]: random or measured deviations, from a published [`Spectrum`] by [`Generation`] or from a file by
 //!   [`measured`].
 //! - [`Defect`]: an isolated dip, bump, kink or twist.
-//! - [`Track`]: the combination of all three. [`Track::at`] returns the alignment and the displacements of both rails.
+//! - [`Track`]: the combination of all three, with changes of gauge and friction along the track. [`Track::at`] returns
+//!   the alignment and the displacements of both rails, and [`Track::displacements`] what the contact needs of the
+//!   rails.
 //!
 //! The axes follow the layout and roll with the cant: x forward, y right, z down. Curvature is positive to the right;
 //! cant and cross level are positive if the left rail is higher. The deviations of the rails do not include the cant.
@@ -34,6 +36,7 @@ mod generation;
 mod irregularity;
 mod layout;
 pub mod measured;
+mod polyline;
 mod rails;
 mod spectrum;
 
@@ -45,12 +48,25 @@ pub use layout::{Alignment, Course, Layout, Part};
 pub use rails::{Channels, RailDeviation};
 pub use spectrum::{Density, Spectrum};
 
-/// Layout, irregularity and defects of a track.
+use polyline::Polyline;
+
+use crate::contact::RailDisplacement;
+
+/// Bounds of a change of the gauge, m.
+const GAUGE_CHANGE_M: [f64; 2] = [-0.1, 0.1];
+/// Bounds of a factor on the friction coefficient.
+const FRICTION_RATIO: [f64; 2] = [0.0, 1000.0];
+
+/// Layout, irregularity, defects, gauge and friction of a track.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Track {
     layout: Layout,
     irregularity: Irregularity,
     defects: Vec<Defect>,
+    /// Change of the gauge, m.
+    gauge: Option<Polyline<1>>,
+    /// Factors on the friction coefficient of the left and the right rail.
+    friction: Option<Polyline<2>>,
 }
 
 /// Alignment and rail displacements of a track at one distance.
@@ -81,7 +97,59 @@ impl Track {
             layout,
             irregularity,
             defects,
+            gauge: None,
+            friction: None,
         })
+    }
+
+    /// Widens the gauge by `change_m` at each `[distance_m, change_m]`, half on each rail: linear in between, constant
+    /// before the first and behind the last point. Without points, the gauge does not change.
+    ///
+    /// # Errors
+    /// Points less than 1 mm apart or not in order, or a change outside -0.1 to 0.1 m.
+    ///
+    /// ```
+    /// use dashpot_rail::track::Track;
+    /// let track = Track::default().with_gauge(&[[100.0, 0.0], [110.0, 0.02]])?;
+    /// let [left, right] = track.rails(105.0);
+    /// assert!((right.lateral_m - 5e-3).abs() < 1e-15 && (right.lateral_slope - 1e-3).abs() < 1e-15);
+    /// assert_eq!(left.lateral_m, -right.lateral_m);
+    /// # Ok::<(), dashpot_rail::track::TrackError>(())
+    /// ```
+    pub fn with_gauge(mut self, points_m: &[[f64; 2]]) -> Result<Self, TrackError> {
+        let points: Vec<_> = points_m
+            .iter()
+            .map(|[at_m, change_m]| (*at_m, [*change_m]))
+            .collect();
+        self.gauge = Polyline::new(
+            &points,
+            Place::Gauge,
+            "change of the gauge, m",
+            GAUGE_CHANGE_M,
+        )?;
+        Ok(self)
+    }
+
+    /// Multiplies the friction coefficient of the contact by `left` and `right` at each `[distance_m, left, right]`:
+    /// linear in between, constant before the first and behind the last point. Without points, both factors are 1.
+    ///
+    /// # Errors
+    /// Points less than 1 mm apart or not in order, or a factor outside 0 to 1000.
+    ///
+    /// ```
+    /// use dashpot_rail::track::Track;
+    /// let track = Track::default().with_friction(&[[0.0, 1.0, 1.0], [10.0, 1.0, 0.5]])?;
+    /// let [left, right] = track.displacements(5.0, 20.0);
+    /// assert_eq!([left.friction_ratio, right.friction_ratio], [1.0, 0.75]);
+    /// # Ok::<(), dashpot_rail::track::TrackError>(())
+    /// ```
+    pub fn with_friction(mut self, points: &[[f64; 3]]) -> Result<Self, TrackError> {
+        let points: Vec<_> = points
+            .iter()
+            .map(|[at_m, left, right]| (*at_m, [*left, *right]))
+            .collect();
+        self.friction = Polyline::new(&points, Place::Friction, "friction ratio", FRICTION_RATIO)?;
+        Ok(self)
     }
 
     /// Returns the alignment and the displacements of the rails at a distance.
@@ -104,7 +172,41 @@ impl Track {
                 *rail += deviation;
             }
         }
+        if let Some(gauge) = &self.gauge {
+            let at = gauge.at(distance_m);
+            let [change, slope] = [at.values[0], at.slopes[0]].map(|gauge| Channels {
+                gauge,
+                ..Channels::default()
+            });
+            for (rail, deviation) in rails
+                .iter_mut()
+                .zip(RailDeviation::left_and_right(&change, &slope))
+            {
+                *rail += deviation;
+            }
+        }
         rails
+    }
+
+    /// Returns the displacements and the friction of both rails under a wheelset at a distance, which runs at
+    /// `speed_m_per_s`. Does not allocate.
+    #[inline]
+    pub fn displacements(&self, distance_m: f64, speed_m_per_s: f64) -> [RailDisplacement; 2] {
+        let mut rails = self
+            .rails(distance_m)
+            .map(|rail| rail.displacement(speed_m_per_s));
+        if let Some(friction) = &self.friction {
+            for (rail, ratio) in rails.iter_mut().zip(friction.at(distance_m).values) {
+                rail.friction_ratio = ratio;
+            }
+        }
+        rails
+    }
+
+    /// Returns the distances at which the slope of the gauge or of the friction changes, m.
+    pub fn bends_m(&self) -> impl Iterator<Item = f64> + '_ {
+        let gauge = self.gauge.iter().flat_map(Polyline::distances_m);
+        gauge.chain(self.friction.iter().flat_map(Polyline::distances_m))
     }
 
     /// Returns the layout.

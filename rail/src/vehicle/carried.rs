@@ -8,9 +8,9 @@ use crate::creep::CreepLaw;
 pub(super) struct Carried {
     /// Vertical displacement as in [`Motion`], m.
     pub vertical_m: f64,
-    /// Rolling radius of the patch with the largest load, m.
+    /// Radius on which the wheelset rolls without a moment about its axle, m.
     pub rolling_radius_m: f64,
-    /// Energy of the patches, J: `2/5 N penetration` each (Hertz).
+    /// Elastic energy of the contact of both wheels, J.
     pub contact_j: f64,
     /// Forces of the left and right rail on their wheels, N.
     pub wheel_forces_n: [[f64; 3]; 2],
@@ -18,6 +18,8 @@ pub(super) struct Carried {
 
 /// Speed at which the contact is evaluated, m/s. Creep forces do not depend on it.
 const SPEED_M_PER_S: f64 = 20.0;
+/// Rotations of the largest and of the smallest wheel at this speed, rad/s.
+const ROTATIONS_RAD_PER_S: (f64, f64) = (SPEED_M_PER_S / 1.1, SPEED_M_PER_S / 0.09);
 
 impl Carried {
     /// Finds the height at which the rails carry `load`, by bisection; `None` if there is none within 2 mm.
@@ -34,27 +36,19 @@ impl Carried {
             rotation_rad_per_s: SPEED_M_PER_S / 0.5,
             ..Motion::default()
         };
-        let radius = |motion: &Motion| {
-            let patches = contact.forces(motion, &rails).wheels[1].patches;
-            let main = patches.iter().max_by(|a, b| a.load_n.total_cmp(&b.load_n));
-            main.map(|patch| patch.rolling_radius_m)
-        };
         // Twice, because longitudinal creep tilts the force slightly until the wheelset rolls freely.
         for _ in 0..2 {
             motion.vertical_m = carry(load, |vertical_m| {
                 motion.vertical_m = vertical_m;
                 -contact.forces(&motion, &rails).force_n[2]
             })?;
-            motion.rotation_rad_per_s = SPEED_M_PER_S / radius(&motion)?;
+            motion.rotation_rad_per_s = free_rotation(|rotation_rad_per_s| {
+                motion.rotation_rad_per_s = rotation_rad_per_s;
+                contact.forces(&motion, &rails).moment_n_m[1]
+            });
         }
         let forces = contact.forces(&motion, &rails);
-        let patches = forces
-            .wheels
-            .iter()
-            .flat_map(|wheel| wheel.loaded_patches());
-        let contact_j = patches
-            .map(|patch| 0.4 * patch.load_n * patch.penetration_m)
-            .sum();
+        let contact_j = contact.elastic_energy_j(&motion, &rails).iter().sum();
         Some(Self {
             contact_j,
             wheel_forces_n: [forces.wheels[0].force_n, forces.wheels[1].force_n],
@@ -72,6 +66,21 @@ impl Carried {
             ..Motion::default()
         }
     }
+}
+
+/// Rotation, rad/s, at which the rails neither drive nor brake the wheelset, by bisection: the faster the wheels turn,
+/// the more the moment about the axle brakes them, until they slide.
+fn free_rotation(mut moment_n_m: impl FnMut(f64) -> f64) -> f64 {
+    let (mut slow, mut fast) = ROTATIONS_RAD_PER_S;
+    for _ in 0..60 {
+        let middle = 0.5 * (slow + fast);
+        if moment_n_m(middle) > 0.0 {
+            fast = middle;
+        } else {
+            slow = middle;
+        }
+    }
+    0.5 * (slow + fast)
 }
 
 /// Lowers the wheelset until the rails carry more than `load`, then bisects.

@@ -127,6 +127,14 @@ pub enum VehicleError {
         /// Its load, N.
         load_n: f64,
     },
+    /// The number of contacts is not the number of wheelsets.
+    #[error("contacts: {contacts}, allowed: {wheelsets}, one for each wheelset")]
+    Contacts {
+        /// Number of contacts.
+        contacts: usize,
+        /// Number of wheelsets.
+        wheelsets: usize,
+    },
     /// The equations of motion contain a non-finite value, or the eigenvalue iteration does not converge.
     #[error(
         "the modes cannot be found: the values of stiffness, damping and mass are too far apart"
@@ -184,6 +192,7 @@ impl VehicleError {
             | Self::OtherVehicle
             | Self::OutsideForce { .. }
             | Self::NoBody
+            | Self::Contacts { .. }
             | Self::NoModes => None,
         }
     }

@@ -49,6 +49,25 @@ impl Running {
         contact: &WheelsetContact<L, S>,
         speed_m_per_s: f64,
     ) -> Result<Self, VehicleError> {
+        let contacts = vec![contact; vehicle.wheelsets.len()];
+        Self::with_contacts(vehicle, &contacts, speed_m_per_s)
+    }
+
+    /// Linearises the vehicle like [`Running::new`], with a contact for each wheelset.
+    ///
+    /// # Errors
+    /// Those of [`Running::new`], or a number of contacts other than that of the wheelsets.
+    pub fn with_contacts<L: CreepLaw, S: PatchSource>(
+        vehicle: &VehicleParameters,
+        contacts: &[&WheelsetContact<L, S>],
+        speed_m_per_s: f64,
+    ) -> Result<Self, VehicleError> {
+        if contacts.len() != vehicle.wheelsets.len() {
+            return Err(VehicleError::Contacts {
+                contacts: contacts.len(),
+                wheelsets: vehicle.wheelsets.len(),
+            });
+        }
         VehicleError::check(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         let standstill = Standstill::new(vehicle)?;
         let mut bodies = vehicle.bodies.clone();
@@ -61,13 +80,16 @@ impl Running {
         for ((ends, _), force) in ends.iter().zip(standstill.forces()) {
             linear.add_preload(ends, *force);
         }
-        // Most wheelsets carry the same load as the previous one.
-        let mut previous: Option<(f64, Central)> = None;
+        // Most wheelsets have the same contact and carry the same load as the previous one.
+        let mut previous: Option<(usize, f64, Central)> = None;
         for (number, wheelset) in vehicle.wheelsets.iter().enumerate() {
             let load_n = standstill.axle_loads_n()[number];
-            let is_same = |(load, _): &(f64, Central)| (load - load_n).abs() < 1e-9 * load;
+            let contact = contacts[number];
+            let is_same = |(number, load, _): &(usize, f64, Central)| {
+                std::ptr::eq(contacts[*number], contact) && (load - load_n).abs() < 1e-9 * load
+            };
             let central = match previous.take_if(|previous| is_same(previous)) {
-                Some((_, central)) => central,
+                Some((.., central)) => central,
                 None => Central::new(contact, speed_m_per_s, load_n).ok_or_else(|| {
                     VehicleError::NotCarried {
                         wheelset: wheelset.name.clone(),
@@ -81,7 +103,7 @@ impl Running {
             let momentum = wheelset.inertia_kg_m2[1] * central.rotation_rad_per_s;
             linear.damping[(first + 2, first + 4)] += momentum;
             linear.damping[(first + 4, first + 2)] -= momentum;
-            previous = Some((load_n, central));
+            previous = Some((number, load_n, central));
         }
         Ok(Self { bodies, linear })
     }

@@ -1,23 +1,18 @@
-//! Cached tables: identical bits, identified by content, replaced if damaged.
+//! Cached tables: identical bits, identified by content, replaced if damaged, bounded, and never needed.
 
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::time::{Duration, SystemTime};
 
-use dashpot_rail::contact::{
-    CacheError, ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelPose,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables};
 
-fn grid() -> Grid {
-    let mut grid = Grid::default();
-    grid.lateral_m.cells = [20, 60, 10];
-    grid.roll_rad.cells = [1, 2, 1];
-    grid.yaw_squared_rad2.cells = [0, 1, 1];
-    grid
-}
+use crate::common::{geometry, tables};
 
-fn geometry(nominal_load_n: f64) -> ContactGeometry {
-    let pair = Pair::standard(Installation::default()).unwrap();
-    ContactGeometry::new(pair, Steel::default(), nominal_load_n).unwrap()
+/// Content of the file of the shipped pair.
+fn bytes() -> &'static [u8] {
+    static BYTES: OnceLock<Vec<u8>> = OnceLock::new();
+    BYTES.get_or_init(|| tables().to_bytes())
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -25,71 +20,90 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     entries.map(|entry| entry.unwrap().path()).collect()
 }
 
-fn same(a: &Tables, b: &Tables) -> bool {
-    (0..400).all(|n| {
-        let n = f64::from(n);
-        let pose = WheelPose {
-            lateral_m: -0.02 + n * 2e-4,
-            roll_rad: 0.01 * n.sin(),
-            yaw_rad: 0.03 * n.cos(),
-        };
-        a.at(&pose) == b.at(&pose)
-    })
+fn cached(folder: &Path) -> Tables {
+    let cached = Tables::cached(folder, geometry().clone());
+    cached.is_kept.unwrap();
+    cached.tables
 }
 
 #[test]
-fn tables_are_identified_by_their_content() {
+fn a_file_is_short_and_gives_the_same_bits() {
+    assert!(bytes().len() <= 1_500_000, "{} bytes", bytes().len());
+    let again = Tables::from_bytes(geometry().clone(), bytes()).unwrap();
+    assert!(again == *tables());
+    assert!(again.bytes() <= 5_000_000);
+}
+
+#[test]
+fn bytes_of_other_profiles_or_with_errors_are_refused() {
+    let wider = Installation::default().with_gauge_m(1.436);
+    let other = ContactGeometry::new(Pair::standard(wider).unwrap(), Steel::default()).unwrap();
+    assert!(Tables::from_bytes(other.clone(), bytes()).is_err());
+    assert_ne!(Tables::file_name(&other), Tables::file_name(geometry()));
+    let refused = |bytes: &[u8]| Tables::from_bytes(geometry().clone(), bytes).is_err();
+    for length in [0, 15, 16, 48, 80, 81, bytes().len() / 2, bytes().len() - 1] {
+        assert!(refused(&bytes()[..length]), "{length}");
+    }
+    for position in [0, 15, 20, 50, 80, 1000, bytes().len() - 1] {
+        let mut flipped = bytes().to_vec();
+        flipped[position] ^= 1;
+        assert!(refused(&flipped), "{position}");
+    }
+}
+
+#[test]
+fn tables_are_computed_once() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path().join("made/on/demand");
-    let computed = Tables::new(geometry(100e3), grid()).unwrap();
-    let first = Tables::cached(&folder, geometry(100e3), grid()).unwrap();
+    let first = cached(&folder);
     let [written] = <[PathBuf; 1]>::try_from(files(&folder)).unwrap();
-    let time = fs::metadata(&written).unwrap().modified().unwrap();
-    let second = Tables::cached(&folder, geometry(100e3), grid()).unwrap();
-    assert!(same(&computed, &first) && same(&computed, &second));
-    assert_eq!(fs::metadata(&written).unwrap().modified().unwrap(), time);
-    // Another load and another grid need other tables.
-    let other = Tables::cached(&folder, geometry(50e3), grid()).unwrap();
-    assert!(!same(&computed, &other));
-    let mut finer = grid();
-    finer.lateral_m.cells[1] += 1;
-    Tables::cached(&folder, geometry(100e3), finer).unwrap();
-    assert_eq!(files(&folder).len(), 3);
+    assert_eq!(fs::read(&written).unwrap(), bytes());
+    // The file that is read is not written again, but its time tells that it was used.
+    let long_ago = SystemTime::now() - Duration::from_secs(1_000_000);
+    File::options()
+        .write(true)
+        .open(&written)
+        .and_then(|file| file.set_modified(long_ago))
+        .unwrap();
+    assert!(cached(&folder) == first);
+    let used = fs::metadata(&written).unwrap().modified().unwrap();
+    assert!(used > long_ago + Duration::from_secs(1000));
+    // A damaged file is replaced.
+    fs::write(&written, &bytes()[..1000]).unwrap();
+    assert!(cached(&folder) == first);
+    assert_eq!(fs::read(&written).unwrap(), bytes());
 }
 
 #[test]
-fn a_wrong_or_damaged_file_is_replaced() {
+fn the_files_not_used_for_longest_go() {
     let folder = tempfile::tempdir().unwrap();
-    let computed = Tables::cached(folder.path(), geometry(100e3), grid()).unwrap();
-    let [file] = <[PathBuf; 1]>::try_from(files(folder.path())).unwrap();
-    let whole = fs::read(&file).unwrap();
-    let mut flipped = whole.clone();
-    let middle = flipped.len() / 2;
-    flipped[middle] ^= 1;
-    for damaged in [&whole[..whole.len() - 1], &whole[..40], &[], &flipped] {
-        fs::write(&file, damaged).unwrap();
-        let again = Tables::cached(folder.path(), geometry(100e3), grid()).unwrap();
-        assert!(same(&computed, &again));
-        assert_eq!(fs::read(&file).unwrap(), whole);
-    }
-    // A complete file with this key but the nodes of another load, as if another method had computed them.
-    let other = tempfile::tempdir().unwrap();
-    Tables::cached(other.path(), geometry(90e3), grid()).unwrap();
-    let [strange] = <[PathBuf; 1]>::try_from(files(other.path())).unwrap();
-    let mut strange = fs::read(strange).unwrap();
-    strange[16..48].copy_from_slice(&whole[16..48]);
-    fs::write(&file, strange).unwrap();
-    let again = Tables::cached(folder.path(), geometry(100e3), grid()).unwrap();
-    assert!(same(&computed, &again));
-    assert_eq!(fs::read(&file).unwrap(), whole);
+    let now = SystemTime::now();
+    let megabytes = |name: &str, megabytes: u64, age_s: u64| {
+        let path = folder.path().join(name);
+        let file = File::create_new(&path).unwrap();
+        file.set_len(megabytes * 1_000_000).unwrap();
+        file.set_modified(now - Duration::from_secs(age_s)).unwrap();
+        path
+    };
+    let [oldest, left_over, young] = [
+        megabytes("oldest.tables", 60, 300),
+        megabytes("left-over.part", 60, 200),
+        megabytes("young.tables", 60, 100),
+    ];
+    let foreign = megabytes("notes.txt", 200, 1000);
+    cached(folder.path());
+    assert!(!oldest.exists() && !left_over.exists());
+    assert!(young.exists() && foreign.exists());
+    assert!(folder.path().join(Tables::file_name(geometry())).exists());
 }
 
 #[test]
-fn an_unusable_folder_is_an_error_that_names_it() {
+fn an_unusable_folder_only_costs_time() {
     let folder = tempfile::tempdir().unwrap();
     let occupied = folder.path().join("occupied");
     fs::write(&occupied, "a file").unwrap();
-    let error = Tables::cached(&occupied.join("tables"), geometry(100e3), grid()).unwrap_err();
-    assert!(matches!(error, CacheError::File { .. }), "{error}");
-    assert!(error.to_string().contains("occupied"), "{error}");
+    let cached = Tables::cached(&occupied.join("tables"), geometry().clone());
+    assert!(cached.tables == *tables());
+    let reason = cached.is_kept.unwrap_err().to_string();
+    assert!(reason.contains("occupied"), "{reason}");
 }

@@ -14,32 +14,47 @@ pub fn geometry() -> ContactGeometry {
     let steel = Steel::default()
         .with_young_modulus_pa(2.0 * 82e9 * 1.28)
         .with_poisson_ratio(0.28);
-    ContactGeometry::new(Pair::standard(installation).unwrap(), steel, 100e3).unwrap()
+    ContactGeometry::new(Pair::standard(installation).unwrap(), steel).unwrap()
 }
 
-/// One case: shift of the wheel, depth of its datum, and results.
+/// One case: shift of the wheel, depth of its datum, and results. Forces act on the rail.
 pub struct Case {
     pub lateral_m: f64,
     pub depth_m: f64,
     pub normal_n: f64,
     pub position_m: f64,
     pub peak_pressure_pa: f64,
+    pub force_n: [f64; 3],
+    pub spin_moment_n_m: f64,
 }
 
 pub fn cases(text: &str) -> Vec<Case> {
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let column = |name: &str| names.iter().position(|other| *other == name).unwrap();
-    let columns = ["y_mm", "z_ws_mm", "fn_n", "ycp_mm", "pmax_mpa"].map(column);
+    let columns = [
+        "y_mm",
+        "z_ws_mm",
+        "fn_n",
+        "ycp_mm",
+        "pmax_mpa",
+        "fx_rail_n",
+        "fy_rail_n",
+        "fz_rail_n",
+        "mn_patch_nmm",
+    ];
+    let columns = columns.map(|name| names.iter().position(|other| *other == name).unwrap());
     let case = |line: &str| {
         let fields: Vec<&str> = line.split(',').collect();
-        let [y, z, normal, position, peak] = columns.map(|k| fields[k].parse::<f64>().unwrap());
+        let [y, z, normal, position, peak, fx, fy, fz, moment] =
+            columns.map(|k| fields[k].parse::<f64>().unwrap());
         Case {
             lateral_m: 1e-3 * y,
             depth_m: 1e-3 * z,
             normal_n: normal,
             position_m: 1e-3 * position,
             peak_pressure_pa: 1e6 * peak,
+            force_n: [fx, fy, fz],
+            spin_moment_n_m: 1e-3 * moment,
         }
     };
     lines.map(case).collect()

@@ -246,6 +246,7 @@ proptest! {
         down in -1e-3..1e-3_f64,
     ) {
         let rail = |lateral: f64, vertical: f64| RailDisplacement {
+            friction_ratio: 1.0 + 100.0 * lateral.abs(),
             roll_rad: 0.5 * lateral,
             roll_rate_rad_per_s: lateral,
             lateral_m: lateral,
@@ -273,7 +274,7 @@ proptest! {
     }
 
     #[test]
-    fn no_input_causes_a_panic(numbers in prop::collection::vec(anything(), 16)) {
+    fn no_input_causes_a_panic(numbers in prop::collection::vec(anything(), 17)) {
         let n = &numbers;
         let motion = Motion {
             speed_m_per_s: n[0], lateral_m: n[1], vertical_m: n[2], roll_rad: n[3], yaw_rad: n[4],
@@ -290,6 +291,7 @@ proptest! {
             vertical_velocity_m_per_s: n[13],
             roll_rad: n[14],
             roll_rate_rad_per_s: n[15],
+            friction_ratio: n[16],
         };
         let forces = polach().forces(&motion, &[rail, RailDisplacement::default()]);
         prop_assert!(forces.force_n.iter().chain(&forces.moment_n_m).all(|x| x.is_finite()), "{:?}", forces);

@@ -13,7 +13,7 @@ use crate::common::{LEVEL, at_height_under_load, geometry, rolling, tables};
 
 fn of(installation: Installation) -> Arc<ContactGeometry> {
     let pair = Pair::standard(installation).unwrap();
-    Arc::new(ContactGeometry::new(pair, Steel::default(), 103e3).unwrap())
+    Arc::new(ContactGeometry::new(pair, Steel::default()).unwrap())
 }
 
 fn contact(
@@ -194,7 +194,7 @@ fn forces_are_blended_where_profiles_change_along_the_track() {
     let worn = Profile::through("worn", &worn, 0.0).unwrap();
     let wheel = geometry().pair().wheel().clone();
     let pair = Pair::new(wheel, &worn, Installation::default()).unwrap();
-    let worn = Arc::new(ContactGeometry::new(pair, Steel::default(), 103e3).unwrap());
+    let worn = Arc::new(ContactGeometry::new(pair, Steel::default()).unwrap());
     let new = Arc::new(geometry().clone());
     let (new, worn) = (
         contact([Arc::clone(&new), new]),

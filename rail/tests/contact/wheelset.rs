@@ -1,7 +1,8 @@
 //! Forces on a wheelset: statics, steering, small creepages, continuity, direction of travel, comparison of laws.
 
 use dashpot_rail::contact::{
-    Hertz, Motion, PatchForces, Status, Steel, WheelForces, WheelsetContact, WheelsetForces,
+    Hertz, Motion, PatchForces, Status, Steel, WheelForces, WheelPose, WheelsetContact,
+    WheelsetForces,
 };
 use dashpot_rail::creep::{
     CreepForces, CreepLaw, Creepage, Friction, KalkerBook, KalkerTable, LoadedContact, Polach,
@@ -19,7 +20,7 @@ fn single_patch(wheel: &WheelForces) -> &PatchForces {
 }
 
 #[test]
-fn a_centred_wheelset_rests_level_at_hertz_s_penetration() {
+fn a_centred_wheelset_rests_level_near_hertz_s_penetration() {
     let load = 206e3;
     let motion = at_height_under_load(polach(), &rolling(20.0), load);
     let forces = polach().forces(&motion, &LEVEL);
@@ -27,28 +28,25 @@ fn a_centred_wheelset_rests_level_at_hertz_s_penetration() {
     assert!((forces.force_n[2] + load).abs() < 1.0);
     assert!(forces.force_n[1].abs() < 1e-6 * load, "{forces:?}");
     let patch = single_patch(&forces.wheels[1]);
-    // At the contact point of the centred wheel, the contact angle is 1.9 degrees and the transverse curvature of the
-    // tread 1.2 per m.
-    let steel = Steel::default();
-    let wheel = geometry().pair().turned(0.0, 0.0);
-    let patches = wheel.patches(
-        0.0,
-        geometry().zones(),
-        geometry().softness_m(),
-        &mut Vec::new(),
-    );
-    let across = patches
-        .iter()
-        .find(|patch| patch.load_fraction > 0.99)
-        .unwrap()
-        .curvature_per_m;
+    // The profiles are not parabolas: their curvatures differ within the patch.
+    let point = geometry()
+        .pair()
+        .deepest(&WheelPose::default(), &mut Vec::new());
     let hertz = Hertz::new(
-        &steel,
+        &Steel::default(),
         patch.contact_angle_rad().cos() / patch.rolling_radius_m,
-        across,
+        point.curvature_per_m,
     );
+    let penetration_m = hertz.penetration_m(patch.load_n);
     assert!(
-        (hertz.load_n(patch.penetration_m) / patch.load_n - 1.0).abs() < 1e-5,
+        (patch.penetration_m / penetration_m - 1.0).abs() < 0.15,
+        "{patch:?} {penetration_m}"
+    );
+    // The peak pressure of a Hertzian ellipse is 1.5 times the mean. This patch is not quite one.
+    let [a, b] = patch.semi_axes_m;
+    let mean_pa = patch.load_n / (std::f64::consts::PI * a * b);
+    assert!(
+        (patch.peak_pressure_pa / mean_pa / 1.5 - 1.0).abs() < 0.3,
         "{patch:?}"
     );
     let vertical = patch.load_n * patch.contact_angle_rad().cos();
@@ -101,42 +99,39 @@ impl CreepLaw for Linear {
 }
 
 #[test]
-fn small_creepages_give_kalker_s_forces_on_the_whole_wheelset() {
-    // If both wheels rotate faster by xi = 2e-6, the force changes by twice G a b C11 xi, with the ellipse of the
-    // patch.
+fn small_creepages_give_kalker_s_force_on_a_wheel() {
+    // If the wheelset rotates faster by xi = 2e-6, the force changes by G a b C11 xi, with the ellipse of the patch.
+    // The rails are apart, where the pressure has one summit.
     let contact = polach();
-    let slow = at_height_under_load(contact, &rolling(20.0), 206e3);
-    let radius = single_patch(&contact.forces(&slow, &LEVEL).wheels[1]).rolling_radius_m;
-    let at = |ratio: f64| {
-        let motion = Motion {
-            rotation_rad_per_s: 20.0 / radius * ratio,
-            ..slow
-        };
-        contact.forces(&motion, &LEVEL)
+    let mut rails = LEVEL;
+    (rails[0].lateral_m, rails[1].lateral_m) = (-3e-3, 3e-3);
+    let slow = Motion {
+        vertical_m: 0.32e-3,
+        ..rolling(20.0)
+    };
+    let wheel = contact.forces(&slow, &rails).wheels[1];
+    let radius = wheel.loaded_patches().next().unwrap().rolling_radius_m;
+    let at = |ratio: f64| Motion {
+        rotation_rad_per_s: 20.0 / radius * ratio,
+        ..slow
     };
     let (less, more) = (at(1.0 - 1e-6), at(1.0 + 1e-6));
-    let patch = single_patch(&less.wheels[1]);
-    let k = KalkerTable::new(0.3)
-        .unwrap()
-        .at(patch.semi_axes_m[0] / patch.semi_axes_m[1]);
-    let expected =
-        2.0 * 80.769_230_769e9 * patch.semi_axes_m[0] * patch.semi_axes_m[1] * k.c11 * 2e-6;
-    let pull = more.force_n[0] - less.force_n[0];
+    let wheel = contact.forces(&less, &rails).wheels[1];
+    let load: f64 = wheel.loaded_patches().map(|patch| patch.load_n).sum();
+    assert!((60e3..200e3).contains(&load), "{load}");
+    let table = KalkerTable::new(0.3).unwrap();
+    // Patches in several zones are parts of one ellipse.
+    let stiffness = wheel.loaded_patches().map(|patch| {
+        let [a, b] = patch.semi_axes_m;
+        patch.load_n / load * 80.769_230_769e9 * a * b * table.at(a / b).c11
+    });
+    let expected = stiffness.sum::<f64>() * 2e-6;
+    let force = |forces: WheelsetForces| forces.wheels[1].force_n[0];
+    let pull = force(contact.forces(&more, &rails)) - force(contact.forces(&less, &rails));
     // In Polach's law, the spin reduces the adhesion even at this small creepage.
     assert!((pull / expected - 1.0).abs() < 0.25, "{pull} {expected}");
     let linear = WheelsetContact::new(tables(), Linear, Friction::default()).unwrap();
-    let of_linear = |ratio: f64| {
-        linear
-            .forces(
-                &Motion {
-                    rotation_rad_per_s: 20.0 / radius * ratio,
-                    ..slow
-                },
-                &LEVEL,
-            )
-            .force_n[0]
-    };
-    let pull = of_linear(1.0 + 1e-6) - of_linear(1.0 - 1e-6);
+    let pull = force(linear.forces(&more, &rails)) - force(linear.forces(&less, &rails));
     assert!((pull / expected - 1.0).abs() < 1e-3, "{pull} {expected}");
 }
 

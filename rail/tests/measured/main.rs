@@ -3,5 +3,6 @@
 mod common;
 mod damaged;
 mod formats;
+mod mistakes;
 mod overhang;
 mod smoothing;

@@ -2,6 +2,7 @@
 
 mod between_bodies;
 mod closed_forms;
+mod contacts;
 mod curves;
 mod errors;
 mod flange;

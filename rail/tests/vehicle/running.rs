@@ -34,7 +34,7 @@ pub fn cone() -> Contact {
         .collect();
     let wheel = Profile::through("cone", &points, 0.0).unwrap();
     let pair = Pair::new(wheel, &uic60::profile(), Installation::default()).unwrap();
-    let geometry = Arc::new(ContactGeometry::new(pair, Steel::default(), 100e3).unwrap());
+    let geometry = Arc::new(ContactGeometry::new(pair, Steel::default()).unwrap());
     WheelsetContact::new(geometry, KalkerBook::new(), Friction::default()).unwrap()
 }
 

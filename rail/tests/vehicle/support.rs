@@ -2,9 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 use dashpot_rail::creep::{Friction, KalkerBook};
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{
@@ -13,14 +11,14 @@ use dashpot_rail::vehicle::{
 
 pub type Contact = Arc<WheelsetContact<KalkerBook>>;
 
-/// S1002 on UIC 60 under wheels of 101.3 kN, with friction 0.3.
+/// S1002 on UIC 60, with friction 0.3.
 pub fn contact(normal_damping_s_per_m: f64) -> Contact {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
     let tables = TABLES.get_or_init(|| {
         let installation = Installation::STANDARD.with_wheel_radius_m(0.625);
         let pair = Pair::standard(installation).unwrap();
-        let geometry = ContactGeometry::new(pair, Steel::default(), 101.3e3).unwrap();
-        Arc::new(Tables::new(geometry, Grid::default()).unwrap())
+        let geometry = ContactGeometry::new(pair, Steel::default()).unwrap();
+        Arc::new(Tables::new(geometry))
     });
     let friction = Friction::default().with_static_coefficient(0.3);
     let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction).unwrap();

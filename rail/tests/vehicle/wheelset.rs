@@ -37,11 +37,13 @@ fn ramp(radius_m: f64, cant_m: f64) -> Track {
     Track::new(layout, Irregularity::default(), vec![]).unwrap()
 }
 
-/// Rolling radius of the centred wheelset, m.
+/// Speed divided by the rotation of the centred wheelset, m. Its creepage is the speed less that of the wheel's
+/// surface, divided by the speed.
 fn rolling_radius_m(straight: &VehicleState) -> f64 {
     let patches = straight.contacts()[0].wheels[1].loaded_patches();
     let main = patches.max_by(|a, b| a.load_n.total_cmp(&b.load_n));
-    main.unwrap().rolling_radius_m
+    let main = main.unwrap();
+    main.rolling_radius_m / (1.0 - main.creepage.longitudinal)
 }
 
 /// The wheelset spins forward, so its angular momentum points to the left, along the axle. The axle turns with the

@@ -36,7 +36,8 @@ pub(super) struct Rolling {
 /// The vehicle. Its state consists of the coordinates of bodies and wheelsets, their velocities, and the positions of
 /// the dampers' pistons.
 pub(super) struct Equations<'a, L, S: PatchSource> {
-    pub(super) contact: &'a WheelsetContact<L, S>,
+    /// Contact of each wheelset.
+    pub(super) contacts: Vec<&'a WheelsetContact<L, S>>,
     pub(super) inertia: Vec<Coordinates>,
     /// Wheelsets; their body indices follow those of the bodies.
     pub(super) wheelsets: Vec<Rolling>,
@@ -190,11 +191,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             yaw_rate_rad_per_s: v[4],
         };
         let distance = path.distance_of(body, time);
-        let rails = path
-            .track
-            .rails(distance)
-            .map(|rail| rail.displacement(path.speed));
-        (motion, rails)
+        (motion, path.track.displacements(distance, path.speed))
     }
 
     /// Computes all rates and forces at a state.
@@ -280,7 +277,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             let body = first + number;
             let (motion, rails) = self.contact_motion(situation, time, state, number);
             let contact = &mut outcome.contacts[number];
-            self.contact.update(&motion, &rails, contact);
+            self.contacts[number].update(&motion, &rails, contact);
             let roll = situation.following()[body].offset[2];
             let [_, y, z] = contact.force_n;
             let [about_x, about_y, about_z] = contact.moment_n_m;

@@ -91,11 +91,12 @@ impl<'a> Path<'a> {
         self.distance(time, self.runners[body + 1].x)
     }
 
-    /// Times up to `end` at which a runner reaches an edge of the layout or of a defect, in increasing order.
+    /// Times up to `end` at which a runner reaches an edge of the layout, of a defect, of the gauge or of the friction,
+    /// in increasing order.
     pub(super) fn edges(&self, end: f64) -> Vec<f64> {
         let layout = self.track.layout().starts_m();
         let defects = self.track.defects().iter().flat_map(ends);
-        let edges: Vec<f64> = layout.chain(defects).collect();
+        let edges: Vec<f64> = layout.chain(defects).chain(self.track.bends_m()).collect();
         let mut times: Vec<f64> = self
             .runners
             .iter()

@@ -95,6 +95,28 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         speed_m_per_s: f64,
         start_m: f64,
     ) -> Result<Self, ReferenceError> {
+        let contacts = vec![contact; vehicle.wheelsets.len()];
+        Self::with_contacts(vehicle, contacts, track, speed_m_per_s, start_m)
+    }
+
+    /// Builds the vehicle like [`VehicleReference::new`], with a contact for each wheelset.
+    ///
+    /// # Errors
+    /// Those of [`VehicleReference::new`], or a number of contacts other than that of the wheelsets.
+    pub fn with_contacts(
+        vehicle: &VehicleParameters,
+        contacts: Vec<&'a WheelsetContact<L, S>>,
+        track: &'a Track,
+        speed_m_per_s: f64,
+        start_m: f64,
+    ) -> Result<Self, ReferenceError> {
+        if contacts.len() != vehicle.wheelsets.len() {
+            return Err(VehicleError::Contacts {
+                contacts: contacts.len(),
+                wheelsets: vehicle.wheelsets.len(),
+            }
+            .into());
+        }
         // This only checks names and values; the solution is not used.
         Standstill::new(vehicle)?;
         VehicleError::check(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
@@ -125,7 +147,8 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
             });
         }
         let mut wheelsets = Vec::new();
-        for (wheelset, mut constant) in vehicle.wheelsets.iter().zip(on_wheelsets) {
+        let with_contacts = vehicle.wheelsets.iter().zip(&contacts);
+        for ((wheelset, contact), mut constant) in with_contacts.zip(on_wheelsets) {
             inertia.push(with_mass(wheelset.mass_kg, wheelset.inertia_kg_m2));
             runners.push(Runner {
                 x: wheelset.x_m,
@@ -151,7 +174,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         let path = Path::new(track, speed_m_per_s, start_m, &runners);
         let mut situation = Situation::new(path, ranges.collect());
         let equations = Equations {
-            contact,
+            contacts,
             inertia,
             wheelsets,
             couplings,

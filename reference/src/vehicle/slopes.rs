@@ -146,9 +146,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         for number in 0..self.wheelsets.len() {
             let body = self.bodies() - self.wheelsets.len() + number;
             let (motion, rails) = self.contact_motion(situation, time, state, number);
-            let wheels = self
-                .contact
-                .update_with_derivatives(&motion, &rails, &mut forces);
+            let wheels =
+                self.contacts[number].update_with_derivatives(&motion, &rails, &mut forces);
             for k in 0..N {
                 let by = |field: usize| -> f64 {
                     let derivative = |wheel: &dashpot_rail::contact::WheelDerivatives| match k {

@@ -38,7 +38,7 @@ pub fn geometry() -> Arc<ContactGeometry> {
         let steel = Steel::default()
             .with_young_modulus_pa(2.0 * 82e9 * 1.28)
             .with_poisson_ratio(0.28);
-        Arc::new(ContactGeometry::new(pair, steel, LOAD_N).unwrap())
+        Arc::new(ContactGeometry::new(pair, steel).unwrap())
     });
     Arc::clone(geometry)
 }

@@ -2,25 +2,20 @@
 
 use std::sync::{Arc, OnceLock};
 
-use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
-};
+use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 use dashpot_rail::creep::{Friction, Polach};
 use dashpot_rail::track::{Defect, Irregularity, Layout, Part, Rails, Track};
 use dashpot_rail::vehicle::{Body, Element, End, Law, VehicleParameters, Wheelset};
 
 pub type Contact = WheelsetContact<Polach, Tables>;
 
-/// S1002 on UIC 60 under wheels of 81 kN.
+/// S1002 on UIC 60.
 pub fn contact(static_coefficient: f64) -> Contact {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
     let tables = TABLES.get_or_init(|| {
         let pair = Pair::standard(Installation::default()).unwrap();
-        let geometry = ContactGeometry::new(pair, Steel::default(), 81e3).unwrap();
-        let mut grid = Grid::default();
-        grid.roll_rad.cells = [1, 2, 1];
-        grid.yaw_squared_rad2.cells = [0, 1, 1];
-        Arc::new(Tables::new(geometry, grid).unwrap())
+        let geometry = ContactGeometry::new(pair, Steel::default()).unwrap();
+        Arc::new(Tables::new(geometry))
     });
     let friction = Friction::constant(static_coefficient);
     WheelsetContact::new(Arc::clone(tables), Polach, friction).unwrap()

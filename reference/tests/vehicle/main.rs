@@ -8,3 +8,4 @@ mod common;
 mod damper_parameters;
 mod dampers;
 mod running;
+mod unequal;

@@ -6,6 +6,7 @@ use std::fmt::Debug;
 use sha2::{Digest as _, Sha256};
 
 use dashpot_files::case::Case;
+use dashpot_files::contact::ContactParameters;
 use dashpot_files::input;
 use dashpot_files::track::IrregularityParameters;
 use dashpot_files::{FileError, study::StudyFileError};
@@ -51,6 +52,7 @@ impl Digest {
             duration_s,
             start_m,
             friction,
+            contact,
             normal_damping_s_per_m,
             step_s,
             push_m,
@@ -61,6 +63,10 @@ impl Digest {
         self.add(&(speed_m_per_s, duration_s, start_m, friction));
         self.add(&(normal_damping_s_per_m, step_s, push_m));
         self.add(&(&track.layout, &track.defects));
+        // Rows that were kept before cases had a contact stay valid.
+        if !contact.is_standard(vehicle) {
+            self.add_contact(contact);
+        }
         match &track.irregularity {
             IrregularityParameters::Measured { file, options } => {
                 let bytes =
@@ -71,6 +77,14 @@ impl Digest {
             other => self.add(other),
         }
         Ok(())
+    }
+
+    /// Adds profiles, dimensions and friction, independent of the names of the profiles.
+    fn add_contact(&mut self, contact: &ContactParameters) {
+        for profile in contact.profiles() {
+            self.add(&profile.points());
+        }
+        self.add(&contact.without_profiles());
     }
 
     /// Returns the first 16 hexadecimal digits.

@@ -2,13 +2,12 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use dashpot_rail::contact::{Tables, WheelsetContact};
-use dashpot_rail::creep::KalkerBook;
+use dashpot_rail::contact::Tables;
 use dashpot_rail::track::Track;
 
 use dashpot_files::case::Case;
 use dashpot_files::track::TrackParameters;
-use dashpot_vehicle_run::contact::{self, ContactSetup, TablesKey};
+use dashpot_vehicle_run::contact::{Contact, ContactSetup, WheelOnRail};
 use dashpot_vehicle_run::{Run, VehicleRunError};
 
 /// Maximum number of cached tracks; each takes half a megabyte per kilometre.
@@ -16,16 +15,14 @@ const MAX_TRACKS: usize = 64;
 
 /// Maximum number of cached contacts.
 const MAX_CONTACTS: usize = 16;
-/// Maximum number of cached contact tables; each takes about 43 MB.
-const MAX_TABLES: usize = 4;
-
-type Contact = Arc<WheelsetContact<KalkerBook>>;
+/// Maximum number of cached contact tables; each takes 4 to 5 MB. A locomotive whose twelve wheels differ needs twelve.
+const MAX_TABLES: usize = 12;
 
 /// Cache of the contacts and tracks of recent cases.
 #[derive(Default)]
 pub struct Shared {
-    tables: Cache<TablesKey, Arc<Tables>>,
-    contacts: Cache<ContactSetup, Contact>,
+    tables: Cache<WheelOnRail, Arc<Tables>>,
+    contacts: Cache<ContactSetup, Vec<Contact>>,
     tracks: Cache<TrackParameters, Arc<Track>>,
 }
 
@@ -35,17 +32,18 @@ impl Shared {
     /// # Errors
     /// Same errors as [`Run::new`].
     pub fn run(&self, case: &Case) -> Result<Run, VehicleRunError> {
-        let setup = ContactSetup::new(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
-        let contact = self.contacts.get(MAX_CONTACTS, setup, |setup| {
-            let tables = self
-                .tables
-                .get(MAX_TABLES, setup.tables_key(), |_| setup.tables())?;
-            contact::from_tables(tables, setup)
+        let setup = ContactSetup::of_case(case)?;
+        let contacts = self.contacts.get(MAX_CONTACTS, setup, |setup| {
+            let tables = setup.pairs().iter().map(|pair| {
+                self.tables
+                    .get(MAX_TABLES, pair.clone(), WheelOnRail::tables)
+            });
+            setup.contacts(&tables.collect::<Result<Vec<_>, _>>()?)
         })?;
         let track = self.tracks.get(MAX_TRACKS, case.track.clone(), |track| {
             track.build().map(Arc::new)
         })?;
-        Run::on(case, contact, track)
+        Run::on(case, contacts, track)
     }
 }
 

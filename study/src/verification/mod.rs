@@ -13,8 +13,9 @@ use dashpot_reference::vehicle::VehicleReference;
 use crate::verification::deviations::Trace;
 use dashpot_files::case::Case;
 use dashpot_vehicle_run::Sample;
+use dashpot_vehicle_run::VehicleRunError;
+use dashpot_vehicle_run::contact::ContactSetup;
 use dashpot_vehicle_run::{Ending, Run};
-use dashpot_vehicle_run::{VehicleRunError, contact};
 
 /// Relative tolerance of the reference solution.
 pub const TOLERANCE: f64 = 1e-8;
@@ -50,11 +51,12 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleRunErr
 /// # Errors
 /// Same errors as [`Run::new`]; also an error if the tolerance cannot be reached.
 pub fn reference(case: &Case, stepped: &Trace, tolerance: f64) -> Result<Trace, VerificationError> {
-    let contact = contact::tabulated(&case.vehicle, case.friction, case.normal_damping_s_per_m)?;
+    let contacts = ContactSetup::of_case(case).map_err(VehicleRunError::from)?;
+    let contacts = contacts.tabulated()?;
     let built_track = case.track.build().map_err(VehicleRunError::from)?;
-    let mut solver = VehicleReference::new(
+    let mut solver = VehicleReference::with_contacts(
         &case.vehicle,
-        &contact,
+        contacts.iter().map(AsRef::as_ref).collect(),
         &built_track,
         case.speed_m_per_s,
         case.start_m,

@@ -11,7 +11,7 @@ pub use body::{BodyIndices, UnbalancedIndices};
 use body::{BodySums, unbalanced};
 use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::Standstill;
-pub use nadal::Nadal;
+pub use nadal::{Nadal, NadalWheel};
 use ride::Ride;
 pub use ride::{RideError, RideIndices, check_ride};
 use serde::Serialize;
@@ -39,8 +39,10 @@ pub struct Indices {
     pub ride: Vec<RideIndices>,
     /// Distance over which wheel and wheelset forces are averaged, m.
     pub window_m: f64,
-    /// Nadal's limit of `Y/Q`.
+    /// Nadal's limit of `Y/Q`; the lowest if wheels have different limits.
     pub nadal: Nadal,
+    /// Nadal's limits of all wheels: one for each distinct wheel profile and friction.
+    pub nadal_limits: Vec<Nadal>,
     /// Forces of each wheelset.
     pub wheelsets: Vec<WheelsetIndices>,
     /// Maximum magnitude of each damper's force, N.
@@ -53,7 +55,7 @@ pub struct Indexer {
     ticks: u64,
     step_s: f64,
     tick_m: f64,
-    nadal: Nadal,
+    nadal: Vec<Nadal>,
     bodies: Vec<BodySums>,
     unbalanced: Statistics,
     /// `None` if the ride indices are not defined for this step size.
@@ -88,7 +90,7 @@ impl Indexer {
         } = case;
         let tick_m = speed_m_per_s * step_s;
         let window = ((WINDOW_M / tick_m).round() as usize).max(1);
-        let nadal = Nadal::new(case.friction);
+        let (nadal, nadal_of) = Nadal::of_case(case);
         // Every vehicle that can run has an equilibrium at standstill; without one, loads are not compared with it.
         let standstill = Standstill::new(vehicle).ok();
         let axle_load_n = |index: usize| {
@@ -101,15 +103,16 @@ impl Indexer {
             ticks: 0,
             step_s: *step_s,
             tick_m,
-            nadal,
             bodies: bodies.map(|body| BodySums::new(&body.name)).collect(),
             unbalanced: Statistics::default(),
             ride: Ride::new(vehicle, *step_s).ok(),
             wheelsets: wheelsets
                 .map(|(index, wheelset)| {
-                    WheelsetSums::new(&wheelset.name, axle_load_n(index), window, nadal.limit)
+                    let limits = nadal_of[index].map(|of_wheel| nadal[of_wheel].limit);
+                    WheelsetSums::new(&wheelset.name, axle_load_n(index), window, limits)
                 })
                 .collect(),
+            nadal,
             dampers: vec![0.0; vehicle.dampers().count()],
         }
     }
@@ -143,11 +146,13 @@ impl Indexer {
         }
     }
 
-    /// Returns the indices of all ticks so far; `None` before the first tick.
+    /// Returns the indices of all ticks so far; `None` before the first tick, or if the vehicle has no wheelsets.
     pub fn indices(&self) -> Option<Indices> {
         if self.ticks == 0 {
             return None;
         }
+        let lowest = self.nadal.iter();
+        let lowest = lowest.min_by(|a, b| a.limit.total_cmp(&b.limit))?;
         let ride = self.ride.as_ref();
         let wheelsets = self.wheelsets.iter();
         Some(Indices {
@@ -156,7 +161,8 @@ impl Indexer {
             unbalanced: unbalanced(&self.unbalanced),
             ride: ride.map(Ride::indices).unwrap_or_default(),
             window_m: WINDOW_M,
-            nadal: self.nadal,
+            nadal: lowest.clone(),
+            nadal_limits: self.nadal.clone(),
             wheelsets: wheelsets
                 .map(|wheelset| wheelset.indices(self.tick_m))
                 .collect(),

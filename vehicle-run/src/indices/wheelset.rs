@@ -42,15 +42,14 @@ pub(super) struct WheelsetSums {
 }
 
 impl WheelsetSums {
-    /// Starts with windows of `window` ticks and Nadal's limit `nadal`.
-    pub fn new(name: &str, axle_load_n: Option<f64>, window: usize, nadal: f64) -> Self {
-        let wheel = WheelSums::new(window, nadal);
+    /// Starts with windows of `window` ticks and Nadal's limits of the left and the right wheel.
+    pub fn new(name: &str, axle_load_n: Option<f64>, window: usize, nadal: [f64; 2]) -> Self {
         Self {
             name: name.to_owned(),
             axle_load_n,
             lateral: Windowed::new(window),
             wear: Statistics::default(),
-            wheels: [wheel.clone(), wheel],
+            wheels: nadal.map(|limit| WheelSums::new(window, limit)),
         }
     }
 

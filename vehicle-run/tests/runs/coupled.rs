@@ -19,8 +19,13 @@ fn case(vehicle: &str, fault: &str) -> Case {
 }
 
 fn coupled(definition: &CoupledCase) -> Coupled {
-    let tables = definition.contact().unwrap().tables().unwrap();
-    Coupled::new(definition, tables).unwrap()
+    let contact = definition.contact().unwrap();
+    let tables: Vec<_> = contact
+        .pairs()
+        .iter()
+        .map(|pair| pair.tables().unwrap())
+        .collect();
+    Coupled::new(definition, &tables).unwrap()
 }
 
 fn bits(vehicle: &Coupled) -> Vec<u64> {

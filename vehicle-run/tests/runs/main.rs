@@ -1,4 +1,6 @@
 //! Runs of vehicles: coupling with external dampers, and indices.
 
+mod contacts;
 mod coupled;
 mod vehicle_indices;
+mod wear;

@@ -12,9 +12,15 @@ use dashpot_report::plot::style::{
 
 /// Draws the wheel over the rail with lines between the contact points for each lateral shift in `contacts`.
 ///
+/// `side` is 0 for the left wheel, which is drawn as its mirror image, and 1 for the right wheel.
+///
 /// # Errors
 /// The drawing fails.
-pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, DrawError> {
+pub fn contact_points(
+    pair: &Pair,
+    contacts: &[RigidContact],
+    side: usize,
+) -> Result<String, DrawError> {
     /// Height by which the wheel is lifted in the drawing to leave space for the lines, mm.
     const LIFT: f64 = 30.0;
     /// Width and height of margins, labels and title, pixels.
@@ -40,7 +46,8 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
     let height = (scale * (y.end - y.start) + MARGINS[1]).round() as u32;
     draw(width, height, |area| {
         let title = format!(
-            "Contact points, right side: {} on {}",
+            "Contact points, {}: {} on {}",
+            ["left side as its mirror image", "right side"][side],
             pair.wheel().name(),
             pair.rail().name()
         );
@@ -57,7 +64,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
             .iter()
             .fold(1e-9, |max: f64, c| max.max(c.lateral_m.abs()));
         for contact in contacts {
-            let side = &contact.sides[1];
+            let side = &contact.sides[side];
             let relative_shift = contact.lateral_m / max_shift;
             let colour = if relative_shift < -1e-9 {
                 BLUE_LINE
@@ -89,7 +96,7 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
         let mut last_label = (f64::MAX, f64::MAX);
         for contact in contacts {
             let shift = contact.lateral_m * 1e3;
-            let side = &contact.sides[1];
+            let side = &contact.sides[side];
             let at = (side.wheel_y_m * 1e3 + datum, LIFT - side.wheel_z_m * 1e3);
             let whole = (shift - shift.round()).abs() < 1e-6;
             if !whole || (at.0 - last_label.0).hypot(at.1 - last_label.1) < 2.4 {
@@ -141,12 +148,8 @@ pub fn contact_points(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
 ///
 /// # Errors
 /// The drawing fails.
-pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Result<String, DrawError> {
-    let title = format!(
-        "Rolling radius difference, right minus left: {} on {}",
-        pair.wheel().name(),
-        pair.rail().name()
-    );
+pub fn rolling_radius(profiles: &str, contacts: &[RigidContact]) -> Result<String, DrawError> {
+    let title = format!("Rolling radius difference, right minus left: {profiles}");
     draw(1000, 760, |area| {
         let (upper, lower) = area.split_vertically(380 * FINE);
         let shift = |c: &RigidContact| c.lateral_m * 1e3;
@@ -206,57 +209,81 @@ pub fn rolling_radius(pair: &Pair, contacts: &[RigidContact]) -> Result<String, 
     })
 }
 
-/// Draws the equivalent conicity over the amplitude, with the value at 3 mm as text.
+/// Draws the equivalent conicity over the amplitude, with the value at 3 mm as text: of the rigid wheelset and, if
+/// given, of the wheelset on elastic patches.
 ///
 /// # Errors
 /// The drawing fails.
 pub fn conicity(
-    pair: &Pair,
-    rolling: &RollingRadiusDifference,
-    reach: f64,
+    profiles: &str,
+    rigid: &RollingRadiusDifference,
+    elastic: Option<&RollingRadiusDifference>,
+    radius_m: f64,
+    reach_m: f64,
 ) -> Result<String, DrawError> {
-    let radius = pair.installation().wheel_radius_m;
-    let title = format!(
-        "Equivalent conicity (EN 15302): {} on {}",
-        pair.wheel().name(),
-        pair.rail().name()
-    );
+    let title = format!("Equivalent conicity (EN 15302): {profiles}");
     draw(1000, 620, |area| {
-        let points: Vec<(f64, f64)> = (1..=400)
-            .map(|i| reach * f64::from(i) / 400.0)
-            .filter(|amplitude| *amplitude >= 0.5e-3)
-            .filter_map(|amplitude| {
-                Some((
-                    amplitude * 1e3,
-                    rolling.equivalent_conicity(amplitude, radius)?,
-                ))
-            })
-            .collect();
-        let highest = points.iter().fold(0.05, |max: f64, p| max.max(p.1));
+        let points = |rolling: &RollingRadiusDifference| -> Vec<(f64, f64)> {
+            (1..=400)
+                .map(|i| reach_m * f64::from(i) / 400.0)
+                .filter(|amplitude_m| *amplitude_m >= 0.5e-3)
+                .filter_map(|amplitude_m| {
+                    let value = rolling.equivalent_conicity(amplitude_m, radius_m)?;
+                    Some((amplitude_m * 1e3, value))
+                })
+                .collect()
+        };
+        let curves: Vec<_> = [
+            (Some(rigid), "rigid", &BLUE_LINE),
+            (elastic, "elastic", &RED_LINE),
+        ]
+        .into_iter()
+        .filter_map(|(rolling, name, colour)| {
+            let rolling = rolling?;
+            Some((rolling, points(rolling), name, colour))
+        })
+        .collect();
+        let heights = curves
+            .iter()
+            .flat_map(|curve| &curve.1)
+            .map(|point| point.1);
+        let highest = heights.fold(0.05, f64::max);
         let mut chart = axes!(
             area,
             title,
-            0.0..reach * 1e3,
+            0.0..reach_m * 1e3,
             0.0..1.08 * highest,
             "amplitude of the lateral shift, mm",
             "equivalent conicity, dimensionless",
             (0, 1)
         );
-        chart
-            .draw_series(LineSeries::new(points, BLUE_LINE.stroke_width(LINE)))
-            .map_err(failed)?;
-        if let Some(value) = rolling.equivalent_conicity(3e-3, radius) {
+        for (rolling, points, name, colour) in &curves {
+            chart
+                .draw_series(LineSeries::new(
+                    points.iter().copied(),
+                    colour.stroke_width(LINE),
+                ))
+                .map_err(failed)?;
+            let Some(value) = rolling.equivalent_conicity(3e-3, radius_m) else {
+                continue;
+            };
+            // The label of the higher curve is above it, that of the lower one below it.
+            let others = curves
+                .iter()
+                .filter_map(|curve| curve.0.equivalent_conicity(3e-3, radius_m));
+            let is_highest = others.fold(f64::MIN, f64::max) <= value;
             let fine = FINE as i32;
-            let style = letters(16, &RED_LINE);
+            let offset = if is_highest { -26 } else { 10 };
+            let text = if elastic.is_some() {
+                format!("{name}: {value:.3} at 3 mm")
+            } else {
+                format!("{value:.3} at 3 mm")
+            };
             chart
                 .draw_series(std::iter::once(
                     EmptyElement::at((3.0, value))
-                        + Circle::new((0, 0), 4 * fine, RED_LINE.filled())
-                        + Text::new(
-                            format!("{value:.3} at 3 mm"),
-                            (-4 * fine, -26 * fine),
-                            style,
-                        ),
+                        + Circle::new((0, 0), 4 * fine, colour.filled())
+                        + Text::new(text, (-4 * fine, offset * fine), letters(16, colour)),
                 ))
                 .map_err(failed)?;
         }

@@ -1,13 +1,18 @@
-//! Report of `dashpot contact`: equivalent conicity, and rigid contact over the lateral shift of the wheelset.
+//! Report of `dashpot contact`: warnings, equivalent conicity, and contact over the lateral shift of the wheelset.
 
 use std::io::{self, Write};
 
 use dashpot_rail::contact::Pair;
 use dashpot_rail::profile::measured::Reading;
+use dashpot_study::loaded_wheelset::LoadedShift;
+use dashpot_study::profile_ends::{EndContact, Side, end_contacts};
+use dashpot_study::wheelset_geometry::{Conicity, Shift, WheelsetGeometry};
 use serde::Serialize;
 
-use super::profiles::Readings;
-use dashpot_study::wheelset_geometry::{Conicity, ForceJump, Shift, WheelsetGeometry};
+use super::load::{UnderLoad, shortest};
+use super::profiles::{Loaded, Profiles};
+use super::warnings::{TiltReport, end_contact, tilts};
+use super::{Sides, under_load};
 
 /// JSON report on reading a profile file.
 #[derive(Serialize)]
@@ -33,48 +38,103 @@ impl From<Reading> for FileReport {
     }
 }
 
+/// Wheelset under load.
+#[derive(Serialize)]
+struct LoadedReport {
+    load_n: f64,
+    speed_m_per_s: f64,
+    yaw_rad: f64,
+    friction: f64,
+    conicity_at_3mm: Option<f64>,
+    conicity: Vec<Conicity>,
+    shifts: Vec<LoadedShift>,
+    #[serde(skip)]
+    running: dashpot_study::loaded_wheelset::Running,
+}
+
 #[derive(Serialize)]
 pub(super) struct Report {
     wheel: String,
     rail: String,
     wheel_file: Option<FileReport>,
     rail_file: Option<FileReport>,
+    left_wheel: String,
+    left_rail: String,
+    left_wheel_file: Option<FileReport>,
+    left_rail_file: Option<FileReport>,
     #[serde(skip)]
-    readings: Readings,
+    title: String,
+    /// Names of the profiles that were read from files, with reading details.
+    #[serde(skip)]
+    readings: Vec<(String, Reading)>,
     gauge_m: f64,
     back_to_back_m: f64,
     wheel_radius_m: f64,
     rail_inclination: f64,
+    rail_tilts: Vec<TiltReport>,
+    contacts_at_profile_ends: Vec<EndContact>,
+    warnings: Vec<String>,
     conicity_at_3mm: Option<f64>,
     conicity: Vec<Conicity>,
     shifts: Vec<Shift>,
-    /// Reason for rejecting contact tables of the pair; `None` if they are valid.
-    force_jump: Option<ForceJump>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    under_load: Option<LoadedReport>,
     plots: Vec<String>,
 }
 
-/// Builds the report on `pair` with the reading details and the plot files.
+/// Builds the report with the reading details and the plot files.
 pub(super) fn report(
-    pair: &Pair,
-    readings: Readings,
+    sides: &Sides,
+    profiles: &Profiles,
     geometry: &WheelsetGeometry,
+    under_load: Option<UnderLoad>,
     plots: Vec<String>,
 ) -> Report {
-    let installation = pair.installation();
+    let installation = sides.right.installation();
+    let radius_m = installation.wheel_radius_m;
+    let given = [
+        Some(&profiles.wheel),
+        Some(&profiles.rail),
+        profiles.left_wheel.as_ref(),
+        profiles.left_rail.as_ref(),
+    ];
+    let readings = given
+        .into_iter()
+        .flatten()
+        .filter_map(|given| Some((given.profile.name().to_owned(), given.reading?)))
+        .collect();
+    let file = |given: &Loaded| given.reading.map(FileReport::from);
+    let (rail_tilts, tilt_warnings): (Vec<_>, Vec<_>) = tilts(profiles, installation.inclination)
+        .into_iter()
+        .unzip();
+    let loaded = under_load.as_ref().map_or(&[][..], |loaded| &loaded.shifts);
+    let ends = end_contacts(sides.pairs(), &geometry.contacts, loaded);
+    let end_warnings = ends.iter().filter_map(|contact| {
+        // If both sides are equal, the right one speaks for both.
+        let is_repeated = sides.are_equal && contact.side == Side::Left;
+        (!is_repeated).then(|| end_contact(contact, name_of(sides, contact)))
+    });
+    let warnings = tilt_warnings.into_iter().flatten().chain(end_warnings);
     Report {
-        wheel: pair.wheel().name().to_owned(),
-        rail: pair.rail().name().to_owned(),
-        wheel_file: readings.wheel.map(FileReport::from),
-        rail_file: readings.rail.map(FileReport::from),
+        wheel: sides.right.wheel().name().to_owned(),
+        rail: sides.right.rail().name().to_owned(),
+        left_wheel: sides.left.wheel().name().to_owned(),
+        left_rail: sides.left.rail().name().to_owned(),
+        wheel_file: file(&profiles.wheel),
+        rail_file: file(&profiles.rail),
+        left_wheel_file: file(profiles.left_wheel.as_ref().unwrap_or(&profiles.wheel)),
+        left_rail_file: file(profiles.left_rail.as_ref().unwrap_or(&profiles.rail)),
+        title: sides.title(),
         readings,
         gauge_m: installation.gauge_m,
         back_to_back_m: installation.back_to_back_m,
-        wheel_radius_m: installation.wheel_radius_m,
+        wheel_radius_m: radius_m,
         rail_inclination: installation.inclination,
-        conicity_at_3mm: geometry
-            .rolling
-            .equivalent_conicity(3e-3, installation.wheel_radius_m),
-        conicity: geometry.conicities(pair),
+        rail_tilts,
+        warnings: warnings.collect(),
+        contacts_at_profile_ends: ends,
+        conicity_at_3mm: geometry.rolling.equivalent_conicity(3e-3, radius_m),
+        conicity: Conicity::over_amplitude(&geometry.rolling, radius_m),
         // One row per millimetre.
         shifts: geometry
             .contacts
@@ -82,47 +142,62 @@ pub(super) fn report(
             .step_by(40)
             .map(Shift::from)
             .collect(),
-        force_jump: ForceJump::find(pair),
+        under_load: under_load.map(|loaded| LoadedReport {
+            load_n: loaded.running.load_n,
+            speed_m_per_s: loaded.running.speed_m_per_s,
+            yaw_rad: loaded.running.yaw_rad,
+            friction: loaded.running.friction,
+            conicity_at_3mm: loaded.rolling.equivalent_conicity(3e-3, radius_m),
+            conicity: Conicity::over_amplitude(&loaded.rolling, radius_m),
+            shifts: loaded.shifts,
+            running: loaded.running,
+        }),
         plots,
     }
+}
+
+/// Name of the profile whose end a contact reaches.
+fn name_of<'a>(sides: &'a Sides, contact: &EndContact) -> &'a str {
+    let pair: &Pair = match contact.side {
+        Side::Left => &sides.left,
+        Side::Right => &sides.right,
+    };
+    let profile = if contact.is_wheel {
+        pair.wheel()
+    } else {
+        pair.rail()
+    };
+    profile.name()
 }
 
 /// Prints the report as text.
 pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let inclination = if report.rail_inclination == 0.0 {
-        "upright".to_owned()
+        let is_from_file = report.rail_file.is_some() || report.left_rail_file.is_some();
+        if is_from_file {
+            "as in the file"
+        } else {
+            "upright"
+        }
+        .to_owned()
     } else {
         format!("1:{:.0}", 1.0 / report.rail_inclination)
     };
     writeln!(
         out,
-        "{} on {}, rails {inclination}, gauge {:.1} mm, back to back {:.1} mm, wheel radius {:.1} mm",
-        report.wheel,
-        report.rail,
+        "{}, rails {inclination}, gauge {:.1} mm, back to back {:.1} mm, wheel radius {:.1} mm",
+        report.title,
         report.gauge_m * 1e3,
         report.back_to_back_m * 1e3,
         report.wheel_radius_m * 1e3
     )?;
-    let files = [
-        (&report.wheel, report.readings.wheel),
-        (&report.rail, report.readings.rail),
-    ];
-    for (name, reading) in files {
-        if let Some(reading) = reading {
-            writeln!(out, "{name}: {reading}")?;
-        }
+    for (name, reading) in &report.readings {
+        writeln!(out, "{name}: {reading}")?;
     }
-    writeln!(
-        out,
-        "\nequivalent conicity (EN 15302)\n  amplitude mm   conicity"
-    )?;
-    for row in &report.conicity {
-        let value = row.equivalent_conicity.map_or_else(
-            || "no closed path".to_owned(),
-            |value| format!("{value:8.4}"),
-        );
-        writeln!(out, "  {:12.1}   {value}", row.amplitude_m * 1e3)?;
+    for warning in &report.warnings {
+        writeln!(out, "warning: {warning}")?;
     }
+    print_conicity(out, report)?;
     writeln!(
         out,
         "\nrigid wheelset (shift at the top of the rails, positive to the right; y on the wheel from the tread \
@@ -141,17 +216,47 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             row.wheel_place_right_m * 1e3
         )?;
     }
-    if let Some(jump) = &report.force_jump {
-        writeln!(
-            out,
-            "\ncontact tables of this pair are rejected: at a lateral shift of {:.6} m of the right wheel over its \
-             rail (roll {:.4} rad, yaw {:.4} rad)\nthe contact force jumps by {:.0} N under a load of {:.0} N; the \
-             stiffness of the contact explains {:.0} N of the jump",
-            jump.lateral_m, jump.roll_rad, jump.yaw_rad, jump.jump_n, jump.load_n, jump.allowed_n
-        )?;
+    if let Some(loaded) = &report.under_load {
+        under_load::print(out, &loaded.running, &loaded.shifts)?;
     }
     if !report.plots.is_empty() {
         writeln!(out, "\nplots: {}", report.plots.join(", "))?;
+    }
+    Ok(())
+}
+
+/// Prints the equivalent conicity: rigid, and under load beside it.
+fn print_conicity(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+    let text = |row: &Conicity| {
+        row.equivalent_conicity.map_or_else(
+            || "no closed path".to_owned(),
+            |value| format!("{value:8.4}"),
+        )
+    };
+    let Some(loaded) = &report.under_load else {
+        writeln!(
+            out,
+            "\nequivalent conicity (EN 15302)\n  amplitude mm   conicity"
+        )?;
+        for row in &report.conicity {
+            writeln!(out, "  {:12.1}   {}", row.amplitude_m * 1e3, text(row))?;
+        }
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "\nequivalent conicity (EN 15302): of the rigid wheelset, and on elastic patches under {} kN per wheel\n  \
+         amplitude mm            rigid          elastic",
+        shortest(loaded.load_n * 1e-3)
+    )?;
+    for (rigid, elastic) in report.conicity.iter().zip(&loaded.conicity) {
+        writeln!(
+            out,
+            "  {:12.1}   {:>14}   {:>14}",
+            rigid.amplitude_m * 1e3,
+            text(rigid),
+            text(elastic)
+        )?;
     }
     Ok(())
 }

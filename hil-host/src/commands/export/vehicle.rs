@@ -7,7 +7,6 @@ use super::fmu::{Content, fmu_name, write};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_export::fmu::{Fmu, Interface};
 use dashpot_files::case::Case;
-use dashpot_files::input;
 use dashpot_vehicle_run::{Coupled, CoupledCase, VehicleRunError};
 
 /// File name of the vehicle library.
@@ -26,17 +25,20 @@ pub(super) fn run(arguments: &ExportArguments, name: &str, interface: Interface)
     let refused = |error: VehicleRunError| Failure::new(format!("{}: {error}", case.name));
     let coupled_case = CoupledCase::new(&case, &options.outside).map_err(refused)?;
     let contact = coupled_case.contact().map_err(refused)?;
-    let tables = contact.tables().map_err(refused)?;
-    let coupled = Coupled::new(&coupled_case, tables).map_err(refused)?;
-    let file = contact.tables_file().map_err(refused)?;
-    let name_in_fmu = file.file_name().unwrap_or_default().to_string_lossy();
-    let content = input::read(&file)?;
+    let (mut tables, mut files) = (Vec::new(), Vec::new());
+    for pair in contact.pairs() {
+        let of_pair = pair.tables().map_err(refused)?;
+        let name_in_fmu = pair.tables_file_name().map_err(refused)?;
+        files.push((name_in_fmu, of_pair.to_bytes()));
+        tables.push(of_pair);
+    }
+    let coupled = Coupled::new(&coupled_case, &tables).map_err(refused)?;
     let fmu = Fmu::of_vehicle(
         interface,
         &fmu_name(arguments, name),
         &coupled_case,
         &coupled,
-        (name_in_fmu.into_owned(), content),
+        files,
         library,
     )?;
     let content = Content::Vehicle {

@@ -1,6 +1,7 @@
 //! `dashpot vehicle`: simulates a vehicle on a track and writes histories, indices and a page.
 
 mod check;
+mod contact;
 mod drawing;
 pub mod drive;
 mod figures;
@@ -10,6 +11,7 @@ mod outside;
 mod page;
 mod report;
 mod spectra;
+mod wear;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -31,7 +33,7 @@ use dashpot_realtime::pacing::{Pacer, PacingReport};
 use dashpot_recording::columns;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
-    Ending, Indexer, RideError, Run, TickRecord, ValidityWatch, check_ride, signals,
+    Ending, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch, check_ride, signals,
 };
 
 /// Simulate a vehicle on a track: time histories, indices and a page.
@@ -48,7 +50,8 @@ use dashpot_vehicle_run::{
   dashpot vehicle --case straight-180 --outside \"rear vertical damper 2=force.csv\"
 
 Files in the --output folder: history.csv, one row per tick (with --parquet also history.parquet); spectra.csv, power
-spectral densities at the ride points and of the leading wheels' Y/Q; indices.json; report.html, a self-contained page.
+spectral densities at the ride points and of the leading wheels' Y/Q; wear.csv, the depth
+of wear over each wheel's profile, an estimate by the law of --wear-law; indices.json; report.html, a self-contained page.
 
 Displacements are relative to the position at standstill in the track frame, positive to the right and down. Q acts
 down on the rail, Y towards the track centre. The exit code is 1 if the vehicle derails, overturns or diverges, if a
@@ -69,6 +72,9 @@ pub struct VehicleArguments {
     /// Output folder.
     #[arg(long, default_value = "dashpot-vehicle", value_name = "FOLDER")]
     output: PathBuf,
+    /// Law by which the wear of the wheels is estimated.
+    #[arg(long, value_enum, default_value_t = wear::Law::Archard, value_name = "LAW")]
+    wear_law: wear::Law,
     /// Do not write the page.
     #[arg(long)]
     no_page: bool,
@@ -126,7 +132,16 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let folder = &arguments.output;
     create_folder(folder)?;
     let path = folder.join("history.csv");
-    let (history, mut report) = follow(&case, &mut run, outside.as_mut(), realtime, &path)?;
+    let mut wear = RunWear::new(&case, run.contacts(), arguments.wear_law.law());
+    let (history, mut report) = follow(
+        &case,
+        &mut run,
+        outside.as_mut(),
+        realtime,
+        &path,
+        &mut wear,
+    )?;
+    report.wear = wear.indices().filter(|_| report.indices.is_some());
     let mut forces = Vec::new();
     if let Some(outside) = outside {
         let (found, in_both) = outside.finish(&case, &run, &mut report.ending)?;
@@ -146,6 +161,9 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     report.files.push(path);
     let path = folder.join("spectra.csv");
     spectra::write(&spectra, &path)?;
+    report.files.push(path);
+    let path = folder.join("wear.csv");
+    wear::write(report.wear.as_ref(), &path)?;
     report.files.push(path);
     if !arguments.no_page {
         let path = folder.join("report.html");
@@ -208,6 +226,7 @@ fn follow(
     outside: Option<&mut Outside>,
     realtime: Option<RealtimeOptions>,
     path: &Path,
+    wear: &mut RunWear,
 ) -> Outcome<(History, Report)> {
     let all = all_signals(run, &case.vehicle);
     let mut history = History::new(all.clone(), run.ticks(), case.step_s);
@@ -244,6 +263,7 @@ fn follow(
                     history.add(&row);
                     indexer.add(record);
                     watch.add(record);
+                    wear.add(record);
                     if let Some(beside) = beside.as_deref_mut().and_then(Option::as_mut) {
                         beside.add(record);
                     }

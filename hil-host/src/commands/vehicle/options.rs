@@ -1,6 +1,7 @@
 //! Options that define a case.
 
 use crate::commands::failure::{Failure, Outcome};
+use crate::commands::wheel_rail::WheelRailArguments;
 use dashpot_files::case::{CASES, Case, CaseNumbers, CaseParts};
 use dashpot_files::track::TRACKS;
 use dashpot_files::vehicle::{Replacement, VEHICLES};
@@ -42,6 +43,8 @@ pub(super) struct CaseArguments {
     /// Friction coefficient between wheel and rail.
     #[arg(long, value_name = "MU")]
     friction: Option<f64>,
+    #[command(flatten)]
+    contact: WheelRailArguments,
     /// Normal contact damping per load (Hunt and Crossley), s/m.
     #[arg(long, value_name = "S/M")]
     normal_damping_s_per_m: Option<f64>,
@@ -56,7 +59,8 @@ pub(super) struct CaseArguments {
     #[arg(long = "damper", value_name = "WHICH=DAMPER")]
     dampers: Vec<Replacement>,
     /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3, or a value of its dampers:
-    /// dampers.table.key=value, such as vertical.mount.clearance_m=2e-3. May be repeated.
+    /// dampers.table.key=value, such as vertical.mount.clearance_m=2e-3, or a value of the case's contact:
+    /// contact.key=value, such as contact.right_friction=0.2. May be repeated.
     #[arg(long = "set", value_name = "PART.KEY=VALUE")]
     overrides: Vec<String>,
 }
@@ -93,6 +97,7 @@ impl CaseArguments {
                 names(&CASES)
             )));
         };
+        options.replace_contact(self.contact.options());
         options.dampers.extend(self.dampers.iter().cloned());
         options.overrides.extend(self.overrides.iter().cloned());
         Ok(options.case()?)

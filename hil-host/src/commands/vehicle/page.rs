@@ -2,8 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::report::{Limits, Report, counted_windows, percent};
-use super::{drawing, figures, spectra};
+use super::report::{Limits, Report, counted_windows, nadal_limits, percent};
+use super::{drawing, figures, spectra, wear};
 use crate::commands::vehicle::history::History;
 use dashpot_files::case::Case;
 use dashpot_realtime::timing::span;
@@ -35,10 +35,13 @@ pub(super) fn write(
     let body = html! {
         h1 { (case.name) }
         p.lead {
-            (report.vehicle) " on " (report.track) " at " (format!("{:.0}", report.speed_km_h)) " km/h; friction "
-            (report.friction) ", normal damping " (report.normal_damping_s_per_m) " s/m, step "
+            (report.vehicle) " on " (report.track) " at " (format!("{:.0}", report.speed_km_h))
+            " km/h; normal damping " (report.normal_damping_s_per_m) " s/m, step "
             (format!("{:.0}", 1e6 * report.step_s)) " µs."
         }
+        div.wide { table {
+            @for (what, text) in report.contact.lines() { tr { td.text { (what) } td.text { (text) } } }
+        } }
         @if report.ending != Ending::Completed {
             p { strong { "The run did not complete: " (report.ending) "." } }
         }
@@ -79,6 +82,7 @@ pub(super) fn write(
                 })?)
             }
         }
+        @if let Some(found) = &report.wear { (wear::section(found)?) }
         @if let Some(outside) = &report.outside {
             h2 { "External dampers" }
             @for forces in forces {
@@ -258,10 +262,8 @@ fn limits(indices: &Indices) -> Markup {
         p {
             "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Y/Q as % of Nadal's "
             "limit, mean over 2 m, and the longest distance beyond it. Lateral force as % of Prud'homme's limit, mean "
-            "over 2 m. Nadal's limit is "
-            (format!("{:.2}", indices.nadal.limit)) " for a flange of "
-            (format!("{:.1}", indices.nadal.flange_angle_rad.to_degrees()))
-            "° and friction " (indices.nadal.friction) "; Prud'homme's is 10 kN plus a third of the static axle load."
+            "over 2 m. Nadal's limit is " (nadal_limits(indices))
+            ". Prud'homme's limit is 10 kN plus a third of the static axle load."
         }
     }
 }

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use super::contact::ContactReport;
 use super::outside::{self, OutsideReport};
+use super::wear;
 use crate::commands::counted;
 use crate::commands::paced::Paced;
 use crate::commands::vehicle::drive::Driven;
@@ -13,7 +15,9 @@ use dashpot_files::case::Case;
 use dashpot_files::output;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::span;
-use dashpot_vehicle_run::{Ending, Indices, RideIndices, Warning, WheelIndices, WheelsetIndices};
+use dashpot_vehicle_run::{
+    Ending, Indices, Nadal, RideIndices, Warning, WearIndices, WheelIndices, WheelsetIndices,
+};
 
 /// Report of a run.
 #[derive(Serialize)]
@@ -23,6 +27,8 @@ pub(super) struct Report {
     pub(super) track: String,
     pub(super) speed_km_h: f64,
     pub(super) friction: f64,
+    /// Profiles, gauge, inclination and friction.
+    pub(super) contact: ContactReport,
     pub(super) normal_damping_s_per_m: f64,
     pub(super) step_s: f64,
     pub(super) ticks: u64,
@@ -31,6 +37,8 @@ pub(super) struct Report {
     pub(super) warnings: Vec<Found>,
     /// `None` if [`Ending::has_indices`] is false.
     pub(super) indices: Option<Indices>,
+    /// Estimated wear of the wheels; `None` without indices.
+    pub(super) wear: Option<WearIndices>,
     /// Mean computing time per tick, s.
     pub(super) mean_tick_s: f64,
     /// Timing of a real-time run.
@@ -72,12 +80,14 @@ impl Report {
             track: case.track.name.clone(),
             speed_km_h: 3.6 * case.speed_m_per_s,
             friction: case.friction,
+            contact: ContactReport::new(case),
             normal_damping_s_per_m: case.normal_damping_s_per_m,
             step_s: case.step_s,
             ticks: driven.ticks,
             ending: driven.ending.clone(),
             warnings: warnings.into_iter().map(found).collect(),
             indices: indices.filter(|_| has_indices),
+            wear: None,
             mean_tick_s: driven.stepping.as_secs_f64() / driven.ticks.max(1) as f64,
             realtime: pacing.as_ref().map(paced),
             pacing,
@@ -93,10 +103,12 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         "{}: {} on {} at {:.1} km/h",
         report.case, report.vehicle, report.track, report.speed_km_h
     )?;
+    for (what, text) in report.contact.lines() {
+        writeln!(out, "{:<10}{text}", format!("{what}:"))?;
+    }
     writeln!(
         out,
-        "friction {}, normal damping {} s/m, step {} us; {} of {}",
-        report.friction,
+        "normal damping {} s/m, step {} us; {} of {}",
         report.normal_damping_s_per_m,
         (1e6 * report.step_s).round(),
         counted(report.ticks, "tick"),
@@ -153,6 +165,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         }
         writeln!(out, "Y/Q and lateral force: maximum of the mean over 2 m")?;
         print_limits(out, indices)?;
+    }
+    if let Some(found) = &report.wear {
+        wear::print(out, found)?;
     }
     if let Some(realtime) = &report.realtime {
         realtime.write(out, "all work of a tick")?;
@@ -224,12 +239,34 @@ fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     writeln!(
         out,
         "unloading relative to the static load: instantaneous, and of the mean over 2 m; Y/Q as % of Nadal's limit,\n\
-         {:.2} for a flange of {:.1} degrees and friction {}; lateral force as % of Prud'homme's limit for the \
-         static load",
-        indices.nadal.limit,
-        indices.nadal.flange_angle_rad.to_degrees(),
-        indices.nadal.friction
+         {}; lateral force as % of Prud'homme's limit for the static load",
+        nadal_limits(indices)
     )
+}
+
+/// States Nadal's limits and the wheels that have them.
+pub(super) fn nadal_limits(indices: &Indices) -> String {
+    let limit = |nadal: &Nadal| {
+        format!(
+            "{:.2} for a flange of {:.1} degrees ({}) and friction {}",
+            nadal.limit,
+            nadal.flange_angle_rad.to_degrees(),
+            nadal.profile,
+            nadal.friction
+        )
+    };
+    match &indices.nadal_limits[..] {
+        [one] => limit(one),
+        several => {
+            let each = several.iter().map(|nadal| {
+                let wheels = nadal.wheels.iter();
+                let wheels = wheels.map(|wheel| format!("{} {}", wheel.wheelset, wheel.side));
+                let wheels: Vec<String> = wheels.collect();
+                format!("{}: {}", limit(nadal), wheels.join(", "))
+            });
+            each.collect::<Vec<_>>().join("; ")
+        }
+    }
 }
 
 /// Values of the worse of the two wheels.

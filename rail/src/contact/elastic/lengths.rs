@@ -29,14 +29,17 @@ impl NormalContact {
         };
         let (mut change, mut total) = (0.0, 0.0);
         let whole = connection.is_one_patch().then(|| spread_around(0));
+        let mut steps = self.steps.cleared();
         for (k, &i) in self.loaded.iter().enumerate() {
             let spread = whole.unwrap_or_else(|| spread_around(k));
             let new = spread.half_length(self.line_loads[k], strips[i].radius_m, modulus);
             let step = new - self.half_lengths_m[i];
             change += step.abs();
             total += new;
-            self.half_lengths_m[i] += part * step;
+            steps.push(step);
         }
+        self.steps
+            .accelerated(&self.loaded, steps, part, &mut self.half_lengths_m);
         // A strip that enters later begins as long as the loaded one next to it, at the end of its patch.
         let mut next = 0;
         for i in 0..strips.len() {

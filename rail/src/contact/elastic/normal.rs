@@ -1,8 +1,9 @@
 //! The normal problem: line loads on the strips such that no strip enters the rail and none is pulled.
 
-use super::equations::{columns, solve};
+use super::equations::Equations;
+use super::gap::{Gap, typical_penetration_m};
 use super::half_space::HalfSpace;
-use super::strips::Strip;
+use super::steps::Steps;
 use crate::contact::hertz::Steel;
 
 /// Maximum number of changes of the strips in contact or of their lengths.
@@ -12,13 +13,15 @@ const CAUTIOUS: usize = 6;
 /// Maximum number of changes of the lengths. In a few conformal contacts, a strip at an end takes load under some
 /// lengths and none under the next ones; the depth then swings by up to half a micrometre.
 const MAX_LENGTHS: usize = 16;
-/// Relative change of the lengths of the strips below which they have converged. The depth changes by less than a
-/// third of it.
+/// Default tolerance of the lengths.
 const TOLERANCE: f64 = 5e-4;
 /// Entering of a strip that is neglected, m.
 const NEGLECTED_M: f64 = 1e-8;
-/// Stiffness of a typical contact, N/m^1.5, for the first guess.
-const TYPICAL_STIFFNESS: f64 = 1e11;
+/// Half-length of a strip, m, for the first guess.
+const TYPICAL_LENGTH_M: f64 = 5e-3;
+
+/// Maximum distance by which a contact moves with the highest strip, m. Beyond it, the contact jumps rather.
+const MAX_MOVEMENT_M: f64 = 5e-3;
 
 /// What is given of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,30 +33,62 @@ pub enum Given {
 }
 
 /// Line loads on the strips of a wheel. The next solution starts from the previous one.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct NormalContact {
     /// Depth of the tread datum below the top of the rail, m.
     pub depth_m: f64,
-    /// The strips that carry load, in rising order, and the load per width on each, N/m.
+    /// Relative change of the lengths of the strips below which they have converged. The depth changes by less than a
+    /// third of it.
+    tolerance: f64,
+    /// The strips of the gap that carry load, in rising order, and the load per width on each, N/m.
     pub(super) loaded: Vec<usize>,
     pub(super) line_loads: Vec<f64>,
-    /// Half-length of every strip in the rolling direction, m.
+    /// Half-length of every strip of the gap in the rolling direction, m.
     pub(super) half_lengths_m: Vec<f64>,
-    /// Penetration of every strip along its normal, m; negative if wheel and rail are apart.
+    /// Penetration of every strip of the gap along its normal, m; negative if wheel and rail are apart.
     pub(super) penetrations_m: Vec<f64>,
-    matrix: Vec<f64>,
+    /// Positions of the strips of the gap and of the highest one along the wheel's surface, m.
+    arcs_m: Vec<f64>,
+    summit_m: f64,
+    pub(super) steps: Steps,
+    equations: Equations,
+}
+
+impl Default for NormalContact {
+    fn default() -> Self {
+        Self::with_tolerance(TOLERANCE)
+    }
 }
 
 impl NormalContact {
-    /// Solves the contact of `strips` at `heights` above the top of the rail.
-    pub(super) fn solve(&mut self, strips: &[Strip], heights: &[f64], steel: &Steel, given: Given) {
+    /// A contact without a previous solution. The lengths of the strips converge until their relative change is below
+    /// `tolerance`.
+    pub(in crate::contact) fn with_tolerance(tolerance: f64) -> Self {
+        Self {
+            depth_m: 0.0,
+            tolerance,
+            loaded: Vec::new(),
+            line_loads: Vec::new(),
+            half_lengths_m: Vec::new(),
+            penetrations_m: Vec::new(),
+            arcs_m: Vec::new(),
+            summit_m: 0.0,
+            steps: Steps::default(),
+            equations: Equations::default(),
+        }
+    }
+
+    /// Solves the contact of the strips in `gap`.
+    pub(in crate::contact) fn solve(&mut self, gap: &Gap, steel: &Steel, given: Given) {
+        self.follow(gap);
         let is_positive = |number: f64| number > 0.0 && number.is_finite();
         if matches!(given, Given::LoadN(load_n) if !is_positive(load_n)) {
             self.loaded.clear();
             self.line_loads.clear();
-            return self.update_penetrations(strips, heights);
+            return self.update_penetrations(gap);
         }
-        self.begin(strips, heights, given);
+        self.begin(gap, given);
+        self.steps.forget();
         let modulus = std::f64::consts::PI * steel.contact_modulus_pa();
         let (mut lengths, mut rounds) = (0, 0);
         for _ in 0..MAX_ROUNDS {
@@ -62,96 +97,113 @@ impl NormalContact {
             }
             rounds += 1;
             let cautious = rounds > CAUTIOUS;
-            self.solve_loaded(strips, heights, modulus, given);
+            self.solve_loaded(gap, modulus, given);
             if self.drop_pulled(cautious) {
                 continue;
             }
-            self.update_penetrations(strips, heights);
+            self.update_penetrations(gap);
             // The lengths follow only when the strips in contact are settled, or both might chase each other.
-            if self.add_entering(strips, modulus, cautious) {
+            if self.add_entering(gap, modulus, cautious) {
                 continue;
             }
             (lengths, rounds) = (lengths + 1, 0);
             let part = if lengths > CAUTIOUS { 0.5 } else { 1.0 };
-            let change = self.update_lengths(strips, modulus, part);
-            if change < TOLERANCE || lengths == MAX_LENGTHS {
+            let change = self.update_lengths(&gap.strips, modulus, part);
+            if change < self.tolerance || lengths == MAX_LENGTHS {
                 break;
             }
         }
-        self.update_penetrations(strips, heights);
+        self.update_penetrations(gap);
         for load in &mut self.line_loads {
             *load = load.max(0.0);
         }
     }
 
-    /// Chooses the strips to start with: those of the previous solution, or those that enter the rail.
-    fn begin(&mut self, strips: &[Strip], heights: &[f64], given: Given) {
-        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if self.half_lengths_m.len() != strips.len() {
-            self.half_lengths_m = vec![5e-3; strips.len()];
-            self.loaded.clear();
+    /// Carries the previous solution over to the strips of a new gap. It moves on the wheel as far as the highest
+    /// strip does.
+    fn follow(&mut self, gap: &Gap) {
+        let summit_m = gap.summit_m();
+        let moved_m = summit_m - self.summit_m;
+        let moved_m = if moved_m.abs() < MAX_MOVEMENT_M {
+            moved_m
+        } else {
+            0.0
+        };
+        let mut is_loaded = vec![false; self.arcs_m.len()];
+        for &entry in &self.loaded {
+            is_loaded[entry] = true;
         }
-        self.loaded.retain(|&i| heights[i].is_finite());
-        let depth_m = match given {
+        self.loaded.clear();
+        let mut lengths = Vec::with_capacity(gap.strips.len());
+        let mut next = 0;
+        for (entry, strip) in gap.strips.iter().enumerate() {
+            let arc_m = strip.arc_m - moved_m;
+            let distance = |at: usize| (self.arcs_m[at] - arc_m).abs();
+            while next + 1 < self.arcs_m.len() && distance(next + 1) <= distance(next) {
+                next += 1;
+            }
+            let length_m = self.half_lengths_m.get(next);
+            lengths.push(length_m.copied().unwrap_or(TYPICAL_LENGTH_M));
+            let is_near =
+                is_loaded.get(next) == Some(&true) && distance(next) < 0.75 * strip.width_m;
+            if is_near && gap.heights_m[entry].is_finite() {
+                self.loaded.push(entry);
+            }
+        }
+        self.half_lengths_m = lengths;
+        self.summit_m = summit_m;
+        self.arcs_m.clear();
+        self.arcs_m
+            .extend(gap.strips.iter().map(|strip| strip.arc_m));
+    }
+
+    /// Chooses the strips to start with: those of the previous solution, or those that enter the rail.
+    fn begin(&mut self, gap: &Gap, given: Given) {
+        let highest = gap.highest_m;
+        self.depth_m = match given {
             Given::DepthM(depth_m) => depth_m,
             Given::LoadN(load_n) if self.loaded.is_empty() => {
-                (load_n / TYPICAL_STIFFNESS).powf(2.0 / 3.0) - highest
+                typical_penetration_m(load_n) - highest
             }
             Given::LoadN(_) => self.depth_m,
         };
-        self.depth_m = depth_m;
         if self.loaded.is_empty() && highest.is_finite() {
+            let depth_m = self.depth_m;
             let part = 0.45 * (highest + depth_m);
-            let entering = |i: &usize| part > 0.0 && heights[*i] + depth_m > part;
-            self.loaded = (0..strips.len()).filter(entering).collect();
+            let entering = |i: &usize| part > 0.0 && gap.heights_m[*i] + depth_m > part;
+            self.loaded = (0..gap.strips.len()).filter(entering).collect();
         }
         self.line_loads.clear();
         self.line_loads.resize(self.loaded.len(), 0.0);
     }
 
     /// Solves for the loads on the strips in contact, of any sign, and for the depth if the load is given.
-    fn solve_loaded(&mut self, strips: &[Strip], heights: &[f64], modulus: f64, given: Given) {
+    fn solve_loaded(&mut self, gap: &Gap, modulus: f64, given: Given) {
         let tables = HalfSpace::tables();
-        let count = self.loaded.len();
-        let columns = columns(count);
-        self.matrix.clear();
-        self.matrix.resize(count * columns, 0.0);
+        let strips = &gap.strips;
+        let equations = &mut self.equations;
+        equations.begin(self.loaded.iter().map(|&i| {
+            let strip = &strips[i];
+            [strip.arc_m, gap.heights_m[i] * strip.cos, strip.cos]
+        }));
         for (column, &j) in self.loaded.iter().enumerate() {
-            let (source, reciprocal) = (&strips[j], 1.0 / self.half_lengths_m[j]);
-            let factor = reciprocal / modulus;
-            for (row, &i) in self.loaded.iter().enumerate() {
-                let deflection = if i == j {
-                    tables.own(source.width_m * reciprocal)
-                } else {
-                    tables.beside((strips[i].arc_m - source.arc_m).abs() * reciprocal)
-                };
-                self.matrix[row * columns + column] = factor * deflection;
-            }
+            let reciprocal = 1.0 / self.half_lengths_m[j];
+            let own = tables.own(strips[j].width_m * reciprocal);
+            equations.set_column(column, reciprocal, reciprocal / modulus, own);
         }
-        for (row, &i) in self.loaded.iter().enumerate() {
-            self.matrix[row * columns + count] = heights[i] * strips[i].cos;
-            self.matrix[row * columns + count + 1] = strips[i].cos;
-        }
-        solve(&mut self.matrix, count);
-        let sides = |row: usize| {
-            let at = row * columns + count;
-            (self.matrix[at], self.matrix[at + 1])
-        };
+        equations.solve();
         if let Given::LoadN(load_n) = given {
-            let (mut at_zero, mut per_depth) = (0.0, 0.0);
-            for row in 0..count {
-                let (height, cos) = sides(row);
-                at_zero += height;
-                per_depth += cos;
-            }
+            let [at_zero, per_depth] = equations.sums();
             self.depth_m = (load_n - at_zero) / per_depth;
         }
         let depth_m = self.depth_m;
         self.line_loads.clear();
-        self.line_loads.extend((0..count).map(|row| {
-            let (height, cos) = sides(row);
-            (height + depth_m * cos) / strips[self.loaded[row]].width_m
-        }));
+        let loads = self.loaded.iter().zip(equations.solutions());
+        self.line_loads.extend(
+            loads.map(|(&i, [at_zero, per_depth])| {
+                (at_zero + depth_m * per_depth) / strips[i].width_m
+            }),
+        );
     }
 
     /// Removes the strips that would be pulled, or the one pulled most; false if there is none.
@@ -166,18 +218,19 @@ impl NormalContact {
         self.loaded.len() < before
     }
 
-    fn update_penetrations(&mut self, strips: &[Strip], heights: &[f64]) {
+    fn update_penetrations(&mut self, gap: &Gap) {
         let depth_m = self.depth_m;
         self.penetrations_m.clear();
-        let penetrations = strips.iter().zip(heights);
+        let penetrations = gap.strips.iter().zip(&gap.heights_m);
         self.penetrations_m
             .extend(penetrations.map(|(strip, height)| (height + depth_m) * strip.cos));
     }
 
     /// Adds the strips that would enter the deflected rail, or the deepest of them; false if there is none. Strips
     /// enter at the ends of a patch, or first where the overlap is greatest.
-    fn add_entering(&mut self, strips: &[Strip], modulus: f64, only_one: bool) -> bool {
+    fn add_entering(&mut self, gap: &Gap, modulus: f64, only_one: bool) -> bool {
         let tables = HalfSpace::tables();
+        let strips = &gap.strips;
         let overlaps = &self.penetrations_m;
         let mut entering = Vec::new();
         let mut next = 0;

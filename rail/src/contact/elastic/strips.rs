@@ -1,12 +1,12 @@
 //! The strips of a wheel on which the elastic contact is computed.
 
 use crate::contact::pair::Pair;
-use crate::contact::silhouette::{Cursor, Turn};
+use crate::contact::silhouette::Turn;
 
 /// Contact angle, as a slope, beyond which patches may be narrow and strips are fine.
 const STEEP: f64 = 0.1;
 /// Width of fine, medium and coarse strips on flat and on steep parts of a wheel, in samples of its profile.
-const SAMPLES: [[usize; 2]; 3] = [[4, 1], [6, 2], [10, 3]];
+const SAMPLES: [[usize; 2]; 3] = [[5, 2], [8, 3], [14, 5]];
 
 /// How finely a wheel is divided. Small loads have small patches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,8 +28,8 @@ pub(super) struct Strip {
     /// Lateral position on the wheel, m from the tread datum.
     pub wheel_y_m: f64,
     /// Lateral position and depth relative to the tread datum in track axes, m.
-    y_m: f64,
-    z_m: f64,
+    pub y_m: f64,
+    pub z_m: f64,
     pub slope: f64,
     /// Cosine of the angle whose tangent is the slope.
     pub cos: f64,
@@ -41,7 +41,7 @@ pub(super) struct Strip {
 /// the rail are continuous functions of the pose.
 #[derive(Debug, Clone)]
 pub struct TurnedStrips<'a> {
-    pair: &'a Pair,
+    pub(super) pair: &'a Pair,
     pub(super) strips: Vec<Strip>,
 }
 
@@ -85,18 +85,6 @@ impl<'a> TurnedStrips<'a> {
     /// The pair that the wheel belongs to.
     pub fn pair(&self) -> &'a Pair {
         self.pair
-    }
-
-    /// Writes into `heights` the depth of each strip below the rail when the tread datum is at the height of the rail's
-    /// top, m; negative infinity beside the rail.
-    pub(super) fn heights(&self, lateral_m: f64, heights: &mut Vec<f64>) {
-        let datum = self.pair.installation().datum_offset_m() + lateral_m;
-        let mut rail = Cursor::new(self.pair);
-        heights.clear();
-        heights.extend(self.strips.iter().map(|strip| {
-            let rail_z = rail.at(datum + strip.y_m).map(|(z, _)| z);
-            rail_z.map_or(f64::NEG_INFINITY, |z| strip.z_m - z)
-        }));
     }
 }
 

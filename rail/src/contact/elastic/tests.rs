@@ -1,15 +1,16 @@
 //! Patches of smooth bodies against Hertz, and cases without a patch.
 
+use super::gap::Gap;
 use super::normal::{Given, NormalContact};
 use super::strips::Strip;
 use crate::contact::{Hertz, Installation, Pair, Steel};
 
 /// Strips of 0.2 mm on a cylinder of `radius_m` over a rail head of `across_m`, and their heights.
-fn cylinder(radius_m: f64, across_m: f64) -> (Vec<Strip>, Vec<f64>) {
+fn cylinder(radius_m: f64, across_m: f64) -> Gap {
     let at = |k: i32| 0.2e-3 * f64::from(k);
     let strips = (-100..=100).map(|k| Strip::flat(at(k), 0.2e-3, radius_m));
     let heights = (-100..=100).map(|k| -0.5 * at(k) * at(k) / across_m);
-    (strips.collect(), heights.collect())
+    Gap::of(strips.collect(), heights.collect())
 }
 
 impl NormalContact {
@@ -32,13 +33,13 @@ fn patches_of_smooth_bodies_are_hertzs() {
     ] {
         let hertz = Hertz::new(&steel, 1.0 / radius_m, 1.0 / across_m);
         for load_n in [20e3, 100e3] {
-            let (strips, heights) = cylinder(radius_m, across_m);
+            let gap = cylinder(radius_m, across_m);
             let mut contact = NormalContact::default();
-            contact.solve(&strips, &heights, &steel, Given::LoadN(load_n));
+            contact.solve(&gap, &steel, Given::LoadN(load_n));
             let penetration_m = hertz.penetration_m(load_n);
             let [a_m, b_m] = hertz.semi_axes_m(penetration_m);
             let pressure_pa = 1.5 * load_n / (std::f64::consts::PI * a_m * b_m);
-            let patch = contact.patches(&pair, &strips, &[-1.0, 1.0, 2.0])[1];
+            let patch = contact.patches(&gap, &pair, &[-1.0, 1.0, 2.0])[1];
             let case = format!("{radius_m} m, {across_m} m, {load_n} N: {patch:?}");
             assert!(
                 (contact.depth_m / penetration_m - 1.0).abs() < 0.01,
@@ -59,41 +60,43 @@ fn patches_of_smooth_bodies_are_hertzs() {
 #[test]
 fn a_depth_gives_the_load_that_gives_this_depth() {
     let steel = Steel::default();
-    let (strips, heights) = cylinder(0.46, 0.3);
+    let gap = cylinder(0.46, 0.3);
     let mut contact = NormalContact::default();
-    contact.solve(&strips, &heights, &steel, Given::LoadN(75e3));
+    contact.solve(&gap, &steel, Given::LoadN(75e3));
     let mut again = NormalContact::default();
-    again.solve(&strips, &heights, &steel, Given::DepthM(contact.depth_m));
-    assert!((again.load_n(&strips) / 75e3 - 1.0).abs() < 1e-3);
+    again.solve(&gap, &steel, Given::DepthM(contact.depth_m));
+    assert!((again.load_n(&gap.strips) / 75e3 - 1.0).abs() < 1e-3);
 }
 
 #[test]
 fn wheels_apart_from_the_rail_carry_nothing() {
     let steel = Steel::default();
-    let (strips, heights) = cylinder(0.46, 0.3);
+    let gap = cylinder(0.46, 0.3);
     let mut contact = NormalContact::default();
-    contact.solve(&strips, &heights, &steel, Given::DepthM(-1e-6));
-    assert_eq!(contact.load_n(&strips), 0.0);
+    contact.solve(&gap, &steel, Given::DepthM(-1e-6));
+    assert_eq!(contact.load_n(&gap.strips), 0.0);
     contact.solve(
-        &strips,
-        &vec![f64::NEG_INFINITY; strips.len()],
+        &Gap::of(
+            gap.strips.clone(),
+            vec![f64::NEG_INFINITY; gap.strips.len()],
+        ),
         &steel,
         Given::LoadN(1e5),
     );
-    assert_eq!(contact.load_n(&strips), 0.0);
+    assert_eq!(contact.load_n(&gap.strips), 0.0);
     // The next solution does not suffer from it.
-    contact.solve(&strips, &heights, &steel, Given::LoadN(1e5));
-    assert!((contact.load_n(&strips) / 1e5 - 1.0).abs() < 1e-9);
+    contact.solve(&gap, &steel, Given::LoadN(1e5));
+    assert!((contact.load_n(&gap.strips) / 1e5 - 1.0).abs() < 1e-9);
 }
 
 #[test]
 fn a_load_that_is_no_load_gives_no_patch() {
     let pair = Pair::standard(Installation::default()).unwrap();
-    let (strips, heights) = cylinder(0.46, 0.3);
+    let gap = cylinder(0.46, 0.3);
     for given in [0.0, -1.0, f64::NAN, f64::INFINITY].map(Given::LoadN) {
         let mut contact = NormalContact::default();
-        contact.solve(&strips, &heights, &Steel::default(), given);
-        let patches = contact.patches(&pair, &strips, &[-1.0, 1.0, 2.0]);
+        contact.solve(&gap, &Steel::default(), given);
+        let patches = contact.patches(&gap, &pair, &[-1.0, 1.0, 2.0]);
         assert!(
             patches.iter().all(|patch| *patch == Default::default()),
             "{given:?}: {patches:?}"

@@ -1,212 +1,226 @@
-//! The axes of the tables: positions of the nodes, and the cell of a value.
+//! The axes of the tables: nodes as close as the contact asks for.
 
 use std::array::from_fn;
+use std::ops::Deref;
 
-use fearless_simd::{Simd, SimdBase, f64x4};
+use fearless_simd::Simd;
 
-use super::TablesError;
-use crate::math::each::Each;
-use crate::math::number::load;
-use crate::setters::setters;
+use crate::math::number::{Number, WHOLE, load};
 
-/// Nodes along one axis, in three parts: coarse, fine, coarse.
-///
-/// The fields are complete; none will be added.
+/// Nodes that rise by multiples of one smallest spacing.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Axis {
+    first: f64,
+    spacing: f64,
+    per_spacing: f64,
+    /// Number of smallest spacings up to each node.
+    steps: Vec<u32>,
+    /// The cell that holds each smallest spacing, and once more the last cell.
+    cells: Vec<u16>,
+    spans: Vec<Span>,
+}
+
+/// Extent of a cell in smallest spacings.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Span {
+    start: f64,
+    /// Reciprocal of the width.
+    per_width: f64,
+}
+
+/// Three values, each located on its axis. A value beyond an end is located at this end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Axis {
-    /// First value, start and end of the fine part, and last value, in the unit of the axis.
-    pub ends: [f64; 4],
-    /// Number of cells in each part; zero in a part without width.
+pub(super) struct Located {
     pub cells: [usize; 3],
+    /// Positions in the cells, 0 to 1.
+    pub positions: [f64; 3],
+    /// True if the axes cover all values.
+    pub is_inside: bool,
 }
 
-impl Axis {
-    /// Checks that the ends are finite and rise, that exactly the parts with a width have cells, and that there are at
-    /// most `limit` nodes.
-    pub(super) fn check(&self, name: &'static str, limit: usize) -> Result<(), TablesError> {
-        let part = |k: usize| {
-            let width = self.ends[k + 1] - self.ends[k];
-            width >= 0.0 && width.is_finite() && (width > 0.0) == (self.cells[k] > 0)
+/// Three axes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Axes {
+    axes: [Axis; 3],
+    /// First values, numbers of smallest spacings in a unit and in the whole axis.
+    firsts: [f64; 4],
+    per_spacings: [f64; 4],
+    lasts: [f64; 4],
+}
+
+impl Axes {
+    pub fn new(axes: [Axis; 3]) -> Self {
+        let in_lanes = |number: fn(&Axis) -> f64| {
+            let [a, b, c] = axes.each_ref().map(number);
+            [a, b, c, c]
         };
-        let cells = self
-            .cells
-            .iter()
-            .try_fold(0_usize, |sum, cells| sum.checked_add(*cells));
-        match cells {
-            Some(cells) if (1..limit).contains(&cells) && (0..3).all(part) => Ok(()),
-            _ => Err(TablesError::Axis { name, axis: *self }),
+        Self {
+            firsts: in_lanes(|axis| axis.first),
+            per_spacings: in_lanes(|axis| axis.per_spacing),
+            lasts: in_lanes(|axis| f64::from(axis.last_step())),
+            axes,
         }
     }
 
-    /// Number of nodes.
-    pub fn nodes(&self) -> usize {
-        self.cells.iter().sum::<usize>() + 1
-    }
-
-    /// Value at a node, counted from 0; beyond the last node, the last value.
-    pub fn value(&self, node: usize) -> f64 {
-        let mut first = 0;
-        for part in 0..3 {
-            let cells = self.cells[part];
-            if node <= first + cells && cells > 0 {
-                let t = (node - first) as f64 / cells as f64;
-                return self.ends[part] + t * (self.ends[part + 1] - self.ends[part]);
-            }
-            first += cells;
+    /// Locates a value on each axis.
+    #[inline(always)]
+    pub fn locate<S: Simd>(&self, simd: S, [a, b, c]: [f64; 3]) -> Located {
+        let values = load(simd, &[a, b, c, c]);
+        let steps = (values - load(simd, &self.firsts)) * load(simd, &self.per_spacings);
+        let inside = steps.not_negative();
+        let inside = simd.min_f64x4(inside, load(simd, &self.lasts));
+        let is_inside = simd.all_true_mask64x4(simd.simd_eq_f64x4(inside, steps));
+        let whole = <[f64; 4]>::from(inside + -0.5 + WHOLE);
+        let inside = <[f64; 4]>::from(inside);
+        let mut located = Located {
+            cells: [0; 3],
+            positions: [0.0; 3],
+            is_inside,
+        };
+        for (k, axis) in self.axes.iter().enumerate() {
+            let (cell, span) = axis.cell_at(whole[k].to_bits() as u32 as usize);
+            located.cells[k] = cell;
+            located.positions[k] = (inside[k] - span.start) * span.per_width;
         }
-        self.ends[3]
+        located
     }
-}
 
-/// Positions of values on an axis.
-#[derive(Clone, Copy)]
-pub(super) struct Located<S: Simd> {
-    /// Index of the cell, a whole number.
-    pub cell: f64x4<S>,
-    /// Position within the cell, 0 to 1.
-    pub position: f64x4<S>,
-    /// Distance beyond the nearest end; zero inside.
-    pub outside: f64x4<S>,
-}
-
-/// An axis prepared for lookup in four lanes, for the tables of one wheel or of two.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct AxisReader {
-    ends: [[f64; 4]; 4],
-    cells_per_unit: [[f64; 4]; 3],
-    /// Position of the first end, in cells, with the opposite sign.
-    offset: [f64; 4],
-    last_cell: [f64; 4],
-}
-
-/// 1.5 * 2^52: adding it to a much smaller number rounds that to a whole number, held in the low bits.
-const WHOLE: f64 = 6_755_399_441_055_744.0;
-
-impl AxisReader {
-    pub fn new(axis: &Axis) -> Self {
-        let cells_per_unit = [0, 1, 2].map(|part| {
-            let width = axis.ends[part + 1] - axis.ends[part];
-            if width > 0.0 {
-                axis.cells[part] as f64 / width
+    /// Derivatives of the positions with respect to the `values` that were located; zero beyond the ends.
+    pub fn per_unit(&self, values: [f64; 3], located: &Located) -> [f64; 3] {
+        from_fn(|k| {
+            let axis = &self.axes[k];
+            let step = (values[k] - axis.first) * axis.per_spacing;
+            if (0.0..=self.lasts[k]).contains(&step) {
+                axis.per_spacing * axis.spans[located.cells[k]].per_width
             } else {
                 0.0
             }
-        });
-        let ends = cells_per_unit.iter().zip(axis.ends);
-        let offset: f64 = -ends.map(|(cells, end)| cells * end).sum::<f64>();
+        })
+    }
+}
+
+impl Deref for Axes {
+    type Target = [Axis; 3];
+
+    fn deref(&self) -> &[Axis; 3] {
+        &self.axes
+    }
+}
+
+impl Axis {
+    /// Divides the range from `first` to `last` into `cells` equal cells, and halves each cell up to `halvings` times
+    /// where `is_coarse(start, end)` says so.
+    pub fn halved(
+        [first, last]: [f64; 2],
+        cells: u32,
+        halvings: u32,
+        mut is_coarse: impl FnMut(f64, f64) -> bool,
+    ) -> Self {
+        let steps_each = 1 << halvings;
+        let spacing = (last - first) / f64::from(cells * steps_each);
+        let at = |step: u32| first + f64::from(step) * spacing;
+        let mut steps = vec![0];
+        for cell in 0..cells {
+            let mut open = vec![[cell * steps_each, (cell + 1) * steps_each]];
+            while let Some([start, end]) = open.pop() {
+                if end - start > 1 && is_coarse(at(start), at(end)) {
+                    let middle = start.midpoint(end);
+                    open.push([middle, end]);
+                    open.push([start, middle]);
+                } else {
+                    steps.push(end);
+                }
+            }
+        }
+        Self::new(first, spacing, steps)
+    }
+
+    /// An axis whose nodes are `steps` smallest spacings above `first`. The first of the rising steps is 0, and there
+    /// are two or more.
+    pub fn new(first: f64, spacing: f64, steps: Vec<u32>) -> Self {
+        let (mut cells, mut spans) = (Vec::new(), Vec::new());
+        for (cell, ends) in steps.windows(2).enumerate() {
+            cells.resize(ends[1] as usize, cell as u16);
+            spans.push(Span {
+                start: f64::from(ends[0]),
+                per_width: 1.0 / f64::from(ends[1] - ends[0]),
+            });
+        }
+        cells.extend(cells.last().copied());
         Self {
-            ends: axis.ends.map(|end| [end; 4]),
-            cells_per_unit: cells_per_unit.map(|cells| [cells; 4]),
-            offset: [offset; 4],
-            last_cell: [axis.nodes() as f64 - 2.0; 4],
+            first,
+            spacing,
+            per_spacing: 1.0 / spacing,
+            steps,
+            cells,
+            spans,
         }
     }
 
-    /// Interleaves the axes of a left and a right wheel: left, right, left, right.
-    pub fn of_two(left: &Self, right: &Self) -> Self {
-        Self {
-            ends: from_fn(|k| in_lanes(&left.ends[k], &right.ends[k])),
-            cells_per_unit: from_fn(|k| {
-                in_lanes(&left.cells_per_unit[k], &right.cells_per_unit[k])
-            }),
-            offset: in_lanes(&left.offset, &right.offset),
-            last_cell: in_lanes(&left.last_cell, &right.last_cell),
-        }
+    /// The nodes as multiples of the smallest spacing.
+    pub fn steps(&self) -> &[u32] {
+        &self.steps
     }
 
-    /// Locates values by adding up the cells passed in all three parts, which needs no branch.
+    pub fn nodes(&self) -> usize {
+        self.steps.len()
+    }
+
+    pub fn value(&self, node: usize) -> f64 {
+        self.first + f64::from(self.steps[node]) * self.spacing
+    }
+
+    /// Number of smallest spacings in the whole axis.
+    fn last_step(&self) -> u32 {
+        self.steps.last().copied().unwrap_or_default()
+    }
+
+    /// The cell that holds a smallest spacing.
     #[inline(always)]
-    pub fn locate<S: Simd>(&self, x: f64x4<S>) -> Located<S> {
-        let simd = x.simd;
-        let [first, second, third, last] = self.ends.each(|end| load(simd, &end));
-        let [before, fine, behind] = self.cells_per_unit.each(|cells| load(simd, &cells));
-        let position = x.max(first).min(second) * before
-            + x.max(second).min(third) * fine
-            + x.max(third).min(last) * behind
-            + load(simd, &self.offset);
-        // Rounds down; at a node, either neighbouring cell is right.
-        let cell = (position - 0.5 + WHOLE - WHOLE).min(load(simd, &self.last_cell));
-        Located {
-            cell,
-            position: position - cell,
-            outside: x - x.max(first).min(last),
-        }
+    fn cell_at(&self, step: usize) -> (usize, Span) {
+        let cell = self.cells.get(step).map_or(0, |cell| usize::from(*cell));
+        (cell, self.spans.get(cell).copied().unwrap_or_default())
     }
 
-    /// Derivative of the position in `cell` with respect to the value.
-    pub fn cells_per_unit(&self, cell: f64) -> f64 {
-        let ([first, second, third, _], [before, fine, behind]) = (
-            self.ends.map(|end| end[0]),
-            self.cells_per_unit.map(|cells| cells[0]),
-        );
-        // The ends of a part lie at whole numbers of cells, except for rounding errors.
-        let cells_before = before * (second - first);
-        if cell + 0.5 < cells_before {
-            before
-        } else if cell + 0.5 < cells_before + fine * (third - second) {
-            fine
-        } else {
-            behind
-        }
+    /// Bytes in memory.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.steps[..]) + size_of_val(&self.cells[..]) + size_of_val(&self.spans[..])
     }
 }
 
-/// Interleaves the first lanes of a left and a right wheel: left, right, left, right.
-pub(in crate::contact) fn in_lanes(left: &[f64; 4], right: &[f64; 4]) -> [f64; 4] {
-    [left[0], right[0], left[0], right[0]]
-}
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
 
-/// Converts a whole number below 2^32 to an index.
-#[inline(always)]
-pub(super) fn whole(number: f64) -> usize {
-    (number + WHOLE).to_bits() as u32 as usize
-}
+    use super::*;
 
-/// Extent and spacing of the tables.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Grid {
-    /// Lateral shift of the wheel, field side positive, m.
-    pub lateral_m: Axis,
-    /// Roll, field side down positive, rad.
-    pub roll_rad: Axis,
-    /// Square of the yaw, rad^2; the silhouette is an even function of the yaw.
-    pub yaw_squared_rad2: Axis,
-}
-
-impl Grid {
-    setters! {
-        with_lateral_m sets lateral_m: Axis;
-        with_roll_rad sets roll_rad: Axis;
-        with_yaw_squared_rad2 sets yaw_squared_rad2: Axis;
-    }
-
-    /// Number of nodes.
-    pub(super) fn nodes(&self) -> usize {
-        self.lateral_m.nodes() * self.roll_rad.nodes() * self.yaw_squared_rad2.nodes()
-    }
-}
-
-impl Default for Grid {
-    /// Shift from -20 mm (wheel towards the track centre) to 65 mm (flange past the rail's top), roll up to 24 mrad,
-    /// yaw up to 50 mrad.
-    ///
-    /// The shift nodes are 0.03 mm apart from 0 to 12 mm and 0.1 mm apart below, the roll nodes 1.5 mrad apart within
-    /// 12 mrad, the nodes of the squared yaw 1e-4 rad^2 apart within 30 mrad.
-    fn default() -> Self {
-        Self {
-            lateral_m: Axis {
-                ends: [-0.020, 0.0, 0.012, 0.065],
-                cells: [200, 400, 160],
-            },
-            roll_rad: Axis {
-                ends: [-0.024, -0.012, 0.012, 0.024],
-                cells: [2, 16, 2],
-            },
-            yaw_squared_rad2: Axis {
-                ends: [0.0, 0.0, 9e-4, 25e-4],
-                cells: [0, 9, 2],
-            },
-        }
+    #[test]
+    fn cells_are_halved_where_asked_for() {
+        let axis = Axis::halved([0.0, 4.0], 2, 2, |start, end| {
+            start < 1.0 && end - start > 0.5
+        });
+        let nodes: Vec<f64> = (0..axis.nodes()).map(|node| axis.value(node)).collect();
+        assert_eq!(nodes, [0.0, 0.5, 1.0, 2.0, 4.0]);
+        let axes = Axes::new([axis.clone(), axis.clone(), axis]);
+        let at = |value: f64| {
+            let values = [value, 1.5, 1.5];
+            let located = dispatch!(Level::new(), simd => axes.locate(simd, values));
+            assert_eq!((located.cells[1], located.positions[2]), (2, 0.5));
+            let per_unit = axes.per_unit(values, &located)[0];
+            (
+                located.cells[0],
+                located.positions[0],
+                per_unit,
+                located.is_inside,
+            )
+        };
+        assert_eq!(at(0.25), (0, 0.5, 2.0, true));
+        assert_eq!(at(1.25), (2, 0.25, 1.0, true));
+        assert_eq!(at(3.0), (3, 0.5, 0.5, true));
+        assert_eq!(at(4.0), (3, 1.0, 0.5, true));
+        assert_eq!(at(-1.0), (0, 0.0, 0.0, false));
+        assert_eq!(at(9.0), (3, 1.0, 0.0, false));
+        // On a node, either cell gives the same.
+        assert!([(1, 1.0, 2.0, true), (2, 0.0, 1.0, true)].contains(&at(1.0)));
     }
 }

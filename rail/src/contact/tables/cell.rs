@@ -1,210 +1,318 @@
-//! One cell of the tables: interpolation between its eight nodes.
+//! One cell of the tables: interpolation between four of its nodes and the two loads that enclose the load.
+//!
+//! A cell is divided into six tetrahedra, each for one order of the positions along shift, roll and yaw. Its corners
+//! are reached from the first node of the cell by steps along the axes, the axis of the greatest position first (Kuhn's
+//! triangulation). Four nodes cost half as much as eight, and derivatives are differences of neighbours.
 
 use std::array::from_fn;
 
-use fearless_simd::{Simd, SimdBase, dispatch, f32x4, f32x8, f64x4};
+use fearless_simd::{Simd, SimdBase, dispatch, f32x8, f64x4, i16x16};
 
-use super::axis::whole;
-use super::node::Node;
-use super::{Finder, Tables};
-use crate::contact::source::{PatchReader, PatchSlopes};
-use crate::contact::tabulated_patch::{NUMBERS, PatchNumbers};
+use super::axis::Located;
+use super::record::{FIELDS, UNITS};
+use super::{DEPTHS, LEVELS, Node, ROOTS, Tables};
+use crate::contact::motion::Tangent;
+use crate::contact::patch_numbers::PatchNumbers;
+use crate::contact::silhouette::WheelPose;
+use crate::contact::source::PatchReader;
 use crate::contact::zones::ZONES;
 use crate::math::each::Each;
-use crate::math::number::{Number, load, transposed};
+use crate::math::number::{Number, transposed};
 
-/// A cell of the tables, and a position in it.
+/// Corners of a tetrahedron.
+const CORNERS: usize = 4;
+
+/// A wheel in a cell of the tables.
 pub struct Cell<'a> {
     tables: &'a Tables,
-    /// Pairs of nodes along the shift: both rolls at the first yaw, then both rolls at the second yaw.
-    rows: [&'a [Node; 2]; 4],
-    /// Weights of the eight nodes.
-    weights: [f32; 8],
-    interpenetrations: [f64; ZONES],
-    cells: [f64; 3],
-    /// Position within the cell along shift, roll and squared yaw, 0 to 1.
-    position: [f64; 3],
-    yaw: f64,
-    is_inside: bool,
+    /// The corners of the tetrahedron.
+    nodes: [&'a Node; CORNERS],
+    /// The axis along which each corner after the first is reached.
+    order: [u8; 3],
+    /// Positions along these axes.
+    falling: [f64; 3],
+    /// Shift, roll and squared yaw.
+    at: Located,
+    depth_m: f64,
+    /// Depths of the cell at no load and at each load, m.
+    depths_m: [f64; DEPTHS],
+    /// Number of depths that the wheel has passed: 0 if it does not touch the rail.
+    passed: usize,
+    load: Load<f64>,
 }
 
-/// Poses of one wheel or of two, located in the cells of their tables.
-pub(super) struct LocatedPoses<S: Simd> {
-    start: f64x4<S>,
-    cells: [f64x4<S>; 3],
-    position: [f64x4<S>; 3],
-    weights: [f64x4<S>; 8],
-    yaw: f64x4<S>,
-    outside_squared: f64x4<S>,
+/// Load of a wheel, and how its patches follow from the tables.
+#[derive(Debug, Clone, Copy)]
+struct Load<T> {
+    /// Cube root of the load, N^(1/3).
+    root: T,
+    /// Load, N.
+    load: T,
+    /// Derivative of the squared root with respect to the depth, divided by the squared root, 1/m.
+    growth: T,
+    /// Weight of the records at the greater one of the two loads that enclose the load.
+    above: T,
 }
 
-impl<S: Simd> LocatedPoses<S> {
+/// Squared cube roots of no load and of each load, N^(2/3).
+const SQUARES: [f64; DEPTHS] = {
+    let mut squares = [0.0; DEPTHS];
+    let mut k = 0;
+    while k < LEVELS {
+        squares[k + 1] = ROOTS[k] * ROOTS[k];
+        k += 1;
+    }
+    squares
+};
+
+/// The axes in falling order of their positions.
+#[inline(always)]
+fn falling_order([shift, roll, yaw]: [f64; 3]) -> [u8; 3] {
+    /// For each outcome of the comparisons below; two of them contradict each other.
+    const ORDERS: [[u8; 3]; 8] = [
+        [2, 1, 0],
+        [2, 0, 1],
+        [1, 2, 0],
+        [0, 1, 2],
+        [2, 1, 0],
+        [0, 2, 1],
+        [1, 0, 2],
+        [0, 1, 2],
+    ];
+    let shift_is_before = [shift >= roll, shift >= yaw].each(usize::from);
+    let outcome = shift_is_before[0] | usize::from(roll >= yaw) << 1 | shift_is_before[1] << 2;
+    ORDERS[outcome]
+}
+
+impl Load<f64> {
+    const NONE: Self = Self {
+        root: 0.0,
+        load: 0.0,
+        growth: 0.0,
+        above: 0.0,
+    };
+}
+
+impl<T: Number> Load<T> {
+    /// The load of a wheel at `depth` between the depths `[low, high]` of the load with number `passed - 1` (or of no
+    /// load) and the next one.
+    ///
+    /// Below the lowest load, the patches are those at the lowest load; above the highest, those at the highest.
     #[inline(always)]
-    pub fn new(finder: &Finder, [lateral, roll, yaw]: [f64x4<S>; 3]) -> Self {
-        let (simd, yaw_squared) = (yaw.simd, yaw * yaw);
-        let [shifts, rolls, yaws] = &finder.axes;
-        let shift = shifts.locate(lateral + load(simd, &finder.yaw_shift) * yaw_squared);
-        let (roll, yaw_squared) = (rolls.locate(roll), yaws.locate(yaw_squared));
-        let [roll_stride, yaw_stride] = finder.strides.each(|stride| load(simd, &stride));
-        let position = [shift.position, roll.position, yaw_squared.position];
+    fn new(passed: usize, depth: T, [low, high]: [T; 2]) -> Self {
+        let per_depth = (high - low).reciprocal();
+        let part = (depth - low) * per_depth;
+        let (from, to) = (SQUARES[passed - 1], SQUARES[passed]);
+        let square = part * (to - from) + from;
+        let root = square.sqrt();
+        let above = if passed == 1 { part * 0.0 } else { part };
         Self {
-            start: yaw_squared.cell * yaw_stride + roll.cell * roll_stride + shift.cell,
-            cells: [shift.cell, roll.cell, yaw_squared.cell],
-            position,
-            weights: products(ends(position)),
-            yaw,
-            outside_squared: shift.outside * shift.outside
-                + roll.outside * roll.outside
-                + yaw_squared.outside * yaw_squared.outside,
+            root,
+            load: square * root,
+            growth: per_depth * (to - from) / (square + TINY),
+            above: -((-above + 1.0).not_negative()) + 1.0,
         }
     }
-
-    /// The weights of the eight nodes in one lane, in single precision.
-    #[inline(always)]
-    fn single_weights(&self, lane: usize) -> [f32; 8] {
-        let simd = self.yaw.simd;
-        let [a, b, c, d, e, f, g, h] = self.weights;
-        let pairs = [(a, b), (c, d), (e, f), (g, h)].each(|(a, b)| simd.narrow_f64x4(a, b));
-        let [p, q, r, s] = pairs.each(|pair| (pair[lane], pair[lane + 4]));
-        [p.0, p.1, q.0, q.1, r.0, r.1, s.0, s.1]
-    }
-}
-
-/// Weights of both ends of each axis at `position`.
-#[inline(always)]
-fn ends<T: Number>(position: [T; 3]) -> [[T; 2]; 3] {
-    position.each(|position| [-position + 1.0, position])
-}
-
-/// Weights of the eight nodes: products of the weights along each axis.
-#[inline(always)]
-fn products<T: Number>([shift, roll, yaw]: [[T; 2]; 3]) -> [T; 8] {
-    let row = |roll: T, yaw: T| {
-        let weight = roll * yaw;
-        [shift[0] * weight, shift[1] * weight]
-    };
-    let ([a, b], [c, d]) = (row(roll[0], yaw[0]), row(roll[1], yaw[0]));
-    let ([e, f], [g, h]) = (row(roll[0], yaw[1]), row(roll[1], yaw[1]));
-    [a, b, c, d, e, f, g, h]
 }
 
 impl<'a> Cell<'a> {
-    /// The cell of the pose in one lane.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(tables: &'a Tables, poses: &LocatedPoses<S>, lane: usize) -> Self {
-        let start = whole(poses.start.lane(lane));
-        let [roll_stride, yaw_stride] = tables.strides;
-        let row = |offset: usize| {
-            let (rows, _) = tables.nodes[start + offset..].as_chunks::<2>();
-            &rows[0]
+    pub(super) fn new<S: Simd>(
+        simd: S,
+        tables: &'a Tables,
+        pose: &WheelPose,
+        depth_m: f64,
+    ) -> Self {
+        let (roll, squared_yaw) = (pose.roll_rad, pose.yaw_rad * pose.yaw_rad);
+        let [per_roll, per_squared_yaw] = tables.movements;
+        let shift = pose.lateral_m - per_roll * roll - per_squared_yaw * squared_yaw;
+        let at = tables.axes.locate(simd, [shift, roll, squared_yaw]);
+        let order = falling_order(at.positions);
+        let strides = tables.strides;
+        let [first, second, third] = order.each(|axis| usize::from(axis) % 3);
+        let start = at.cells[0] + at.cells[1] * strides[1] + at.cells[2] * strides[2];
+        let after_first = start + strides[first];
+        let after_second = after_first + strides[second];
+        let node = |node: usize| match tables.nodes.get(node) {
+            Some(node) => node,
+            None => &tables.nodes[0],
         };
-        let rows = [
-            row(0),
-            row(roll_stride),
-            row(yaw_stride),
-            row(yaw_stride + roll_stride),
-        ];
-        let weights = poses.weights.each(|weight| weight.lane(lane));
-        Self {
+        let mut cell = Self {
             tables,
-            rows,
-            weights: poses.single_weights(lane),
-            interpenetrations: interpenetrations(poses.yaw.simd, &rows, &weights).into(),
-            cells: poses.cells.each(|cell| cell.lane(lane)),
-            position: poses.position.each(|position| position.lane(lane)),
-            yaw: poses.yaw.lane(lane),
-            is_inside: poses.outside_squared.lane(lane) == 0.0,
+            nodes: [
+                node(start),
+                node(after_first),
+                node(after_second),
+                node(after_second + strides[third]),
+            ],
+            order,
+            falling: [first, second, third].each(|axis| at.positions[axis]),
+            at,
+            depth_m,
+            depths_m: [0.0; DEPTHS],
+            passed: 0,
+            load: Load::NONE,
+        };
+        cell.interpolate_depths(simd);
+        cell
+    }
+
+    /// Sets the depths and the load.
+    #[inline(always)]
+    fn interpolate_depths<S: Simd>(&mut self, simd: S) {
+        let [a, b, c, d] = self.depths_of_nodes(simd);
+        let [first, second, third] = self.falling.each(|part| simd.splat_f32x8(part as f32));
+        // Differences between nodes are small, so they keep the accuracy that single precision gives the depths.
+        let differences = (b - a) * first;
+        let differences = simd.mul_add_f32x8(c - b, second, differences);
+        let differences = simd.mul_add_f32x8(d - c, third, differences);
+        let (low, high) = simd.widen_f32x8(a);
+        let (low_difference, high_difference) = simd.widen_f32x8(differences);
+        let (low, high) = (low + low_difference, high + high_difference);
+        let depth = simd.splat_f64x4(self.depth_m);
+        let below = |depths: f64x4<S>| {
+            simd.to_bitmask_mask64x4(simd.simd_gt_f64x4(depth, depths))
+                .count_ones() as usize
+        };
+        // Beyond the highest load, its depth is extrapolated.
+        self.passed = (below(low) + below(high)).min(LEVELS);
+        low.store_slice(&mut self.depths_m[..4]);
+        high.store_slice(&mut self.depths_m[4..]);
+        let passed = self.passed;
+        if passed > 0 {
+            let ends = [self.depths_m[passed - 1], self.depths_m[passed]];
+            self.load = Load::new(passed, self.depth_m, ends);
         }
     }
 
-    /// Interpolates the numbers of several patches in one pass over the nodes.
     #[inline(always)]
-    fn numbers_by<const N: usize, S: Simd>(
-        &self,
-        simd: S,
-        weights: &[f32; 8],
-        zones: [usize; N],
-    ) -> [Quads<S>; N] {
-        let [first, nodes @ ..] = nodes(&self.rows);
-        let mut sums = zones.each(|zone| {
-            let (eight, four) = quads(simd, first, zone);
-            (eight * weights[0], four * weights[0])
-        });
-        for (node, weight) in nodes.into_iter().zip(&weights[1..]) {
-            let (eight_weights, four_weights) =
-                (simd.splat_f32x8(*weight), simd.splat_f32x4(*weight));
-            for (sum, zone) in sums.iter_mut().zip(zones) {
-                let (eight, four) = quads(simd, node, zone);
-                sum.0 = simd.mul_add_f32x8(eight, eight_weights, sum.0);
-                sum.1 = simd.mul_add_f32x4(four, four_weights, sum.1);
-            }
+    fn depths_of_nodes<S: Simd>(&self, simd: S) -> [f32x8<S>; CORNERS] {
+        self.nodes
+            .each(|node| f32x8::from_slice(simd, &node.depths_m))
+    }
+
+    /// The lower one of the two loads whose records are read.
+    #[inline(always)]
+    fn lower_level(&self) -> usize {
+        self.passed.saturating_sub(2).min(LEVELS - 2)
+    }
+
+    /// The records of a zone at a node, at the lower and at the upper load; `None` if the node has no such patch.
+    #[inline(always)]
+    fn records_at<S: Simd>(&self, simd: S, node: &Node, zone: usize) -> Option<[f32x8<S>; 2]> {
+        let levels = self.tables.records.get(node.record(zone)?)?;
+        let level = self.lower_level();
+        let both = i16x16::from_slice(simd, levels[level..level + 2].as_flattened());
+        let (low, high) = simd.widen_i16x16(both);
+        Some([simd.cvt_f32_i32x8(low), simd.cvt_f32_i32x8(high)])
+    }
+
+    /// The records of a zone at the lower and at the upper load, between the nodes.
+    #[inline(always)]
+    fn records<S: Simd>(&self, simd: S, zone: usize) -> [f32x8<S>; 2] {
+        let [first, second, third] = self.falling;
+        let weights = [1.0 - first, first - second, second - third, third];
+        let mut sums = [simd.splat_f32x8(0.0); 2];
+        for (node, weight) in self.nodes.iter().zip(weights) {
+            let Some([low, high]) = self.records_at(simd, node, zone) else {
+                continue;
+            };
+            let weight = simd.splat_f32x8(weight as f32);
+            sums[0] = simd.mul_add_f32x8(low, weight, sums[0]);
+            sums[1] = simd.mul_add_f32x8(high, weight, sums[1]);
         }
         sums
     }
-}
 
-#[inline(always)]
-fn quads<S: Simd>(simd: S, node: &Node, zone: usize) -> Quads<S> {
-    let (eight, four) = node.numbers[zone].split_at(8);
-    (
-        f32x8::from_slice(simd, eight),
-        f32x4::from_slice(simd, four),
-    )
-}
-
-#[inline(always)]
-fn nodes<'a>([a, b, c, d]: &[&'a [Node; 2]; 4]) -> [&'a Node; 8] {
-    [&a[0], &a[1], &b[0], &b[1], &c[0], &c[1], &d[0], &d[1]]
-}
-
-impl Cell<'_> {
-    /// Interpolates the numbers of two patches. Most wheels have one loaded patch, which is then listed twice.
+    /// The records of two zones. Most wheels have one loaded patch, which is then listed twice.
     #[inline(always)]
-    fn numbers_of_two<S: Simd>(&self, simd: S, zones: [usize; 2]) -> [Quads<S>; 2] {
+    fn two<S: Simd>(&self, simd: S, zones: [usize; 2]) -> [f32x8<S>; 2] {
+        let first = self.record(simd, zones[0]);
         if zones[0] == zones[1] {
-            let [numbers] = self.numbers_by(simd, &self.weights, [zones[0]]);
-            [numbers; 2]
+            [first; 2]
         } else {
-            self.numbers_by(simd, &self.weights, zones)
+            [first, self.record(simd, zones[1])]
         }
     }
-}
 
-/// The packed numbers of a patch: the first eight, then the last four.
-type Quads<S> = (f32x8<S>, f32x4<S>);
-
-fn to_array<S: Simd>((eight, four): Quads<S>) -> [f64; NUMBERS] {
-    let ([a, b, c, d, e, f, g, h], [i, j, k, l]) = (eight.to_array(), four.to_array());
-    [a, b, c, d, e, f, g, h, i, j, k, l].map(f64::from)
-}
-
-#[inline(always)]
-fn interpenetrations<S: Simd>(simd: S, rows: &[&[Node; 2]; 4], weights: &[f64; 8]) -> f64x4<S> {
-    let [first, nodes @ ..] = nodes(rows);
-    let mut sum = load(simd, &first.interpenetrations) * weights[0];
-    for (node, weight) in nodes.into_iter().zip(&weights[1..]) {
-        let weight = simd.splat_f64x4(*weight);
-        sum = simd.mul_add_f64x4(load(simd, &node.interpenetrations), weight, sum);
+    /// The record of a zone at the load of the wheel.
+    #[inline(always)]
+    fn record<S: Simd>(&self, simd: S, zone: usize) -> f32x8<S> {
+        let [low, high] = self.records(simd, zone);
+        let above = simd.splat_f32x8(self.load.above as f32);
+        simd.mul_add_f32x8(high - low, above, low)
     }
-    sum
+}
+
+/// Added to the share of a patch, so that a patch without load has no numbers like 0/0. Its reciprocal squared is a
+/// number of single precision, as derivatives are.
+const TINY: f64 = 1e-12;
+/// Added to semi-axes, so that a patch without load has a shape, m.
+const TINY_SEMI_AXIS_M: f64 = 1e-8;
+
+/// The numbers of a patch from its record.
+#[inline(always)]
+fn unpacked<T: Number>(record: [T; FIELDS], load: T, root: T) -> PatchNumbers<T> {
+    let [share, sine, wheel_y, wheel_z, a, b, whole, pressure] = record;
+    let per = (share + TINY).reciprocal();
+    let [
+        unit,
+        sine_unit,
+        y_unit,
+        z_unit,
+        a_unit,
+        b_unit,
+        whole_unit,
+        pressure_unit,
+    ] = UNITS;
+    let per_root = per * root;
+    PatchNumbers {
+        load: share * unit * load,
+        whole_load: whole * per * (whole_unit / unit) * load,
+        sine: sine * per * (sine_unit / unit),
+        wheel_y: wheel_y * per * (y_unit / unit),
+        wheel_z: wheel_z * per * (z_unit / unit),
+        semi_axes: [
+            a * per_root * (a_unit / unit) + TINY_SEMI_AXIS_M,
+            b * per_root * (b_unit / unit) + TINY_SEMI_AXIS_M,
+        ],
+        peak_pressure: pressure * per_root * (pressure_unit / unit),
+    }
 }
 
 impl PatchReader for Cell<'_> {
     #[inline(always)]
     fn is_inside(&self) -> bool {
-        self.is_inside
+        self.at.is_inside
     }
 
     #[inline(always)]
-    fn interpenetrations_m(&self) -> [f64; ZONES] {
-        self.interpenetrations
+    fn loaded_zones(&self) -> u32 {
+        if self.passed == 0 {
+            return 0;
+        }
+        let mut loaded = 0;
+        for node in self.nodes {
+            loaded |= node.loaded;
+        }
+        let of_low = loaded >> (self.lower_level() * ZONES);
+        (of_low | of_low >> ZONES) & ((1 << ZONES) - 1)
+    }
+
+    #[inline(always)]
+    fn approach_m(&self) -> f64 {
+        self.depth_m - self.depths_m[0]
+    }
+
+    #[inline(always)]
+    fn growth_per_m(&self) -> f64 {
+        1.5 * self.load.growth
     }
 
     fn numbers(&self, zone: usize) -> PatchNumbers<f64> {
-        let numbers = dispatch!(crate::math::level(), simd => {
-            to_array(self.numbers_by(simd, &self.weights, [zone])[0])
-        });
-        PatchNumbers::from_array(numbers)
+        let record: [f32; 8] =
+            dispatch!(crate::math::level(), simd => self.record(simd, zone).to_array());
+        unpacked(record.map(f64::from), self.load.load, self.load.root)
     }
 
     #[inline(always)]
@@ -213,49 +321,71 @@ impl PatchReader for Cell<'_> {
         [left, right]: [&Self; 2],
         [a, b, c, d]: [usize; 4],
     ) -> PatchNumbers<f64x4<S>> {
-        let [left_first, left_second] = left.numbers_of_two(simd, [a, c]);
-        let [right_first, right_second] = right.numbers_of_two(simd, [b, d]);
-        let lanes = [left_first, right_first, left_second, right_second];
-        let eight = lanes.each(|(eight, _)| eight.simd.split_f32x8(eight));
-        let [p, q, r, s] = transposed(simd, eight.each(|(four, _)| four));
-        let [t, u, v, w] = transposed(simd, eight.each(|(_, four)| four));
-        let [x, y, z, last] = transposed(simd, lanes.each(|(_, four)| four));
-        PatchNumbers::from_array([p, q, r, s, t, u, v, w, x, y, z, last])
+        let ([p, r], [q, s]) = (left.two(simd, [a, c]), right.two(simd, [b, d]));
+        let lanes = [p, q, r, s].each(|record| simd.split_f32x8(record));
+        let [k, l, m, n] = transposed(simd, lanes.each(|(four, _)| four));
+        let [t, u, v, w] = transposed(simd, lanes.each(|(_, four)| four));
+        let in_lanes =
+            |left: f64, right: f64| crate::math::number::load(simd, &[left, right, left, right]);
+        unpacked(
+            [k, l, m, n, t, u, v, w],
+            in_lanes(left.load.load, right.load.load),
+            in_lanes(left.load.root, right.load.root),
+        )
     }
 
-    fn slopes(&self, zone: usize) -> [PatchSlopes; 3] {
-        dispatch!(crate::math::level(), simd => self.slopes_in(simd, zone))
+    fn differentiated(
+        &self,
+        zone: usize,
+        coordinates: [Tangent; 4],
+    ) -> (Tangent, PatchNumbers<Tangent>) {
+        dispatch!(crate::math::level(), simd => self.differentiated_in(simd, zone, coordinates))
     }
 }
 
 impl Cell<'_> {
     #[inline(always)]
-    fn slopes_in<S: Simd>(&self, simd: S, zone: usize) -> [PatchSlopes; 3] {
-        let (mut depth, mut numbers) = ([0.0; 3], [[0.0; NUMBERS]; 3]);
-        for axis in 0..3 {
-            if !self.is_inside {
-                break;
-            }
-            let mut ends = ends(self.position);
-            ends[axis] = [-1.0, 1.0];
-            let weights = products(ends);
-            let interpenetrations = interpenetrations(simd, &self.rows, &weights);
-            let weights = weights.each(|weight| weight as f32);
-            let [of_zone] = self.numbers_by(simd, &weights, [zone]);
-            let cells_per_unit = self.tables.finder.axes[axis].cells_per_unit(self.cells[axis]);
-            depth[axis] = interpenetrations[zone] * cells_per_unit;
-            numbers[axis] = to_array(of_zone).map(|slope| slope * cells_per_unit);
-        }
-        // The shift at which the tables are read depends on the yaw too.
-        let squared = 2.0 * self.yaw;
-        let shift = squared * self.tables.finder.yaw_shift[0];
-        let by_yaw =
-            |by_shift: f64, by_yaw_squared: f64| shift * by_shift + squared * by_yaw_squared;
-        depth[2] = by_yaw(depth[0], depth[2]);
-        numbers[2] = from_fn(|n| by_yaw(numbers[0][n], numbers[2][n]));
-        [0, 1, 2].map(|axis| PatchSlopes {
-            interpenetration: depth[axis],
-            numbers: PatchNumbers::from_array(numbers[axis]),
-        })
+    fn differentiated_in<S: Simd>(
+        &self,
+        simd: S,
+        zone: usize,
+        [shift, roll, yaw, depth]: [Tangent; 4],
+    ) -> (Tangent, PatchNumbers<Tangent>) {
+        // The position in the cell along each axis, as a function of the pose.
+        let squared = yaw * yaw;
+        let [per_roll, per_squared_yaw] = self.tables.movements;
+        let shift = shift - roll * per_roll - squared * per_squared_yaw;
+        let values = [shift, roll, squared];
+        let located = values.map(|value| value.value());
+        let per_unit = self.tables.axes.per_unit(located, &self.at);
+        let axes = self.order.map(|axis| usize::from(axis) % 3);
+        let steps = axes.map(|axis| (per_unit[axis], values[axis]));
+        // Differences from each corner to the next, which are the slopes along the axes.
+        let function = |value: f64, slopes: [f32; 3]| {
+            let term = |k: usize| {
+                let (per_unit, of) = steps[k];
+                (f64::from(slopes[k]) * per_unit, of)
+            };
+            Tangent::function(value, [0, 1, 2].map(term))
+        };
+        let depths = self.depths_of_nodes(simd);
+        let depth_slopes = [0, 1, 2].map(|k| (depths[k + 1] - depths[k]).to_array());
+        let depth_at = |k: usize| function(self.depths_m[k], depth_slopes.map(|slopes| slopes[k]));
+        let passed = self.passed.max(1);
+        let load = Load::new(passed, depth, [depth_at(passed - 1), depth_at(passed)]);
+        let values_of = self.records(simd, zone).each(|record| record.to_array());
+        let none = [simd.splat_f32x8(0.0); 2];
+        let at_nodes = self
+            .nodes
+            .map(|node| self.records_at(simd, node, zone).unwrap_or(none));
+        let field = |n: usize| {
+            let [low, high] = [0, 1].map(|end| {
+                let slope = |k: usize| at_nodes[k + 1][end][n] - at_nodes[k][end][n];
+                function(f64::from(values_of[end][n]), [0, 1, 2].map(slope))
+            });
+            low + (high - low) * load.above
+        };
+        let numbers = unpacked(from_fn(field), load.load, load.root);
+        (depth - depth_at(0), numbers)
     }
 }

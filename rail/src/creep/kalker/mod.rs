@@ -1,9 +1,11 @@
 //! Kalker's creepage coefficients for any ratio of the semi-axes and any Poisson's ratio.
 
+mod lookup;
 mod table;
 
 use std::f64::consts::PI;
 
+pub(crate) use lookup::KalkerLookup;
 pub use table::KalkerError;
 use table::{Row, rows};
 

@@ -4,7 +4,8 @@ use std::ops::Mul;
 
 use fearless_simd::{Simd, SimdBase, f64x4};
 
-use super::pages::{BookPositions, MAX_SHAPE, shape};
+use super::pages::{BookPositions, MAX_SHAPE};
+use crate::creep::shape::shape;
 use crate::creep::{ContactLanes, Creepage, KalkerCoefficients, LoadedContact};
 use crate::math::each::Each;
 use crate::math::number::{Number, are_within};

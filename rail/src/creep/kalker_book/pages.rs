@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f64x4};
 
+use crate::creep::shape::ratio;
 use crate::math::each::Each;
-use crate::math::number::Number;
 
 /// Layout of the file of the book, for programs that write or check it.
 ///
@@ -29,23 +29,15 @@ impl Layout {
     /// Ratio `a/b` at an index.
     pub fn a_over_b(index: usize) -> f64 {
         let part = 2.0 * index as f64 / (Self::RATIOS - 1) as f64 - 1.0;
-        let shape = part * MAX_SHAPE;
-        (2.0 * shape + (1.0 + 3.0 * shape * shape).sqrt()) / (1.0 - shape)
+        ratio(part * MAX_SHAPE)
     }
 }
 
-/// Value of [`shape`] at the maximum ratio.
+/// Value of [`shape`](crate::creep::shape::shape) at the maximum ratio.
 pub(super) const MAX_SHAPE: f64 = {
     let ratio = Layout::MAX_RATIO;
     (ratio * ratio - 1.0) / (ratio * ratio + 4.0 * ratio + 1.0)
 };
-
-/// Shape of an ellipse, `(a^2 - b^2)/(a^2 + 4 a b + b^2)`; the ratios of the book are equidistant in it.
-#[inline(always)]
-pub(super) fn shape<C: Number>(a: C, b: C) -> C {
-    let squares = a * a + b * b;
-    (a * a - b * b) / (squares + a * b * 4.0)
-}
 
 /// Number of coefficients from one spin, size and ratio to the next.
 const STRIDE: [usize; 3] = {

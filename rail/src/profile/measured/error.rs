@@ -67,6 +67,28 @@ pub enum ProfileError {
         /// Number of points found.
         found: usize,
     },
+    /// The profile is too narrow or too wide for one in millimetres.
+    #[error(
+        "{width_mm} mm wide, allowed: {} to {} mm; {}",
+        .allowed_mm[0], .allowed_mm[1], unit_hint(*.width_mm)
+    )]
+    Unit {
+        /// Width of the profile if its lengths are in the unit of its format, mm.
+        width_mm: f64,
+        /// Minimum and maximum allowed width, mm.
+        allowed_mm: [f64; 2],
+    },
+    /// The points do not follow one another along the curve.
+    #[error(
+        "points out of order: this one is {jump_mm:.1} mm from the previous one, although no part of the surface is \
+         missing between them; allowed: points in their order along the curve, from either end"
+    )]
+    Unsorted {
+        /// Line of the text, counted from 1.
+        line: u64,
+        /// Distance to the previous point, mm.
+        jump_mm: f64,
+    },
     /// The curve folds back, and then emerges again or runs back over the surface.
     #[error(
         "folded back by {fold_mm:.2} mm near y_mm {y_mm:.2}, allowed: {MAX_FOLD_MM} mm, or more if the curve then \
@@ -137,6 +159,7 @@ impl ProfileError {
             | Self::Number { line, .. }
             | Self::Key { line, .. }
             | Self::Line { line, .. }
+            | Self::Unsorted { line, .. }
             | Self::FoldedBack { line, .. }
             | Self::Gap { line, .. } => Some(line),
             _ => None,
@@ -149,5 +172,17 @@ impl ProfileError {
             Self::Number { column, .. } => Some(column),
             _ => None,
         }
+    }
+}
+
+/// The probable mistake behind the width of a profile.
+fn unit_hint(width_mm: f64) -> &'static str {
+    if width_mm < 1.0 {
+        "the lengths seem to be in metres: multiply them by 1000, or, in a SIMPACK file, set units.len.f to 1"
+    } else if width_mm < 100.0 {
+        "the lengths seem to be in inches: multiply them by 25.4"
+    } else {
+        "the lengths seem to be smaller than millimetres: convert them to mm, or, in a SIMPACK file, set units.len.f \
+         to the number of its units per metre"
     }
 }

@@ -17,6 +17,7 @@ mod format;
 mod gensys;
 mod miniprof;
 mod mirror;
+mod order;
 mod orientation;
 mod reading;
 mod row;
@@ -38,6 +39,8 @@ use mirror::OrientedRows;
 pub const MIN_POINTS: usize = 30;
 /// Maximum distance between neighbouring points, mm. A chord of 5 mm cuts 0.24 mm off a rail corner of R 13.
 pub const MAX_GAP_MM: f64 = 5.0;
+/// Allowed widths of a profile, mm: from a strip of a rail head to a wheel with its rim.
+pub const WIDTHS_MM: [f64; 2] = [10.0, 1000.0];
 /// Maximum width of a fold or burr that is removed, mm: several times the noise of a profile gauge. Behind a wider fold
 /// the shape of the surface is unknown.
 pub const MAX_FOLD_MM: f64 = 0.3;
@@ -55,7 +58,8 @@ pub const DEFAULT_SMOOTHING_M: f64 = 0.004;
 ///
 /// # Errors
 /// The text does not have its format; a number is not within -1000 to 1000; there are fewer than [`MIN_POINTS`] points;
-/// neighbours are more than [`MAX_GAP_MM`] apart; a fold is wider than [`MAX_FOLD_MM`]; the profile is upside down or
+/// the profile is not within [`WIDTHS_MM`] wide, as if its lengths were in another unit; neighbours are more than
+/// [`MAX_GAP_MM`] apart; points are out of order; a fold is wider than [`MAX_FOLD_MM`]; the profile is upside down or
 /// mirrored; a GENSYS rail has no [`Options::mirror`]; the smoothing length is negative.
 ///
 /// ```
@@ -97,11 +101,26 @@ pub fn parse(
     if rows.len() < MIN_POINTS {
         return Err(ProfileError::TooFewPoints { found: rows.len() });
     }
-    if rows[0].y_mm > rows[rows.len() - 1].y_mm {
+    let width_mm = order::width_mm(&rows);
+    if !(WIDTHS_MM[0]..=WIDTHS_MM[1]).contains(&width_mm) {
+        return Err(ProfileError::Unit {
+            width_mm,
+            allowed_mm: WIDTHS_MM,
+        });
+    }
+    let is_reversed = rows[0].y_mm > rows[rows.len() - 1].y_mm;
+    if is_reversed {
         rows.reverse();
     }
-    orientation::check(body, &rows)?;
-    let part_in_reach = touchable::touchable(body, &rows)?;
+    let part_in_reach = orientation::check(body, &rows)
+        .and_then(|()| touchable::touchable(body, &rows))
+        .map_err(|error| {
+            // Points without order violate other checks too.
+            if is_reversed {
+                rows.reverse();
+            }
+            order::jump(&rows).unwrap_or(error)
+        })?;
     if part_in_reach.points_mm.len() < MIN_POINTS {
         return Err(ProfileError::TooFewPoints {
             found: part_in_reach.points_mm.len(),

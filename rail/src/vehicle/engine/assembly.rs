@@ -50,10 +50,31 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         step_s: f64,
         support: Option<RailSupport>,
     ) -> Result<Self, VehicleError> {
+        let contacts = vec![contact; parameters.wheelsets.len()];
+        Self::with_contacts(parameters, contacts, step_s, support)
+    }
+
+    /// Builds the vehicle like [`Vehicle::on_rails`], with a contact for each wheelset. Equal wheelsets should share
+    /// one.
+    ///
+    /// # Errors
+    /// Those of [`Vehicle::on_rails`], or a number of contacts other than that of the wheelsets.
+    pub fn with_contacts(
+        parameters: &VehicleParameters,
+        contacts: Vec<Arc<WheelsetContact<L, S>>>,
+        step_s: f64,
+        support: Option<RailSupport>,
+    ) -> Result<Self, VehicleError> {
         VehicleError::check(&parameters.name, "step_s", step_s, STEP_S)?;
         let standstill = Standstill::new(parameters)?;
         if parameters.wheelsets.is_empty() {
             return Err(VehicleError::NoWheelset);
+        }
+        if contacts.len() != parameters.wheelsets.len() {
+            return Err(VehicleError::Contacts {
+                contacts: contacts.len(),
+                wheelsets: parameters.wheelsets.len(),
+            });
         }
         let mut bodies = parameters.bodies.clone();
         bodies.extend(wheelset_bodies(parameters));
@@ -119,10 +140,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             return Err(VehicleError::StepTooLong { step_s });
         }
         let mut wheelsets = Vec::with_capacity(count);
-        for (number, wheelset) in parameters.wheelsets.iter().enumerate() {
+        let with_contacts = parameters.wheelsets.iter().zip(&contacts);
+        for (number, (wheelset, contact)) in with_contacts.enumerate() {
             let load_n = standstill.axle_loads_n()[number];
             let carried =
-                Carried::new(&contact, load_n).ok_or_else(|| VehicleError::NotCarried {
+                Carried::new(contact, load_n).ok_or_else(|| VehicleError::NotCarried {
                     wheelset: wheelset.name.clone(),
                     load_n,
                 })?;
@@ -134,6 +156,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 blocks: ContactBlocks {
                     wheelset: body,
                     rails: coupled,
+                },
+                surface: SurfaceConstants {
+                    shear_modulus_pa: contact.shear_modulus_pa(),
+                    normal_damping_s_per_m: contact.normal_damping_s_per_m(),
                 },
                 standing_n: rails::standing_n(&carried.wheel_forces_n),
                 carried,
@@ -147,11 +173,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             shape: Shape::default(),
             step_s,
             method,
-            surface: SurfaceConstants {
-                shear_modulus_pa: contact.shear_modulus_pa(),
-                normal_damping_s_per_m: contact.normal_damping_s_per_m(),
-            },
-            contact,
+            contacts,
             level,
             names: bodies.iter().map(|body| body.name.clone()).collect(),
             positions: bodies

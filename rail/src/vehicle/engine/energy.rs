@@ -4,9 +4,10 @@ use fearless_simd::dispatch;
 
 use super::Vehicle;
 use super::block::Vector;
+use super::rails::displace;
 use super::state::VehicleState;
 use super::tangent::ContactBlocks;
-use crate::contact::PatchSource;
+use crate::contact::{PatchSource, RailDisplacement};
 use crate::creep::CreepLaw;
 use crate::vehicle::error::VehicleError;
 
@@ -19,7 +20,7 @@ pub struct Energy {
     pub kinetic_j: f64,
     /// Potential energy of springs and weight, J. The mounts of dampers are not included.
     pub potential_j: f64,
-    /// Energy of the contact patches, J: `2/5 N penetration` each (Hertz).
+    /// Elastic energy of the contact, J.
     pub contact_j: f64,
     /// Power dissipated by the dashpots parallel to springs, W.
     pub dissipation_w: f64,
@@ -56,7 +57,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 energy.kinetic_j += 0.5 * inertia * velocity * velocity;
             }
         }
-        for (constants, contact) in self.wheelsets.iter().zip(&state.contacts) {
+        for (constants, contact) in self.wheelsets.iter().zip(&self.contacts) {
             let free = state.speed_m_per_s / constants.carried.rolling_radius_m;
             // Rolling forward is a rotation nose down. The energy of the rotation is proportional to (free - rate)^2 -
             // free^2. The sum above already contains rate^2.
@@ -69,13 +70,14 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 let pairs = constants.standing_n.iter().zip(&state.coordinates[rails]);
                 energy.potential_j += pairs.map(|(force, q)| force * q).sum::<f64>();
             }
-            let patches = contact
-                .wheels
-                .iter()
-                .flat_map(|wheel| wheel.loaded_patches());
-            energy.contact_j += patches
-                .map(|patch| 0.4 * patch.load_n * patch.penetration_m)
-                .sum::<f64>();
+            let motion = self.wheelset_motion(state, constants);
+            let mut displacements = [RailDisplacement::default(); 2];
+            if let Some((rails, _)) = rails {
+                let (displaced, rates) = (&state.coordinates[rails], &state.velocities[rails]);
+                displace(&mut displacements, displaced, rates);
+            }
+            let contact_j = contact.elastic_energy_j(&motion, &displacements);
+            energy.contact_j += contact_j.iter().sum::<f64>();
             energy.contact_j -= constants.carried.contact_j;
         }
         Ok(energy)

@@ -54,15 +54,12 @@ pub const SPEED_M_PER_S: [f64; 2] = [1.0, 150.0];
 ///
 /// ```
 /// # use std::sync::Arc;
-/// # use dashpot_rail::contact::{ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact};
+/// # use dashpot_rail::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
 /// # use dashpot_rail::creep::{Friction, KalkerBook};
 /// use dashpot_rail::track::Track;
 /// use dashpot_rail::vehicle::{Body, Element, End, Law, Vehicle, VehicleParameters, Wheelset};
-/// # let mut grid = Grid::default();
-/// # grid.roll_rad.cells = [1, 2, 1];
-/// # grid.yaw_squared_rad2.cells = [0, 1, 1];
 /// # let pair = Pair::standard(Installation::default().with_wheel_radius_m(0.46))?;
-/// # let tables = Tables::new(ContactGeometry::new(pair, Steel::default(), 75e3)?, grid)?;
+/// # let tables = Tables::new(ContactGeometry::new(pair, Steel::default())?);
 /// # let contact = Arc::new(WheelsetContact::new(Arc::new(tables), KalkerBook::new(), Friction::default())?);
 /// // A wagon of 27 t on two wheelsets of 1.5 t; `contact` is the contact of its wheels.
 /// let wheelset = |name: &str| Wheelset::new(name, 1500.0, [800.0, 100.0, 800.0], 0.46);
@@ -99,8 +96,8 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     shape: Shape,
     step_s: f64,
     method: Method,
-    contact: Arc<WheelsetContact<L, S>>,
-    surface: SurfaceConstants,
+    /// Contact of each wheelset; equal wheelsets share one.
+    contacts: Vec<Arc<WheelsetContact<L, S>>>,
     level: Level,
     names: Vec<String>,
     positions: Vec<BodyPosition>,
@@ -119,6 +116,7 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct WheelsetConstants {
     blocks: ContactBlocks,
+    surface: SurfaceConstants,
     /// Forces on elastically supported rails at standstill, N.
     standing_n: Vector,
     carried: Carried,

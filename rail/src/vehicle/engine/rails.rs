@@ -228,6 +228,7 @@ mod tests {
             vertical_velocity_m_per_s: 4.0,
             roll_rad: 5.0,
             roll_rate_rad_per_s: 6.0,
+            friction_ratio: 0.7,
         };
         let mut rails = [irregularity; 2];
         let (q, v) = ([0.1, 0.2, 0.3, 0.4, 0.0], [0.5, 0.6, 0.7, 0.8, 0.0]);

@@ -126,23 +126,18 @@ mod tests {
     use std::sync::{Arc, OnceLock};
 
     use super::*;
-    use crate::contact::{
-        ContactGeometry, Grid, Installation, Pair, Steel, Tables, WheelsetContact,
-    };
+    use crate::contact::{ContactGeometry, Installation, Pair, Steel, Tables, WheelsetContact};
     use crate::creep::{Friction, KalkerBook};
     use crate::track::Track;
     use crate::vehicle::{Body, Element, End, Law, Stop, Vehicle, VehicleParameters, Wheelset};
 
-    /// A body on a wheelset, with coarse tables.
+    /// A body on a wheelset.
     fn vehicle() -> Vehicle<KalkerBook> {
         static CONTACT: OnceLock<Arc<WheelsetContact<KalkerBook>>> = OnceLock::new();
         let contact = CONTACT.get_or_init(|| {
-            let mut grid = Grid::default();
-            grid.roll_rad.cells = [1, 2, 1];
-            grid.yaw_squared_rad2.cells = [0, 1, 1];
             let pair = Pair::standard(Installation::default()).unwrap();
-            let geometry = ContactGeometry::new(pair, Steel::default(), 75e3).unwrap();
-            let tables = Arc::new(Tables::new(geometry, grid).unwrap());
+            let geometry = ContactGeometry::new(pair, Steel::default()).unwrap();
+            let tables = Arc::new(Tables::new(geometry));
             let friction = Friction::default();
             Arc::new(WheelsetContact::new(tables, KalkerBook::new(), friction).unwrap())
         });

@@ -137,8 +137,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let system = &mut state.work.system;
         system.set(&self.system);
         for (constants, forces) in self.wheelsets.iter().zip(&state.contacts) {
-            let (blocks, speed) = (&constants.blocks, state.speed_m_per_s);
-            add_contact(simd, system, blocks, forces, self.surface, speed, weights);
+            let (blocks, surface) = (&constants.blocks, constants.surface);
+            let speed = state.speed_m_per_s;
+            add_contact(simd, system, blocks, forces, surface, speed, weights);
         }
         state.is_diverged |= !self.structure.factorise(simd, system);
     }
@@ -242,6 +243,32 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
+    /// Motion of a wheelset over its track.
+    #[inline(always)]
+    pub(super) fn wheelset_motion(
+        &self,
+        state: &VehicleState,
+        constants: &WheelsetConstants,
+    ) -> Motion {
+        let body = constants.blocks.wheelset;
+        let pose_rate = &state.work.guidance.pose_rate[body];
+        let [lateral, vertical, roll, _, yaw] = state.coordinates[body];
+        let v = state.velocities[body];
+        let free = constants.carried.motion(state.speed_m_per_s);
+        Motion {
+            lateral_m: lateral,
+            vertical_m: free.vertical_m + vertical,
+            roll_rad: roll,
+            yaw_rad: yaw,
+            lateral_velocity_m_per_s: v[0] - pose_rate[0],
+            vertical_velocity_m_per_s: v[1],
+            roll_rate_rad_per_s: v[2] - pose_rate[2],
+            rotation_rad_per_s: free.rotation_rad_per_s - v[3],
+            yaw_rate_rad_per_s: v[4],
+            ..free
+        }
+    }
+
     #[inline(always)]
     fn act_on_wheelset(
         &self,
@@ -262,27 +289,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             carried,
             axle_load_n,
             spin_inertia_kg_m2,
+            ..
         } = *constants;
         let speed = state.speed_m_per_s;
-        let guidance = &state.work.guidance;
-        let pose_rate = &guidance.pose_rate[body];
-        let [lateral, vertical, roll, _, yaw] = state.coordinates[body];
-        let v = state.velocities[body];
-        let free = carried.motion(speed);
-        let motion = Motion {
-            lateral_m: lateral,
-            vertical_m: carried.vertical_m + vertical,
-            roll_rad: roll,
-            yaw_rad: yaw,
-            lateral_velocity_m_per_s: v[0] - pose_rate[0],
-            vertical_velocity_m_per_s: v[1],
-            roll_rate_rad_per_s: v[2] - pose_rate[2],
-            rotation_rad_per_s: free.rotation_rad_per_s - v[3],
-            yaw_rate_rad_per_s: v[4],
-            ..free
-        };
-        let rails = track.rails(distance_m + self.positions[body].x_m);
-        let mut rails = rails.map(|rail| rail.displacement(speed));
+        let motion = self.wheelset_motion(state, constants);
+        let mut rails = track.displacements(distance_m + self.positions[body].x_m, speed);
         if let Some((rail, _)) = on_rails {
             displace(
                 &mut rails,
@@ -291,15 +302,17 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             );
         }
         let contact = &mut state.contacts[number];
-        self.contact.update(&motion, &rails, contact);
+        self.contacts[number].update(&motion, &rails, contact);
         let greatest_n = &mut state.work.greatest_loads_n[number];
         for (greatest_n, wheel) in greatest_n.iter_mut().zip(&contact.wheels) {
             *greatest_n = greatest_n.max(-wheel.force_n[2]);
         }
         let [_, fy, fz] = contact.force_n;
         let [mx, my, mz] = contact.moment_n_m;
-        let turned = guidance.relative[body][2];
-        let momentum = spin_inertia_kg_m2 * free.rotation_rad_per_s;
+        let turned = state.work.guidance.relative[body][2];
+        let [_, _, roll, _, yaw] = state.coordinates[body];
+        let v = &state.velocities[body];
+        let momentum = spin_inertia_kg_m2 * carried.motion(speed).rotation_rad_per_s;
         let sums = &mut forces[body];
         sums[0] += fy - turned * fz;
         sums[1] += fz + turned * fy + axle_load_n;

@@ -36,7 +36,7 @@ pub(super) struct ContactBlocks {
 
 /// Adds the contact of a wheelset at `speed_m_per_s` to its blocks.
 ///
-/// - Normal direction: the stiffness `3/2 N/penetration` of Hertz and the damping `beta N` of Hunt and Crossley.
+/// - Normal direction: the stiffness of the patch and the damping `beta N` of Hunt and Crossley.
 /// - Both tangential directions: the damping `f/speed`, where `f` is the force divided by the creepage, limited to
 ///   `4 G a b`.
 ///
@@ -58,7 +58,7 @@ pub(super) fn add_contact<S: Simd>(
         let mut on_rails = all;
         let mut directions = all.iter_mut().zip(&mut on_rails);
         for patch in wheel.loaded_patches() {
-            let stiffness = 1.5 * patch.load_n / patch.penetration_m.max(1e-9);
+            let stiffness = patch.stiffness_n_per_m;
             let damping = creep_coefficient_n(patch, surface.shear_modulus_pa) / speed_m_per_s;
             let [x, y, z] = patch.position_m;
             // The slope of the left wheel is given in mirrored axes.

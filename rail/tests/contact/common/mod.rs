@@ -3,27 +3,25 @@
 use std::sync::{Arc, OnceLock};
 
 use dashpot_rail::contact::{
-    ContactGeometry, Grid, Installation, Motion, Pair, PatchSource, RailDisplacement, Steel,
-    Tables, WheelsetContact,
+    ContactGeometry, Installation, Motion, Pair, PatchSource, RailDisplacement, Steel, Tables,
+    WheelsetContact,
 };
 use dashpot_rail::creep::{
     CreepLaw, Fastsim, Friction, KalkerBook, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
 };
 
-/// S1002 on UIC 60, with a wheel load of 103 kN.
+/// S1002 on UIC 60.
 pub fn geometry() -> &'static ContactGeometry {
     static GEOMETRY: OnceLock<ContactGeometry> = OnceLock::new();
     GEOMETRY.get_or_init(|| {
         let pair = Pair::standard(Installation::default()).unwrap();
-        ContactGeometry::new(pair, Steel::default(), 103e3).unwrap()
+        ContactGeometry::new(pair, Steel::default()).unwrap()
     })
 }
 
 pub fn tables() -> Arc<Tables> {
     static TABLES: OnceLock<Arc<Tables>> = OnceLock::new();
-    let tables =
-        TABLES.get_or_init(|| Arc::new(Tables::new(geometry().clone(), Grid::default()).unwrap()));
-    Arc::clone(tables)
+    Arc::clone(TABLES.get_or_init(|| Arc::new(Tables::new(geometry().clone()))))
 }
 
 /// Every creep law, with its name in docs/contact.md.
@@ -49,6 +47,7 @@ pub const LEVEL: [RailDisplacement; 2] = [RailDisplacement {
     vertical_velocity_m_per_s: 0.0,
     roll_rad: 0.0,
     roll_rate_rad_per_s: 0.0,
+    friction_ratio: 1.0,
 }; 2];
 
 /// `motion` at the height at which the rails carry `load_n`, by bisection.

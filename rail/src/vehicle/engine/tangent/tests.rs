@@ -32,7 +32,7 @@ const MOTIONS: [Vector; 4] = [
 fn patch() -> PatchForces {
     PatchForces {
         load_n: 80e3,
-        penetration_m: 60e-6,
+        stiffness_n_per_m: 2e9,
         slope: 0.75,
         semi_axes_m: [6e-3, 4e-3],
         position_m: [0.02, 0.72, 0.6],
@@ -75,7 +75,7 @@ fn form(block: &Block, a: &Vector, b: &Vector) -> f64 {
 
 /// Weighted resistances of the patch against motion normal to it and along it.
 fn resistances(patch: &PatchForces) -> [f64; 2] {
-    let stiffness = 1.5 * patch.load_n / patch.penetration_m;
+    let stiffness = patch.stiffness_n_per_m;
     let damping = SURFACE.normal_damping_s_per_m * patch.load_n;
     // 5 kN at a creepage of 1 per mille.
     let creep = 5e6 / SPEED;
