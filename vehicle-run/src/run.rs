@@ -267,6 +267,11 @@ impl Run {
         &self.contacts
     }
 
+    /// The track.
+    pub fn track(&self) -> &Arc<Track> {
+        &self.track
+    }
+
     /// Current state of the vehicle.
     pub fn state(&self) -> &VehicleState {
         &self.state

@@ -1,11 +1,16 @@
 //! Wear of the wheels over a run: an estimate by a published law.
 
+use std::sync::Arc;
+
+use dashpot_rail::creep::Friction;
+use dashpot_rail::track::Track;
 pub use dashpot_wear::{CellWear, WearLaw};
 use dashpot_wear::{Wear, WearEstimate, WearGrid, WearingPatch};
 use serde::Serialize;
 
 use super::VehicleTick;
 use super::contact::Contact;
+use super::run::Run;
 use super::signals::SIDES;
 use dashpot_files::case::Case;
 
@@ -16,7 +21,8 @@ pub const PER_DISTANCE_M: f64 = 1e6;
 #[derive(Debug, Clone)]
 pub struct RunWear {
     wheelsets: Vec<WheelsetWear>,
-    friction: f64,
+    friction: Friction,
+    track: Arc<Track>,
     speed_m_per_s: f64,
     tick_m: f64,
     ticks: u64,
@@ -26,6 +32,8 @@ pub struct RunWear {
 #[derive(Debug, Clone)]
 struct WheelsetWear {
     name: String,
+    /// Position from the middle of the vehicle, positive forward, m.
+    position_m: f64,
     radius_m: f64,
     wheels: [Wear; 2],
 }
@@ -72,24 +80,26 @@ const NOTE: &str = "Estimate by a law from laboratory tests of dry steel; withou
                     variants with it.";
 
 impl RunWear {
-    /// Starts the wear of a case whose wheelsets have these contacts, by a law.
-    pub fn new(case: &Case, contacts: &[Contact], law: WearLaw) -> Self {
+    /// Starts the wear of a case in its run, by a law.
+    pub fn new(case: &Case, run: &Run, law: WearLaw) -> Self {
         let wheels = |contact: &Contact| {
             contact.sources().each_ref().map(|source| {
                 let wheel = source.geometry().pair().wheel();
                 Wear::new(WearGrid::new(wheel), law)
             })
         };
-        let wheelsets = case.vehicle.wheelsets.iter().zip(contacts);
+        let wheelsets = case.vehicle.wheelsets.iter().zip(run.contacts());
         Self {
             wheelsets: wheelsets
                 .map(|(wheelset, contact)| WheelsetWear {
                     name: wheelset.name.clone(),
+                    position_m: wheelset.x_m,
                     radius_m: wheelset.radius_m,
                     wheels: wheels(contact),
                 })
                 .collect(),
-            friction: case.friction,
+            friction: case.contact.friction(case.friction),
+            track: Arc::clone(run.track()),
             speed_m_per_s: case.speed_m_per_s,
             tick_m: case.speed_m_per_s * case.step_s,
             ticks: 0,
@@ -100,9 +110,14 @@ impl RunWear {
     pub fn add(&mut self, state: &impl VehicleTick) {
         self.ticks += 1;
         for (wheelset, contact) in self.wheelsets.iter_mut().zip(state.contacts()) {
-            for (wear, wheel) in wheelset.wheels.iter_mut().zip(&contact.wheels) {
+            let at_m = state.distance_m() + wheelset.position_m;
+            let ratios = self.track.friction_ratios(at_m);
+            let wheels = wheelset.wheels.iter_mut().zip(&contact.wheels);
+            for ((wear, wheel), ratio) in wheels.zip(ratios) {
                 for patch in wheel.loaded_patches() {
-                    let wearing = WearingPatch::new(patch, self.speed_m_per_s, self.friction);
+                    let sliding_m_per_s = patch.creepage.magnitude() * self.speed_m_per_s;
+                    let friction = ratio * self.friction.at(sliding_m_per_s);
+                    let wearing = WearingPatch::new(patch, self.speed_m_per_s, friction);
                     wear.add(patch.wheel_y_m, &wearing, self.tick_m);
                 }
             }

@@ -615,3 +615,25 @@ fn the_shipped_studies_are_valid() {
     }
     assert!(files_in(folder.path()).is_empty());
 }
+
+/// A study observes the same wear as the vehicle reports.
+#[test]
+fn wear_of_a_study_is_that_of_the_vehicle() {
+    let study = "name = \"wear\"\nobserved = [\"max_wear_depth_um_per_1000km\"]\n\
+                 [[sweep]]\nname = \"speed\"\ncase = \"curve-r300\"\nduration_s = 0.5\n\
+                 vary = [{ parameter = \"speed_km_h\", values = [70] }]\n";
+    let folder = folder(study);
+    let sweep = ["sweep", "study.toml", "--no-page", "--output", "."];
+    dashpot(&sweep, folder.path()).success();
+    let mut rows = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();
+    let row = rows.records().next().unwrap().unwrap();
+    let observed: f64 = row.iter().next_back().unwrap().parse().unwrap();
+    let vehicle = "vehicle --case curve-r300 --duration 0.5 --no-page --format json";
+    let arguments: Vec<&str> = vehicle.split(' ').collect();
+    let report = json_of(&dashpot(&arguments, folder.path()).success());
+    let wheels = report["wear"]["wheels"].as_array().unwrap();
+    let depth = |wheel: &serde_json::Value| wheel["max_depth_um_per_1000km"].as_f64().unwrap();
+    let deepest = wheels.iter().map(depth).fold(0.0, f64::max);
+    assert!(observed > 0.0);
+    assert_eq!(observed, deepest);
+}

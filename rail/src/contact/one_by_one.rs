@@ -51,7 +51,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             return derivatives;
         }
         let mut wrenches = Wrench::splat([0.0; 2]);
-        for side in 0..2 {
+        for (side, derivatives) in derivatives.iter_mut().enumerate() {
             let sign = sign(side);
             let moving = self.moving_wheel(side, motion, rails);
             let wheel = &mut forces.wheels[side];
@@ -88,7 +88,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
                 wrenches.force[k][side] = wrench.force[k].value();
                 wrenches.moment[k][side] = wrench.moment[k].value();
             }
-            derivatives[side] = WheelDerivatives::new(&wrench, sign);
+            *derivatives = WheelDerivatives::new(&wrench, sign);
         }
         forces.set_wrenches(wrenches);
         derivatives

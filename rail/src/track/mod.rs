@@ -195,12 +195,17 @@ impl Track {
         let mut rails = self
             .rails(distance_m)
             .map(|rail| rail.displacement(speed_m_per_s));
-        if let Some(friction) = &self.friction {
-            for (rail, ratio) in rails.iter_mut().zip(friction.at(distance_m).values) {
-                rail.friction_ratio = ratio;
-            }
+        for (rail, ratio) in rails.iter_mut().zip(self.friction_ratios(distance_m)) {
+            rail.friction_ratio = ratio;
         }
         rails
+    }
+
+    /// Returns the factors of the left and the right rail on the friction coefficient of the contact at a distance.
+    #[inline]
+    pub fn friction_ratios(&self, distance_m: f64) -> [f64; 2] {
+        let friction = self.friction.as_ref();
+        friction.map_or([1.0; 2], |friction| friction.at(distance_m).values)
     }
 
     /// Returns the distances at which the slope of the gauge or of the friction changes, m.

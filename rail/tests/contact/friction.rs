@@ -29,11 +29,8 @@ fn compare<L: CreepLaw + Clone, S: PatchSource>(source: &Arc<S>, law: &L, fricti
     let rails = [LEVEL[0], slippery];
     let found = whole.forces(&motion, &rails);
     let expected = [whole.forces(&motion, &LEVEL), half.forces(&motion, &LEVEL)];
-    for side in 0..2 {
-        assert_eq!(
-            found.wheels[side], expected[side].wheels[side],
-            "side {side}"
-        );
+    for (side, expected) in expected.iter().enumerate() {
+        assert_eq!(found.wheels[side], expected.wheels[side], "side {side}");
     }
     assert_ne!(expected[0].wheels[1].force_n, expected[1].wheels[1].force_n);
     let mut forces = WheelsetForces::default();

@@ -11,6 +11,8 @@ pub struct Observation {
     pub last_lateral_m: f64,
     /// Maximum ratio of a wheel's load to its load at standstill.
     pub wheel_load_over_static: Option<f64>,
+    /// Maximum wear depth of all wheels, an estimate, um per 1000 km; `None` if no index needs it.
+    pub max_wear_depth_um_per_1000km: Option<f64>,
     /// Longest duration for which a wheel carried no load, s.
     pub wheel_lift_longest_s: f64,
 }

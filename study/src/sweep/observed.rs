@@ -26,6 +26,11 @@ impl Observed {
         OBSERVED.iter().find(|index| index.name == name)
     }
 
+    /// True if the run must add up the wear of its wheels for this index.
+    pub fn needs_wear(&self) -> bool {
+        self.name == "max_wear_depth_um_per_1000km"
+    }
+
     /// True if this is a ride index, which needs at least one whole window.
     pub fn is_ride_index(&self) -> bool {
         matches!(
@@ -60,7 +65,7 @@ fn wheels(observation: &Observation) -> impl Iterator<Item = &WheelIndices> {
 }
 
 /// All indices that a study can observe.
-pub const OBSERVED: [Observed; 24] = [
+pub const OBSERVED: [Observed; 25] = [
     Observed {
         name: "sperling_vertical",
         meaning: "vertical Sperling ride index, maximum of all ride points",
@@ -140,6 +145,11 @@ pub const OBSERVED: [Observed; 24] = [
         name: "wear_number_rms_n",
         meaning: "wear number of the leading wheelset, rms, N",
         extract: |run| Some(leading(run)?.wear_number_rms_n),
+    },
+    Observed {
+        name: "max_wear_depth_um_per_1000km",
+        meaning: "wear depth by Archard's law, an estimate, maximum of all wheels, µm per 1000 km",
+        extract: |run| run.max_wear_depth_um_per_1000km,
     },
     Observed {
         name: "lateral_force_rms_n",

@@ -8,7 +8,8 @@ use super::shared::Shared;
 use super::study::Study;
 use dashpot_files::case::Case;
 use dashpot_files::study::{StudyFileError, Sweep};
-use dashpot_vehicle_run::{Ending, Indexer, ValidityWatch, VehicleRunError};
+use dashpot_vehicle_run::wear::WearLaw;
+use dashpot_vehicle_run::{Ending, Indexer, RunWear, ValidityWatch, VehicleRunError};
 
 /// Length of the last part of a run, in which the amplitude of a limit cycle is measured, s.
 const LAST_S: f64 = 3.0;
@@ -16,16 +17,20 @@ const LAST_S: f64 = 3.0;
 /// Ticks between checks for cancellation.
 const TICKS_PER_CHECK: u64 = 1024;
 
-/// Runs a case to its end, or until `is_cancelled` returns true. The observation is `None` if the run did not complete.
+/// Runs a case to its end, or until `is_cancelled` returns true, and observes what the indices `observed` need. The
+/// observation is `None` if the run did not complete.
 ///
 /// # Errors
 /// Same errors as [`Shared::run`].
 pub fn observe(
     case: &Case,
     shared: &Shared,
+    observed: &[Observed],
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(Ending, Option<Observation>), VehicleRunError> {
     let mut run = shared.run(case)?;
+    let needs_wear = observed.iter().any(Observed::needs_wear);
+    let mut wear = needs_wear.then(|| RunWear::new(case, &run, WearLaw::default()));
     let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case);
     let last = run.ticks().saturating_sub((LAST_S / case.step_s) as u64);
@@ -37,6 +42,9 @@ pub fn observe(
         }
         indexer.add(run.state());
         watch.add(run.state());
+        if let Some(wear) = &mut wear {
+            wear.add(run.state());
+        }
         if run.state().ticks() > last {
             let lateral = run.state().coordinates()[bodies..].iter();
             last_lateral_m = lateral.fold(last_lateral_m, |max, q| max.max(q[0].abs()));
@@ -49,6 +57,8 @@ pub fn observe(
     let observation = indices.flatten().map(|indices| Observation {
         indices,
         last_lateral_m,
+        max_wear_depth_um_per_1000km: wear
+            .and_then(|wear| Some(wear.indices()?.worst()?.max_depth_um_per_1000km)),
         wheel_load_over_static: watch.greatest_load_ratio(),
         wheel_lift_longest_s: watch.longest_lift_s(),
     });
@@ -158,7 +168,7 @@ pub fn row(
         return Ok(None);
     };
     let case = study.build(&study_case)?;
-    let (ending, observation) = observe(&case, shared, is_cancelled)
+    let (ending, observation) = observe(&case, shared, &study.observed, is_cancelled)
         .map_err(|source| RunError::in_sweep(study_case.sweep, source))?;
     if matches!(ending, Ending::Interrupted { .. }) {
         return Ok(None);

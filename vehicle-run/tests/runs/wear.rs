@@ -23,7 +23,7 @@ fn the_wear_of_a_run_agrees_with_its_wear_numbers() {
     for law in [WearLaw::default(), WearLaw::t_gamma()] {
         let mut run = Run::new(&case).unwrap();
         let mut indexer = Indexer::new(&case);
-        let mut wear = RunWear::new(&case, run.contacts(), law);
+        let mut wear = RunWear::new(&case, &run, law);
         assert!(wear.indices().is_none());
         while run.step().unwrap().is_none() {
             indexer.add(run.state());
@@ -49,6 +49,38 @@ fn the_wear_of_a_run_agrees_with_its_wear_numbers() {
         let worst = wear.worst().unwrap();
         assert_eq!((&worst.wheelset[..], worst.side), ("wheelset 1", "left"));
         assert!(worst.max_depth_at_m < -0.02, "{}", worst.max_depth_at_m);
+    }
+}
+
+/// Archard's law needs the normal load times the sliding distance: the friction work divided by the friction coefficient
+/// of the rail, not by that of the case.
+#[test]
+fn wear_follows_the_friction_of_each_rail() {
+    let wear_at = |friction: f64, overrides: &[&str]| {
+        let mut options = CaseOptions::load("curve-r300").unwrap();
+        options.duration_s = 2.0;
+        options.friction = friction;
+        options
+            .overrides
+            .extend(overrides.iter().map(ToString::to_string));
+        let case = options.case().unwrap();
+        let mut run = Run::new(&case).unwrap();
+        let mut wear = RunWear::new(&case, &run, WearLaw::default());
+        while run.step().unwrap().is_none() {
+            wear.add(run.state());
+        }
+        let wheels = wear.indices().unwrap().wheels;
+        wheels
+            .into_iter()
+            .map(|wheel| wheel.lost_area_mm2_per_1000km)
+    };
+    let whole = wear_at(0.2, &[]);
+    let by_rail = wear_at(
+        0.4,
+        &["contact.left_friction=0.2", "contact.right_friction=0.2"],
+    );
+    for (whole, by_rail) in whole.zip(by_rail) {
+        assert!((by_rail / whole - 1.0).abs() < 1e-3, "{whole} {by_rail}");
     }
 }
 
@@ -84,7 +116,13 @@ fn unequal_worn_profiles_run_through_a_curve_without_a_jump() {
         .with_normal_damping(case.normal_damping_s_per_m)
         .unwrap();
     let track = Arc::new(case.track.build().unwrap());
-    let contacts = vec![Arc::new(contact); case.vehicle.wheelsets.len()];
+    let contact = Arc::new(contact);
+    let contacts: Vec<_> = case
+        .vehicle
+        .wheelsets
+        .iter()
+        .map(|_| contact.clone())
+        .collect();
     let mut run = Run::on(&case, contacts, track).unwrap();
     let bodies = run.vehicle().names().len() - run.vehicle().wheelsets();
     let mut before: Option<Vec<[f64; 4]>> = None;

@@ -132,7 +132,7 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let folder = &arguments.output;
     create_folder(folder)?;
     let path = folder.join("history.csv");
-    let mut wear = RunWear::new(&case, run.contacts(), arguments.wear_law.law());
+    let mut wear = RunWear::new(&case, &run, arguments.wear_law.law());
     let (history, mut report) = follow(
         &case,
         &mut run,

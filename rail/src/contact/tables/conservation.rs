@@ -123,10 +123,9 @@ fn corrected(row: &[Option<Solved>], energies: &[[f64; LEVELS]], at: usize) -> O
     };
     let positions = [before.lateral_m, node.lateral_m, after.lateral_m];
     let mut turned = node;
-    for level in 0..LEVELS {
+    for (level, (_, patches)) in turned.levels.iter_mut().enumerate() {
         let depths = [before, &node, after].map(|node| node.levels[level].0);
         let stored = [k, at, l].map(|node| energies[node][level]);
-        let patches = &mut turned.levels[level].1;
         let gradient =
             vertical_n(patches) * derivative(positions, depths) - derivative(positions, stored);
         turn(patches, gradient);
