@@ -72,8 +72,8 @@ impl Kept {
         Estimate::of(&values).expect("seeds")
     }
 
-    /// Relative change of an index between two points in percent: the mean over the seeds whose runs reached their ends.
-    /// Both points have the same irregularities.
+    /// Relative change of an index between two points in percent: the mean over the seeds whose runs reached their
+    /// ends. Both points have the same irregularities.
     pub fn change(&self, sweep: &Sweep, points: [u64; 2], index: &str) -> Estimate {
         let [from, to] = points.map(|point| self.values(sweep, point, index));
         Estimate::of_change(&from, &to).expect("seeds")

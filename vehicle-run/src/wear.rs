@@ -76,8 +76,8 @@ pub struct WheelWear {
 }
 
 /// What every report of wear states.
-const NOTE: &str = "Estimate by a law from laboratory tests of dry steel; without lubrication and plastic flow. Compare \
-                    variants with it.";
+const NOTE: &str = "Estimate by a law from laboratory tests of dry steel; without lubrication and plastic flow. \
+                    Compare variants with it.";
 
 impl RunWear {
     /// Starts the wear of a case in its run, by a law.

@@ -1,7 +1,7 @@
 //! A wheel that slides on its flange without friction gives back the work that was done on it.
 //!
-//! With one normal for each patch, as in the theory of half-spaces, the wheelset gained energy in every cycle and bounced
-//! on its flange.
+//! With one normal for each patch, as in the theory of half-spaces, the wheelset gained energy in every cycle and
+//! bounced on its flange.
 
 use dashpot_rail::contact::{Motion, WheelsetContact};
 use dashpot_rail::creep::{Friction, KalkerBook};

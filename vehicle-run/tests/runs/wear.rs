@@ -52,8 +52,8 @@ fn the_wear_of_a_run_agrees_with_its_wear_numbers() {
     }
 }
 
-/// Archard's law needs the normal load times the sliding distance: the friction work divided by the friction coefficient
-/// of the rail, not by that of the case.
+/// Archard's law needs the normal load times the sliding distance: the friction work divided by the friction
+/// coefficient of the rail, not by that of the case.
 #[test]
 fn wear_follows_the_friction_of_each_rail() {
     let wear_at = |friction: f64, overrides: &[&str]| {
@@ -84,8 +84,8 @@ fn wear_follows_the_friction_of_each_rail() {
     }
 }
 
-/// The profile with its tread datum at depth 0, as a profile gauge reports it. A wheelset that stands level needs wheels
-/// of equal height.
+/// The profile with its tread datum at depth 0, as a profile gauge reports it. A wheelset that stands level needs
+/// wheels of equal height.
 fn at_datum(wheel: &Profile) -> Profile {
     let datum_m = wheel.at(0.0).z_m;
     let points_m: Vec<[f64; 2]> = wheel

@@ -1,6 +1,6 @@
 //! The normal problem: line loads on the strips such that no strip enters the rail and none is pulled.
 
-use super::equations::Equations;
+use super::equations::{Equations, LoadedStrip};
 use super::gap::{Gap, typical_penetration_m};
 use super::half_space::HalfSpace;
 use super::steps::Steps;
@@ -182,16 +182,17 @@ impl NormalContact {
         let tables = HalfSpace::tables();
         let strips = &gap.strips;
         let equations = &mut self.equations;
-        equations.begin(self.loaded.iter().map(|&i| {
+        let loaded = self.loaded.iter().map(|&i| {
             let strip = &strips[i];
-            [strip.arc_m, gap.heights_m[i] * strip.cos, strip.cos]
-        }));
-        for (column, &j) in self.loaded.iter().enumerate() {
-            let reciprocal = 1.0 / self.half_lengths_m[j];
-            let own = tables.own(strips[j].width_m * reciprocal);
-            equations.set_column(column, reciprocal, reciprocal / modulus, own);
-        }
-        equations.solve();
+            let per_length = 1.0 / self.half_lengths_m[i];
+            LoadedStrip {
+                arc_m: strip.arc_m,
+                per_length,
+                own: tables.own(strip.width_m * per_length),
+                sides: [gap.heights_m[i] * strip.cos, strip.cos],
+            }
+        });
+        equations.solve(loaded, modulus);
         if let Given::LoadN(load_n) = given {
             let [at_zero, per_depth] = equations.sums();
             self.depth_m = (load_n - at_zero) / per_depth;
