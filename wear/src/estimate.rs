@@ -68,9 +68,9 @@ impl WearEstimate {
         self
     }
 
-    /// The same wear, averaged with the window `1 + cos(pi s / l)` over the distances `s` up to `l = length_m` along the
-    /// surface. Each cell spreads its depth over the cells in its window, so the area is kept, at the ends too. A length
-    /// below a cell, and NaN, leave the wear as it is.
+    /// The same wear, averaged with the window `1 + cos(pi s / l)` over the distances `s` up to `l = length_m` along
+    /// the surface. Each cell spreads its depth over the cells in its window, so the area is kept, at the ends too. A
+    /// length below a cell, and NaN, leave the wear as it is.
     pub fn averaged(mut self, length_m: f64) -> Self {
         if length_m.is_nan() || length_m < CELL_M {
             return self;

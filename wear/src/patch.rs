@@ -40,8 +40,8 @@ impl WearingPatch {
         }
     }
 
-    /// Area of an ellipse with this load and maximum pressure, `3 N / (2 p0)`, m^2; a part of a patch has its part of the
-    /// area.
+    /// Area of an ellipse with this load and maximum pressure, `3 N / (2 p0)`, m^2; a part of a patch has its part of
+    /// the area.
     #[inline]
     pub fn area_m2(&self) -> f64 {
         if self.peak_pressure_pa > 0.0 {

@@ -41,9 +41,9 @@ const MAX_RADII: f64 = 0.4;
 /// Removes the estimated wear from the profile of `body` that it was computed for, along the normal of the surface, and
 /// returns the worn profile.
 ///
-/// On a curved surface the depth `d` is corrected so that the area between the old and the new profile is the area lost:
-/// `v = d - d^2 k / 2` per length of the surface, with the curvature `k`, positive where the material is convex. Noise
-/// of the depth over a few millimetres becomes noise of the curvature: average it first, see
+/// On a curved surface the depth `d` is corrected so that the area between the old and the new profile is the area
+/// lost: `v = d - d^2 k / 2` per length of the surface, with the curvature `k`, positive where the material is convex.
+/// Noise of the depth over a few millimetres becomes noise of the curvature: average it first, see
 /// [`WearEstimate::averaged`].
 ///
 /// # Errors

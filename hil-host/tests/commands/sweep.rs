@@ -628,7 +628,7 @@ fn wear_of_a_study_is_that_of_the_vehicle() {
     let mut rows = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();
     let row = rows.records().next().unwrap().unwrap();
     let observed: f64 = row.iter().next_back().unwrap().parse().unwrap();
-    let vehicle = "vehicle --case curve-r300 --duration 0.5 --no-page --format json";
+    let vehicle = "vehicle --case curve-r300 --duration-s 0.5 --no-page --format json";
     let arguments: Vec<&str> = vehicle.split(' ').collect();
     let report = json_of(&dashpot(&arguments, folder.path()).success());
     let wheels = report["wear"]["wheels"].as_array().unwrap();

@@ -4,8 +4,8 @@
 //! 467-478; Braghin, Lewis, Dwyer-Joyce and Bruni, "A mathematical model to predict railway wheel profile evolution due
 //! to wear", Wear 261 (2006) 1253-1264). With the wear number `T gamma` of a patch and its area `A`, the mass lost per
 //! metre rolled and mm^2 of contact is, in ug/(m mm^2) over `T gamma / A` in N/mm^2: `5.3 T gamma / A` up to 10.4
-//! (mild), 55.0 up to 77.2 (severe), and beyond it rises by 61.9 per N/mm^2 (catastrophic). The tests were dry, on discs
-//! of 47 mm diameter. The rate is that of the wheel; the softer rail steel of the tests wore more.
+//! (mild), 55.0 up to 77.2 (severe), and beyond it rises by 61.9 per N/mm^2 (catastrophic). The tests were dry, on
+//! discs of 47 mm diameter. The rate is that of the wheel; the softer rail steel of the tests wore more.
 
 use crate::patch::WearingPatch;
 use crate::strips::Strip;

@@ -1,10 +1,10 @@
 //! A procedure that wears a pair of profiles over growing mileage: a documented example, and a source of worn pairs.
 //!
-//! The distance is divided into stages. In each stage, the contact of the pair is computed for every running condition of
-//! a collective: the elastic contact under the wheel load, the creepages of a wheelset that rolls at its mean radius, the
-//! creep forces of Polach's law. The wear of the conditions is added up by their shares of the distance. The length of a
-//! stage follows from its maximum depth, so that the contact is updated as the profiles change. Then the wear is removed
-//! from both profiles. The procedure has no random numbers.
+//! The distance is divided into stages. In each stage, the contact of the pair is computed for every running condition
+//! of a collective: the elastic contact under the wheel load, the creepages of a wheelset that rolls at its mean
+//! radius, the creep forces of Polach's law. The wear of the conditions is added up by their shares of the distance.
+//! The length of a stage follows from its maximum depth, so that the contact is updated as the profiles change. Then
+//! the wear is removed from both profiles. The procedure has no random numbers.
 //!
 //! The rail meets many wheels while a wheel wears; [`Procedure::rail_part`] states its depth relative to that of the
 //! wheel.
@@ -89,7 +89,8 @@ pub struct Procedure {
 }
 
 impl Default for Procedure {
-    /// Archard's law at 20 m/s with friction 0.3; stages of 0.15 mm; the rail wears 0.3 of the wheel; 5 mm of averaging.
+    /// Archard's law at 20 m/s with friction 0.3; stages of 0.15 mm; the rail wears 0.3 of the wheel; 5 mm of
+    /// averaging.
     fn default() -> Self {
         Self {
             installation: Installation::default().with_wheel_radius_m(0.46),
