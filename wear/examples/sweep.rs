@@ -55,7 +55,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 yaw_rad: 5e-3,
                 load_n: 100e3,
             };
-            let wheel = under_load(&contact, &given, *lateral_m, &mut height_m);
+            let Some(wheel) = under_load(&contact, &given, *lateral_m, &mut height_m) else {
+                println!("{:.3} mm: no height carries the load", 1e3 * lateral_m);
+                continue;
+            };
             let loads: Vec<String> = wheel
                 .patches
                 .iter()

@@ -103,7 +103,7 @@ impl<T: Number> Load<T> {
         let per_depth = (high - low).reciprocal();
         let part = (depth - low) * per_depth;
         let (from, to) = (SQUARES[passed - 1], SQUARES[passed]);
-        let square = part * (to - from) + from;
+        let square = (part * (to - from) + from).not_negative();
         let root = square.sqrt();
         let above = if passed == 1 { part * 0.0 } else { part };
         Self {

@@ -13,10 +13,15 @@ use crate::contact::zones::ZONES;
 /// Minimum distance of the nodes between which depth and energy are differentiated, m. It exceeds the noise of the
 /// depths, some tenths of a micrometre, by far.
 const MIN_DISTANCE_M: f64 = 0.05e-3;
+/// Least depth below the first touch that counts for the growth of the depth, m.
+const MIN_APPROACH_M: f64 = 1e-6;
 /// Slope at which a patch makes half of the turn.
 const HALF_TURN_SLOPE: f64 = 0.4;
-/// Maximum turn of a normal, rad.
+/// Maximum turn of a normal, rad, and the greatest angle to which a normal is turned: tan of it is 8.
 const MAX_TURN_RAD: f64 = 0.2;
+const MAX_ANGLE_RAD: f64 = 1.45;
+/// Minimum growth of the depth from one load to the next, as a part of that in Hertz's contact.
+const MIN_GROWTH: f64 = 0.05;
 
 /// A node of a row: the contact under each load.
 #[derive(Clone, Copy)]
@@ -61,15 +66,24 @@ impl Solved {
 
 impl Solved {
     /// Changes each level by a few percent, as Hertz's contact would change with its load, so that the loads of the
-    /// patches add up to the load of the level. Turning the normals changed the loads.
+    /// patches add up to the load of the level. Turning the normals changed the loads. The depths still rise with the
+    /// loads.
     fn scale_to_loads(&mut self) {
+        let mut least_m = self.first_touch_m;
         for (level, (depth_m, patches)) in self.levels.iter_mut().enumerate() {
             let sum_n: f64 = patches.iter().map(|patch| patch.load_n).sum();
             if sum_n <= 0.0 {
                 continue;
             }
             let root = ROOTS[level] / sum_n.cbrt();
-            *depth_m = self.first_touch_m + (*depth_m - self.first_touch_m) * root * root;
+            let scaled_m = self.first_touch_m + (*depth_m - self.first_touch_m) * root * root;
+            *depth_m = scaled_m.max(least_m);
+            let growth = ROOTS.get(level + 1).map_or(0.0, |next| {
+                let ratio = next / ROOTS[level];
+                ratio * ratio - 1.0
+            });
+            least_m = *depth_m
+                + MIN_GROWTH * growth * (*depth_m - self.first_touch_m).max(MIN_APPROACH_M);
             for patch in patches {
                 patch.load_n *= root * root * root;
                 patch.whole_load_n *= root * root * root;
@@ -149,10 +163,62 @@ fn turn(patches: &mut [ElasticPatch; ZONES], lateral_n: f64) {
     let angle = (missing / by_angle).clamp(-MAX_TURN_RAD, MAX_TURN_RAD);
     for patch in patches.iter_mut() {
         let steepness = (patch.slope / HALF_TURN_SLOPE).powi(4);
-        let slope = (patch.slope.atan() + angle * steepness / (1.0 + steepness)).tan();
+        let before = patch.slope.atan();
+        let limit = before.abs().max(MAX_ANGLE_RAD);
+        let turned = before + angle * steepness / (1.0 + steepness);
+        let slope = turned.clamp(-limit, limit).tan();
         let factor = slope.hypot(1.0) / patch.slope.hypot(1.0);
         patch.load_n *= factor;
         patch.whole_load_n *= factor;
         patch.slope = slope;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A flange of 81 degrees.
+    const STEEP: f64 = 6.3;
+
+    fn patches(load_n: f64) -> [ElasticPatch; ZONES] {
+        let mut patches = [ElasticPatch::default(); ZONES];
+        patches[0].load_n = load_n;
+        patches[0].slope = STEEP;
+        patches
+    }
+
+    #[test]
+    fn no_normal_turns_over() {
+        for lateral_n in [-1e6, 0.0, 1e4, 1e5, 1e6] {
+            let mut turned = patches(100e3);
+            let vertical = vertical_n(&turned);
+            turn(&mut turned, lateral_n);
+            let slope = turned[0].slope;
+            assert!((1.0..8.3).contains(&slope), "{lateral_n}: {slope}");
+            assert!((vertical_n(&turned) / vertical - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn depths_rise_with_the_loads() {
+        let load_n = |level: usize| ROOTS[level].powi(3);
+        let mut node = Solved {
+            lateral_m: 0.0,
+            first_touch_m: -1e-3,
+            levels: std::array::from_fn(|level| {
+                let depth_m = -1e-3 + 1e-7 * ROOTS[level].powi(2);
+                // Every other level has lost much of its load.
+                let part = if level % 2 == 0 { 1.0 } else { 0.4 };
+                (depth_m, patches(part * load_n(level)))
+            }),
+        };
+        node.scale_to_loads();
+        let mut before_m = node.first_touch_m;
+        for (level, (depth_m, patches)) in node.levels.iter().enumerate() {
+            assert!(*depth_m > before_m, "{level}");
+            assert!((patches[0].load_n / load_n(level) - 1.0).abs() < 1e-12);
+            before_m = *depth_m;
+        }
     }
 }
