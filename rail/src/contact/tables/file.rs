@@ -22,7 +22,7 @@ use crate::profile::Profile;
 pub struct NotTheseTables;
 
 /// First bytes of every file. The number rises when the tables of a pair change.
-const MAGIC: &[u8; 16] = b"dashpot tables 5";
+const MAGIC: &[u8; 16] = b"dashpot tables 6";
 /// Length in bytes of the key and of the checksum, which follow the magic number.
 const DIGEST: usize = 32;
 /// Greatest length of uncompressed tables, bytes.
