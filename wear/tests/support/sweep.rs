@@ -64,8 +64,8 @@ pub fn wheel<S: PatchSource>(
         .wheels[given.side]
 }
 
-/// The wheel under its load at a lateral shift; `height_m` is a guess of its height, and becomes it. `None` if no height
-/// carries the load, because the flange jams.
+/// The wheel under its load at a lateral shift; `height_m` is a guess of its height, and becomes it. `None` if no
+/// height carries the load, because the flange jams.
 pub fn under_load<S: PatchSource>(
     contact: &WheelsetContact<Polach, S>,
     given: &Given,
@@ -125,8 +125,8 @@ pub fn under_load<S: PatchSource>(
     Some(wheel_found)
 }
 
-/// The greatest change over one step between two shifts, of forces up to [`MAX_RATIO`] and [`MAX_LATERAL_N`]. Ends where
-/// the force exceeds them: on the flange, which may jam from there on.
+/// The greatest change over one step between two shifts, of forces up to [`MAX_RATIO`] and [`MAX_LATERAL_N`]. Ends
+/// where the force exceeds them: on the flange, which may jam from there on.
 pub fn greatest_change<S: PatchSource>(
     contact: &WheelsetContact<Polach, S>,
     given: &Given,
