@@ -626,8 +626,10 @@ fn wear_of_a_study_is_that_of_the_vehicle() {
     let sweep = ["sweep", "study.toml", "--no-page", "--output", "."];
     dashpot(&sweep, folder.path()).success();
     let mut rows = csv::Reader::from_path(folder.path().join("rows.csv")).unwrap();
+    let mut columns = rows.headers().unwrap().iter();
+    let column = columns.position(|name| name == "max_wear_depth_um_per_1000km");
     let row = rows.records().next().unwrap().unwrap();
-    let observed: f64 = row.iter().next_back().unwrap().parse().unwrap();
+    let observed: f64 = row[column.unwrap()].parse().unwrap();
     let vehicle = "vehicle --case curve-r300 --duration-s 0.5 --no-page --format json";
     let arguments: Vec<&str> = vehicle.split(' ').collect();
     let report = json_of(&dashpot(&arguments, folder.path()).success());
