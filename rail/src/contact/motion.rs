@@ -76,7 +76,7 @@ pub const STANDSTILL_SPEED_M_PER_S: f64 = 0.05;
 /// Maximum magnitude of any field, in its unit; its square does not overflow.
 const MAX_MAGNITUDE: f64 = 1e9;
 
-/// Friction ratio below which there is no friction.
+/// Minimum friction ratio; smaller ones count as zero.
 const MIN_FRICTION_RATIO: f64 = 1e-6;
 
 /// True if the magnitudes of all numbers are accepted; false for NaN.

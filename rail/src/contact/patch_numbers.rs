@@ -1,4 +1,4 @@
-//! What the step knows of a contact patch.
+//! The numbers of a contact patch that the step reads.
 
 /// A loaded patch as its source gives it: scalars, vector lanes, or numbers with derivatives.
 #[derive(Debug, Clone, Copy)]

@@ -56,7 +56,7 @@ impl Running {
     /// Linearises the vehicle like [`Running::new`], with a contact for each wheelset.
     ///
     /// # Errors
-    /// Those of [`Running::new`], or a number of contacts other than that of the wheelsets.
+    /// Those of [`Running::new`], or the number of contacts differs from that of the wheelsets.
     pub fn with_contacts<L: CreepLaw, S: PatchSource>(
         vehicle: &VehicleParameters,
         contacts: &[&WheelsetContact<L, S>],

@@ -4,7 +4,7 @@ use dashpot_rail::contact::{Motion, RailDisplacement, Status, WheelsetContact};
 use dashpot_rail::creep::CreepLaw;
 use proptest::prelude::*;
 
-use crate::common::{LEVEL, at_height_under_load, polach, rolling};
+use crate::common::{LEVEL, at_height_under_load, is_finite, polach, rolling};
 
 #[test]
 fn flange_climbing_ends_past_the_tip_with_a_status() {
@@ -22,13 +22,7 @@ fn flange_climbing_ends_past_the_tip_with_a_status() {
             100e3,
         );
         let forces = contact.forces(&motion, &LEVEL);
-        assert!(
-            forces
-                .force_n
-                .iter()
-                .chain(&forces.moment_n_m)
-                .all(|x| x.is_finite())
-        );
+        assert!(is_finite(&forces));
         if seen.last() != Some(&forces.wheels[1].status) {
             seen.push(forces.wheels[1].status);
         }
@@ -294,7 +288,7 @@ proptest! {
             friction_ratio: n[16],
         };
         let forces = polach().forces(&motion, &[rail, RailDisplacement::default()]);
-        prop_assert!(forces.force_n.iter().chain(&forces.moment_n_m).all(|x| x.is_finite()), "{:?}", forces);
+        prop_assert!(is_finite(&forces), "{:?}", forces);
         for patch in forces.wheels.iter().flat_map(|wheel| wheel.patches) {
             prop_assert!(patch.dissipation_w.is_finite() && patch.load_n.is_finite(), "{:?}", patch);
         }

@@ -10,7 +10,7 @@ use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook};
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
-use crate::common::{LEVEL, geometry, rolling, tables};
+use crate::common::{LEVEL, geometry, is_finite, rolling, tables};
 use crate::exact::{LOADS, cases};
 
 fn contact() -> &'static WheelsetContact<KalkerBook> {
@@ -204,13 +204,7 @@ fn a_light_wheel_has_finite_forces_and_derivatives() {
         };
         let motion = under_load(contact(), &motion, 100.0);
         let mut forces = contact().forces(&motion, &LEVEL);
-        assert!(
-            forces
-                .force_n
-                .iter()
-                .chain(&forces.moment_n_m)
-                .all(|x| x.is_finite())
-        );
+        assert!(is_finite(&forces));
         let derivatives = contact().update_with_derivatives(&motion, &LEVEL, &mut forces);
         for wheel in derivatives {
             let rows = wheel.force.iter().chain(&wheel.moment).flatten();

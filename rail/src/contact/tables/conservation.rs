@@ -13,7 +13,7 @@ use crate::contact::zones::ZONES;
 /// Minimum distance of the nodes between which depth and energy are differentiated, m. It exceeds the noise of the
 /// depths, some tenths of a micrometre, by far.
 const MIN_DISTANCE_M: f64 = 0.05e-3;
-/// Least depth below the first touch that counts for the growth of the depth, m.
+/// A depth of less than this below the first touch counts as this for the growth of the depth, m.
 const MIN_APPROACH_M: f64 = 1e-6;
 /// Slope at which a patch makes half of the turn.
 const HALF_TURN_SLOPE: f64 = 0.4;
@@ -62,9 +62,7 @@ impl Solved {
         }
         energies
     }
-}
 
-impl Solved {
     /// Changes each level by a few percent, as Hertz's contact would change with its load, so that the loads of the
     /// patches add up to the load of the level. Turning the normals changed the loads. The depths still rise with the
     /// loads.

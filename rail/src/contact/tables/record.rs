@@ -16,7 +16,7 @@ const GREATEST: [f64; FIELDS] = [1.0, 1.0, 0.15, 0.1, 1e-3, 1e-3, 1.1, 2e8];
 /// between nodes they add up.
 pub(super) type Record = [i16; FIELDS];
 
-/// What one unit of each field of a record stands for.
+/// Value of one unit of each field of a record.
 pub(super) const UNITS: [f64; FIELDS] = {
     let mut units = GREATEST;
     let mut k = 0;

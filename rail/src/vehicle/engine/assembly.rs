@@ -58,7 +58,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// one.
     ///
     /// # Errors
-    /// Those of [`Vehicle::on_rails`], or a number of contacts other than that of the wheelsets.
+    /// Those of [`Vehicle::on_rails`], or the number of contacts differs from that of the wheelsets.
     pub fn with_contacts(
         parameters: &VehicleParameters,
         contacts: Vec<Arc<WheelsetContact<L, S>>>,

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use dashpot_rail::contact::{
     ContactGeometry, Installation, Motion, Pair, PatchSource, RailDisplacement, Steel, Tables,
-    WheelsetContact,
+    WheelsetContact, WheelsetForces,
 };
 use dashpot_rail::creep::{
     CreepLaw, Fastsim, Friction, KalkerBook, KalkerTable, LoadedContact, Polach, ShenHedrickElkins,
@@ -37,6 +37,12 @@ pub fn laws() -> [(&'static str, Box<dyn CreepLaw>); 4] {
 pub fn polach() -> &'static WheelsetContact<Polach> {
     static CONTACT: OnceLock<WheelsetContact<Polach>> = OnceLock::new();
     CONTACT.get_or_init(|| WheelsetContact::new(tables(), Polach, Friction::default()).unwrap())
+}
+
+/// True if the force and the moment on the wheelset are numbers.
+pub fn is_finite(forces: &WheelsetForces) -> bool {
+    let mut components = forces.force_n.iter().chain(&forces.moment_n_m);
+    components.all(|component| component.is_finite())
 }
 
 /// Both rails in their nominal position.
