@@ -35,7 +35,7 @@ impl Matrix {
     /// Writes the product with a vector.
     pub(crate) fn times(&self, vector: &[f64], product: &mut [f64]) {
         for (row, product) in product.iter_mut().enumerate() {
-            *product = self.row(row).iter().zip(vector).map(|(a, x)| a * x).sum();
+            *product = self::product(self.row(row), vector);
         }
     }
 
@@ -117,17 +117,28 @@ impl Factors {
             right_side.swap(k, *exchange);
         }
         for row in 0..self.matrix.size {
-            for (k, factor) in self.matrix.row(row)[..row].iter().enumerate() {
-                right_side[row] -= factor * right_side[k];
-            }
+            right_side[row] -= product(&self.matrix.row(row)[..row], &right_side[..row]);
         }
         for row in (0..self.matrix.size).rev() {
             let entries = self.matrix.row(row);
-            let solved = entries[row + 1..].iter().zip(&right_side[row + 1..]);
-            let known: f64 = solved.map(|(entry, x)| entry * x).sum();
+            let known = product(&entries[row + 1..], &right_side[row + 1..]);
             right_side[row] = (right_side[row] - known) / entries[row];
         }
     }
+}
+
+/// Scalar product of two vectors of equal length. Four sums side by side do not wait for each other.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let (fours, other_fours) = (a.chunks_exact(4), b.chunks_exact(4));
+    let left = fours.remainder().iter().zip(other_fours.remainder());
+    let left: f64 = left.map(|(a, b)| a * b).sum();
+    let mut sums = [0.0; 4];
+    for (a, b) in fours.zip(other_fours) {
+        for k in 0..4 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    left + (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 #[cfg(test)]

@@ -333,9 +333,9 @@ impl Coupled {
         match &self.ending {
             None => 0,
             Some(Ending::Completed | Ending::Interrupted { .. } | Ending::OutsideLost { .. }) => 1,
-            Some(Ending::Derailed { .. }) => 2,
+            Some(Ending::Climbed { .. }) => 2,
             Some(Ending::OutsideTables { .. }) => 3,
-            Some(Ending::Diverged { .. }) => 4,
+            Some(Ending::Diverged { .. } | Ending::Numerical { .. }) => 4,
             Some(Ending::BeyondModel { .. }) => 5,
             Some(Ending::Overturned { .. }) => 6,
         }

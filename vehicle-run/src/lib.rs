@@ -3,8 +3,10 @@
 #![warn(missing_docs)]
 
 mod accelerometer;
+mod confirmation;
 pub mod contact;
 mod coupled;
+mod ending;
 mod error;
 pub mod hunting;
 mod indices;
@@ -19,14 +21,16 @@ pub mod validity;
 pub mod wear;
 
 pub use accelerometer::Accelerometer;
+pub use confirmation::confirmed;
 pub use coupled::{Coupled, CoupledCase, CoupledVariable};
+pub use ending::{Ending, Place};
 pub use error::VehicleRunError;
 pub use indices::{
-    BodyIndices, Indexer, Indices, Nadal, NadalWheel, RideError, RideIndices, Sample,
+    BodyIndices, FILTER_HZ, Indexer, Indices, Judged, Nadal, NadalWheel, RideError, RideIndices,
     UnbalancedIndices, WINDOW_M, WheelIndices, WheelsetIndices, check_ride,
 };
 pub use outside::{OutsideError, outside_index};
-pub use run::{Ending, Run};
+pub use run::Run;
 pub use tick::{TickRecord, VehicleTick};
 pub use validity::{ValidityWatch, Warning};
 pub use wear::{RunWear, WearIndices, WheelWear};

@@ -3,7 +3,7 @@
 use dashpot_rail::vehicle::VehicleParameters;
 
 use super::signals::{self, Signal};
-use super::{Ending, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning};
+use super::{Ending, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning, confirmed};
 use dashpot_files::case::Case;
 use dashpot_files::did_you_mean;
 use dashpot_files::nearest_nanosecond;
@@ -83,6 +83,7 @@ pub fn record(
             break run.interrupted();
         }
     };
+    let ending = confirmed(case, &run, ending)?;
     let names = chosen.iter().map(|signal| signal.name().to_owned());
     Ok(Recorded {
         history: names.zip(columns).collect(),

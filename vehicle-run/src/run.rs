@@ -1,19 +1,19 @@
 //! Run of a case, tick by tick.
 
-use std::fmt;
 use std::sync::Arc;
 
 use dashpot_core::Damper;
 use dashpot_rail::contact::Status;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
-use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleState};
+use dashpot_rail::vehicle::{COORDINATES, Vehicle, VehicleError, VehicleState};
 
 use super::VehicleRunError;
 use super::contact::{Contact, ContactSetup};
+use super::ending::{Ending, Place};
 use super::hunting::push_aside;
 use super::overturning::Overturned;
-use super::signals::SIDES;
+use super::signals::{SIDES, load_n};
 use super::validity::END_LOAD_RATIO;
 use dashpot_files::case::{Case, Fault};
 
@@ -35,166 +35,6 @@ struct BuiltFault {
     time_s: f64,
     damper: usize,
     built: Damper<f64>,
-}
-
-/// Reason why a run ended.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-#[serde(rename_all = "snake_case", tag = "reason")]
-pub enum Ending {
-    /// The whole duration was simulated.
-    Completed,
-    /// A wheel's flange ran over the top of the rail, or its tread ran off the rail.
-    Derailed {
-        /// Name of the wheelset.
-        wheelset: String,
-        /// Time, s.
-        time_s: f64,
-        /// Position of the vehicle's middle along the track, m.
-        distance_m: f64,
-    },
-    /// A wheelset moved outside the range of the contact tables.
-    OutsideTables {
-        /// Name of the wheelset.
-        wheelset: String,
-        /// Time, s.
-        time_s: f64,
-        /// Position of the vehicle's middle along the track, m.
-        distance_m: f64,
-    },
-    /// The vehicle tipped over to one side: the wheels on the other side lifted off the rail and the wheelsets tilted.
-    Overturned {
-        /// Side to which it fell, `left` or `right`.
-        side: &'static str,
-        /// Number of unloaded wheels on the other side.
-        unloaded_wheels: usize,
-        /// Number of wheels on that side.
-        wheels: usize,
-        /// Name of the most tilted wheelset.
-        wheelset: String,
-        /// Roll of that wheelset, positive with the right side down, rad.
-        roll_rad: f64,
-        /// Time, s.
-        time_s: f64,
-        /// Position of the vehicle's middle along the track, m.
-        distance_m: f64,
-    },
-    /// A wheel load was far outside the validity of the contact model; see [`END_LOAD_RATIO`].
-    BeyondModel {
-        /// Name of the wheelset.
-        wheelset: String,
-        /// Side of the wheel, `left` or `right`.
-        side: &'static str,
-        /// Load, N.
-        load_n: f64,
-        /// Load of this wheel at standstill, N.
-        load_static_n: f64,
-        /// Time, s.
-        time_s: f64,
-        /// Position of the vehicle's middle along the track, m.
-        distance_m: f64,
-    },
-    /// Displacements diverged.
-    Diverged {
-        /// Time, s.
-        time_s: f64,
-        /// Position of the vehicle's middle along the track, m.
-        distance_m: f64,
-    },
-    /// An external damper stopped delivering forces.
-    OutsideLost {
-        /// The link to the damper, and why it was lost.
-        message: String,
-        /// Time, s.
-        time_s: f64,
-        /// Position of the vehicle's middle along the track, m.
-        distance_m: f64,
-    },
-    /// Interrupted by the user.
-    Interrupted {
-        /// Time, s.
-        time_s: f64,
-        /// Position of the vehicle's middle along the track, m.
-        distance_m: f64,
-    },
-}
-
-impl Ending {
-    /// True if the run has indices. A run that derailed, overturned, diverged, left the tables or went beyond the model
-    /// has none.
-    pub fn has_indices(&self) -> bool {
-        matches!(
-            self,
-            Self::Completed | Self::Interrupted { .. } | Self::OutsideLost { .. }
-        )
-    }
-}
-
-impl fmt::Display for Ending {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Completed => write!(f, "completed"),
-            Self::Derailed {
-                wheelset,
-                time_s,
-                distance_m,
-            } => write!(
-                f,
-                "derailed: {wheelset} at {time_s:.3} s, {distance_m:.1} m along the track"
-            ),
-            Self::OutsideTables {
-                wheelset,
-                time_s,
-                distance_m,
-            } => write!(
-                f,
-                "{wheelset} left the tables of the contact at {time_s:.3} s, {distance_m:.1} m along the track"
-            ),
-            Self::Overturned {
-                side,
-                unloaded_wheels,
-                wheels,
-                wheelset,
-                roll_rad,
-                time_s,
-                distance_m,
-            } => write!(
-                f,
-                "overturned to the {side} at {time_s:.3} s, {distance_m:.1} m along the track: {unloaded_wheels} \
-                 of {wheels} wheels on the other side carry no load, {wheelset} is tilted by {:.0} mrad",
-                1e3 * roll_rad.abs()
-            ),
-            Self::BeyondModel {
-                wheelset,
-                side,
-                load_n,
-                load_static_n,
-                time_s,
-                distance_m,
-            } => write!(
-                f,
-                "beyond the model at {time_s:.3} s, {distance_m:.1} m along the track: {wheelset}, {side} wheel: \
-                 load {:.0} kN, {:.0} times the static load; allowed: {END_LOAD_RATIO:.0} times",
-                1e-3 * load_n,
-                load_n / load_static_n
-            ),
-            Self::Diverged { time_s, distance_m } => write!(
-                f,
-                "diverged at {time_s:.3} s, {distance_m:.1} m along the track"
-            ),
-            Self::OutsideLost {
-                message,
-                time_s,
-                distance_m,
-            } => write!(
-                f,
-                "an external damper was lost at {time_s:.3} s, {distance_m:.1} m along the track: {message}"
-            ),
-            Self::Interrupted { time_s, distance_m } => write!(
-                f,
-                "interrupted at {time_s:.3} s, {distance_m:.1} m along the track"
-            ),
-        }
-    }
 }
 
 impl Run {
@@ -324,8 +164,7 @@ impl Run {
     /// Ending of a run that the user interrupts now.
     pub fn interrupted(&self) -> Ending {
         Ending::Interrupted {
-            time_s: self.time_s(),
-            distance_m: self.state.distance_m(),
+            place: self.place(),
         }
     }
 
@@ -333,6 +172,12 @@ impl Run {
     pub fn outside_lost(&self, message: String) -> Ending {
         Ending::OutsideLost {
             message,
+            place: self.place(),
+        }
+    }
+
+    fn place(&self) -> Place {
+        Place {
             time_s: self.time_s(),
             distance_m: self.state.distance_m(),
         }
@@ -340,15 +185,39 @@ impl Run {
 
     /// Ending of a run whose displacements diverge.
     pub(super) fn diverged(&self) -> Ending {
+        let of_body = |(body, numbers): (usize, &[f64; 5])| {
+            let coordinates = numbers
+                .iter()
+                .zip(COORDINATES)
+                .map(move |(value, coordinate)| (body, coordinate, *value));
+            coordinates.max_by(|a, b| size(a.2).total_cmp(&size(b.2)))
+        };
+        // NaN counts as greater than all numbers.
+        fn size(value: f64) -> f64 {
+            if value.is_nan() {
+                f64::INFINITY
+            } else {
+                value.abs()
+            }
+        }
+        let all = self
+            .state
+            .coordinates()
+            .iter()
+            .enumerate()
+            .filter_map(of_body);
+        let greatest = all.max_by(|a, b| size(a.2).total_cmp(&size(b.2)));
+        let (body, coordinate, value) = greatest.unwrap_or((0, COORDINATES[0], f64::NAN));
         Ending::Diverged {
-            time_s: self.time_s(),
-            distance_m: self.state.distance_m(),
+            body: self.vehicle.names()[body].clone(),
+            coordinate: coordinate.name(),
+            value: value.is_finite().then_some(value),
+            place: self.place(),
         }
     }
 
     /// Returns the ending that the current state implies, if any.
     pub(super) fn ending(&self) -> Option<Ending> {
-        let (time_s, distance_m) = (self.time_s(), self.state.distance_m());
         if self.state.is_diverged() {
             return Some(self.diverged());
         }
@@ -362,7 +231,6 @@ impl Run {
         if contact.status < Status::PastTip {
             return self.beyond_model();
         }
-        let wheelset = self.wheelset_name(index);
         if let Some(found) = Overturned::detect(&self.state) {
             return Some(Ending::Overturned {
                 side: SIDES[found.side],
@@ -370,28 +238,40 @@ impl Run {
                 wheels: self.vehicle.wheelsets(),
                 wheelset: self.wheelset_name(found.wheelset),
                 roll_rad: found.roll_rad,
-                time_s,
-                distance_m,
+                place: self.place(),
             });
         }
+        let side = usize::from(contact.wheels[1].status > contact.wheels[0].status);
+        let first = self.state.coordinates().len() - self.vehicle.wheelsets();
+        let [lateral_m, _, roll_rad, _, yaw_rad] = self.state.coordinates()[first + index];
         if contact.status == Status::PastTip {
-            return Some(Ending::Derailed {
-                wheelset,
-                time_s,
-                distance_m,
+            return Some(Ending::Climbed {
+                wheelset: self.wheelset_name(index),
+                side: SIDES[side],
+                derailment: contact.derailment_coefficients()[side],
+                load_n: load_n(contact, side),
+                lateral_m,
+                yaw_rad,
+                place: self.place(),
             });
         }
         // An excessive load presses the wheel deeper into the rail than the tables cover.
-        self.beyond_model().or(Some(Ending::OutsideTables {
-            wheelset,
-            time_s,
-            distance_m,
-        }))
+        self.beyond_model().or_else(|| {
+            Some(Ending::OutsideTables {
+                wheelset: self.wheelset_name(index),
+                side: SIDES[side],
+                lateral_m,
+                roll_rad,
+                yaw_rad,
+                place: self.place(),
+            })
+        })
     }
 
     /// Returns the ending if a wheel load is beyond the model.
     fn beyond_model(&self) -> Option<Ending> {
-        let loads_n = self.state.greatest_wheel_loads_n().iter();
+        let extremes = self.state.extremes().iter();
+        let loads_n = extremes.map(|extremes| extremes.greatest_loads_n);
         let mut wheels = loads_n.zip(self.vehicle.axle_loads_n()).enumerate();
         wheels.find_map(|(index, (loads_n, axle_load_n))| {
             let load_static_n = 0.5 * axle_load_n;
@@ -401,8 +281,7 @@ impl Run {
                 side: SIDES[side],
                 load_n: loads_n[side],
                 load_static_n,
-                time_s: self.time_s(),
-                distance_m: self.state.distance_m(),
+                place: self.place(),
             })
         })
     }

@@ -1,7 +1,7 @@
 //! Read access to a vehicle after a tick: its state itself, or a copy for another thread.
 
 use dashpot_rail::contact::WheelsetForces;
-use dashpot_rail::vehicle::VehicleState;
+use dashpot_rail::vehicle::{Extremes, VehicleState};
 
 /// Vehicle after a tick. Bodies are in the order of the parameters; wheelsets follow them.
 pub trait VehicleTick {
@@ -15,8 +15,8 @@ pub trait VehicleTick {
     fn unbalanced_m_per_s2(&self) -> f64;
     /// Returns the contact forces of each wheelset; see [`VehicleState::contacts`].
     fn contacts(&self) -> &[WheelsetForces];
-    /// Maximum load of each wheel within the tick, N; see [`VehicleState::greatest_wheel_loads_n`].
-    fn greatest_wheel_loads_n(&self) -> &[[f64; 2]];
+    /// Extremes of each wheelset within the tick; see [`VehicleState::extremes`].
+    fn extremes(&self) -> &[Extremes];
     /// Displacement of each damper, m; see [`VehicleState::damper_displacements_m`].
     fn damper_displacements_m(&self) -> &[f64];
     /// Force of each damper, N; see [`VehicleState::damper_forces_n`].
@@ -39,8 +39,8 @@ impl VehicleTick for VehicleState {
     fn contacts(&self) -> &[WheelsetForces] {
         self.contacts()
     }
-    fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
-        self.greatest_wheel_loads_n()
+    fn extremes(&self) -> &[Extremes] {
+        self.extremes()
     }
     fn damper_displacements_m(&self) -> &[f64] {
         self.damper_displacements_m()
@@ -60,7 +60,7 @@ pub struct TickRecord {
     coordinates: Vec<[f64; 5]>,
     accelerations: Vec<[f64; 5]>,
     contacts: Vec<WheelsetForces>,
-    greatest_wheel_loads_n: Vec<[f64; 2]>,
+    extremes: Vec<Extremes>,
     damper_displacements_m: Vec<f64>,
     damper_forces_n: Vec<f64>,
 }
@@ -76,7 +76,7 @@ impl TickRecord {
             coordinates: state.coordinates().to_vec(),
             accelerations: (0..bodies).map(|body| state.acceleration(body)).collect(),
             contacts: state.contacts().to_vec(),
-            greatest_wheel_loads_n: state.greatest_wheel_loads_n().to_vec(),
+            extremes: state.extremes().to_vec(),
             damper_displacements_m: state.damper_displacements_m().to_vec(),
             damper_forces_n: state.damper_forces_n().to_vec(),
         }
@@ -95,8 +95,7 @@ impl TickRecord {
             *acceleration = state.acceleration(body);
         }
         self.contacts.copy_from_slice(state.contacts());
-        self.greatest_wheel_loads_n
-            .copy_from_slice(state.greatest_wheel_loads_n());
+        self.extremes.copy_from_slice(state.extremes());
         self.damper_displacements_m
             .copy_from_slice(state.damper_displacements_m());
         self.damper_forces_n
@@ -120,8 +119,8 @@ impl VehicleTick for TickRecord {
     fn contacts(&self) -> &[WheelsetForces] {
         &self.contacts
     }
-    fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
-        &self.greatest_wheel_loads_n
+    fn extremes(&self) -> &[Extremes] {
+        &self.extremes
     }
     fn damper_displacements_m(&self) -> &[f64] {
         &self.damper_displacements_m

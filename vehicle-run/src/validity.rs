@@ -176,11 +176,12 @@ impl ValidityWatch {
 
     /// Adds a tick.
     pub fn add(&mut self, tick: &impl VehicleTick) {
-        let loads_n = tick.greatest_wheel_loads_n().as_flattened();
+        let extremes = tick.extremes().iter();
+        let loads_n = extremes.flat_map(|extremes| extremes.greatest_loads_n);
         self.ticks += 1;
         for (wheel, load_n) in self.wheels.iter_mut().zip(loads_n) {
             wheel.add(Moment {
-                load_n: *load_n,
+                load_n,
                 tick: self.ticks,
                 distance_m: tick.distance_m() + wheel.x_m,
             });

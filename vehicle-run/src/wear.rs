@@ -82,13 +82,18 @@ const NOTE: &str = "Estimate by a law from laboratory tests of dry steel; withou
 impl RunWear {
     /// Starts the wear of a case in its run, by a law.
     pub fn new(case: &Case, run: &Run, law: WearLaw) -> Self {
+        Self::on(case, run.contacts(), Arc::clone(run.track()), law)
+    }
+
+    /// Starts the wear of a case with the contact of each wheelset and the built track, by a law.
+    pub fn on(case: &Case, contacts: &[Contact], track: Arc<Track>, law: WearLaw) -> Self {
         let wheels = |contact: &Contact| {
             contact.sources().each_ref().map(|source| {
                 let wheel = source.geometry().pair().wheel();
                 Wear::new(WearGrid::new(wheel), law)
             })
         };
-        let wheelsets = case.vehicle.wheelsets.iter().zip(run.contacts());
+        let wheelsets = case.vehicle.wheelsets.iter().zip(contacts);
         Self {
             wheelsets: wheelsets
                 .map(|(wheelset, contact)| WheelsetWear {
@@ -99,7 +104,7 @@ impl RunWear {
                 })
                 .collect(),
             friction: case.contact.friction(case.friction),
-            track: Arc::clone(run.track()),
+            track,
             speed_m_per_s: case.speed_m_per_s,
             tick_m: case.speed_m_per_s * case.step_s,
             ticks: 0,

@@ -46,7 +46,7 @@ pub enum CaseError {
     /// Invalid track.
     #[error(transparent)]
     Track(#[from] TrackFileError),
-    /// Invalid override of the contact; the form is `contact.key=value`.
+    /// Invalid override of contact or rails; the form is `contact.key=value` or `rails.key=value`.
     #[error("override {assignment}: {reason}")]
     Override {
         /// The override.

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use dashpot_rail::vehicle::RailSupport;
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::error::Origin;
+use super::rails::{self, RailsValue};
 use super::{CaseError, CaseOptions, FaultOptions};
 use crate::FileError;
 use crate::contact::{ContactOptions, TABLE};
@@ -28,7 +28,7 @@ pub(super) struct CaseTables {
     normal_damping_s_per_m: Option<Spanned<f64>>,
     step_us: Option<Spanned<f64>>,
     push_m: Option<Spanned<f64>>,
-    rails: Option<Spanned<RailsTable>>,
+    rails: Option<Spanned<RailsValue>>,
     #[serde(default)]
     set: Vec<Spanned<String>>,
     /// Replacements by direction or damper name.
@@ -37,31 +37,6 @@ pub(super) struct CaseTables {
     #[serde(default)]
     fault: Vec<Spanned<FaultTable>>,
     contact: Option<ContactOptions>,
-}
-
-/// Elastic rail support.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RailsTable {
-    mass_kg: f64,
-    lateral_stiffness_n_per_m: f64,
-    lateral_damping_n_s_per_m: f64,
-    vertical_stiffness_n_per_m: f64,
-    vertical_damping_n_s_per_m: f64,
-}
-
-impl From<RailsTable> for RailSupport {
-    fn from(table: RailsTable) -> Self {
-        Self::new(table.mass_kg)
-            .with_lateral(
-                table.lateral_stiffness_n_per_m,
-                table.lateral_damping_n_s_per_m,
-            )
-            .with_vertical(
-                table.vertical_stiffness_n_per_m,
-                table.vertical_damping_n_s_per_m,
-            )
-    }
 }
 
 #[derive(Deserialize)]
@@ -121,9 +96,9 @@ impl CaseTables {
         );
         let step_us = number("step_us", self.step_us, defaults.step_us);
         let push_m = number("push_m", self.push_m, defaults.push_m);
-        let rails = self.rails.map(|rails| {
-            at("rails", rails.span().start);
-            rails.into_inner().into()
+        let rails = self.rails.map_or(defaults.rails, |rails| {
+            at(rails::KEY, rails.span().start);
+            rails.into_inner().0
         });
         let mut dampers = Vec::new();
         for (which, damper) in self.dampers {

@@ -22,12 +22,16 @@ use crate::overrides::{self, Override, did_you_mean, explain};
 use crate::shipped::{Found, Shipped};
 
 /// Built-in vehicles: name and text.
-pub const VEHICLES: [(&str, &str); 2] = [
+pub const VEHICLES: [(&str, &str); 3] = [
     (
         "locomotive",
         include_str!("../../data/vehicles/locomotive.toml"),
     ),
     ("coach", include_str!("../../data/vehicles/coach.toml")),
+    (
+        "locomotive-without-yaw-dampers",
+        include_str!("../../data/vehicles/locomotive-without-yaw-dampers.toml"),
+    ),
 ];
 
 const SHIPPED: Shipped = Shipped {

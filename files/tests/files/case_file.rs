@@ -205,7 +205,7 @@ fn errors_have_file_line_and_name() {
                 "[rails]\nmass_kg = 0\nlateral_stiffness_n_per_m = 4e7\nlateral_damping_n_s_per_m = 0\n\
                  vertical_stiffness_n_per_m = 8e7\nvertical_damping_n_s_per_m = 0",
             ),
-            "case.toml:5: rails: mass_kg = 0, allowed: 1 to 100000",
+            "case.toml:5: rails: lateral_mass_kg = 0, allowed: 1 to 100000",
         ),
         (
             CASE.replace("90", "900"),

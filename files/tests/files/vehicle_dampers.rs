@@ -97,7 +97,12 @@ fn unknown_dampers_are_refused() {
             "dampers vertical=papr: damper `papr`: no such preset or file",
         ),
     ] {
-        let error = vehicle::load_with("locomotive", &replacements(&[text]), &[]).unwrap_err();
+        let error = vehicle::load_with(
+            "locomotive-without-yaw-dampers",
+            &replacements(&[text]),
+            &[],
+        )
+        .unwrap_err();
         let message = error.to_string();
         assert!(message.starts_with(expected), "{message}");
     }

@@ -3,7 +3,8 @@
 use super::motion::{MotionNumbers, RailNumbers, STANDSTILL_SPEED_M_PER_S};
 use crate::math::number::Number;
 
-/// Attitude and velocities of a wheelset in track axes, as seen by the right wheel.
+/// Attitude and velocities of a wheelset as seen by the right wheel, in the axes of the track turned into the direction of
+/// the rail.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame<T> {
     sin_roll: T,
@@ -12,7 +13,7 @@ pub(super) struct Frame<T> {
     sin_yaw: T,
     cos_yaw: T,
     tan_yaw: T,
-    /// Roll and yaw, rad.
+    /// Roll, and yaw relative to the rail, rad.
     pub roll: T,
     pub yaw: T,
     /// Lateral and vertical displacement of the centre, m.
@@ -31,7 +32,7 @@ pub(super) struct Frame<T> {
 
 impl<T: Number> Frame<T> {
     #[inline(always)]
-    pub fn new(motion: &MotionNumbers<T>) -> Self {
+    pub fn new(motion: &MotionNumbers<T>, rail: &RailNumbers<T>) -> Self {
         let MotionNumbers {
             speed,
             lateral,
@@ -45,6 +46,7 @@ impl<T: Number> Frame<T> {
             yaw_rate,
         } = *motion;
         let (sin_roll, cos_roll) = sine_and_cosine(roll);
+        let yaw = yaw - rail.yaw;
         let (sin_yaw, cos_yaw) = sine_and_cosine(yaw);
         let standstill = STANDSTILL_SPEED_M_PER_S * STANDSTILL_SPEED_M_PER_S;
         let reference_speed = (speed * speed + standstill).sqrt();

@@ -49,6 +49,9 @@ pub struct RailDisplacement {
     pub roll_rad: f64,
     /// Rate of `roll_rad` at the wheel, rad/s.
     pub roll_rate_rad_per_s: f64,
+    /// Direction of the rail against that of the track, to the right positive, rad: the slope of its lateral
+    /// irregularity. The wheel's angle of attack is its yaw relative to this direction.
+    pub yaw_rad: f64,
     /// Factor on the friction coefficient of the contact, dimensionless; 1 if the rail has the friction of the contact.
     /// Below 1e-6 there is no friction.
     pub friction_ratio: f64,
@@ -64,6 +67,7 @@ impl Default for RailDisplacement {
             vertical_velocity_m_per_s: 0.0,
             roll_rad: 0.0,
             roll_rate_rad_per_s: 0.0,
+            yaw_rad: 0.0,
             friction_ratio: 1.0,
         }
     }
@@ -163,6 +167,7 @@ pub(super) struct RailNumbers<T> {
     pub vertical_velocity: T,
     pub roll: T,
     pub roll_rate: T,
+    pub yaw: T,
     pub friction_ratio: T,
 }
 
@@ -177,6 +182,7 @@ impl RailDisplacement {
             self.vertical_velocity_m_per_s,
             self.roll_rad,
             self.roll_rate_rad_per_s,
+            self.yaw_rad,
             self.friction_ratio,
         ])
     }
@@ -210,6 +216,7 @@ impl<T: Number> RailNumbers<T> {
             vertical_velocity: even(|rail| rail.vertical_velocity_m_per_s),
             roll: odd(|rail| rail.roll_rad),
             roll_rate: odd(|rail| rail.roll_rate_rad_per_s),
+            yaw: odd(|rail| rail.yaw_rad),
             friction_ratio: even(RailDisplacement::accepted_friction_ratio),
         }
     }

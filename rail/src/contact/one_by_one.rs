@@ -36,7 +36,7 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
             |field| Tangent::constant(sign * field(&rails[side])),
         );
         let lengths = self.lengths[side].map(|length| Tangent::constant(*length));
-        MovingWheel::new(Frame::new(&numbers), rail, lengths)
+        MovingWheel::new(Frame::new(&numbers, &rail), rail, lengths)
     }
 
     #[inline]

@@ -159,9 +159,10 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
         if !forces.begin(motion, rails) {
             return true;
         }
+        let on_rails = rail_numbers(simd, rails);
         let moving = MovingWheel::new(
-            Frame::new(&numbers(simd, motion)),
-            rail_numbers(simd, rails),
+            Frame::new(&numbers(simd, motion), &on_rails),
+            on_rails,
             self.lengths_in_lanes.map(|lengths| load(simd, lengths)),
         );
         let sources = [self.sources[0].as_ref(), self.sources[1].as_ref()];

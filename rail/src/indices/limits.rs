@@ -31,3 +31,25 @@ pub fn prudhomme_limit_n(axle_load_n: f64) -> f64 {
 pub fn wheel_unloading(static_load_n: f64, load_n: f64) -> f64 {
     (static_load_n - load_n) / static_load_n
 }
+
+/// Returns the limit of a wheel's load in motion, filtered at 20 Hz, N: `90 kN + Q0` with the load `Q0` at standstill, at
+/// most 200 kN up to 160 km/h, 190 kN up to 200 km/h, 180 kN up to 250 km/h, 170 kN up to 300 km/h, 160 kN above (UIC 518
+/// and EN 14363).
+///
+/// ```
+/// use dashpot_rail::indices::wheel_load_limit_n;
+/// assert_eq!(wheel_load_limit_n(55e3, 160.0 / 3.6), 145e3);
+/// assert_eq!(wheel_load_limit_n(105e3, 180.0 / 3.6), 190e3);
+/// ```
+pub fn wheel_load_limit_n(static_load_n: f64, speed_m_per_s: f64) -> f64 {
+    // A speed that was converted from km/h is slightly off.
+    let speed_km_h = 3.6 * speed_m_per_s - 1e-6;
+    let most_n = match speed_km_h {
+        speed if speed <= 160.0 => 200e3,
+        speed if speed <= 200.0 => 190e3,
+        speed if speed <= 250.0 => 180e3,
+        speed if speed <= 300.0 => 170e3,
+        _ => 160e3,
+    };
+    (90e3 + static_load_n).min(most_n)
+}

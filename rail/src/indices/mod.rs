@@ -6,7 +6,8 @@
 //! - [`welch`]: power spectral density.
 //! - [`Sperling`], [`WeightingFilter`], [`Welch`]: the same for a signal that arrives sample by sample or window by
 //!   window.
-//! - [`nadal_limit`], [`prudhomme_limit_n`], [`wheel_unloading`]: limits of wheel forces.
+//! - [`nadal_limit`], [`prudhomme_limit_n`], [`wheel_load_limit_n`], [`wheel_unloading`]: limits of wheel forces, which
+//!   are filtered by [`LowPass`].
 //! - Derailment coefficients are methods of [`WheelsetForces`](crate::contact::WheelsetForces).
 //!
 //! # To add an index
@@ -18,6 +19,7 @@
 mod comfort;
 mod conicity;
 mod limits;
+mod low_pass;
 mod spectrum;
 mod sperling;
 mod weighting;
@@ -26,7 +28,8 @@ mod welch;
 
 pub use comfort::{mean_comfort, mean_comfort_of_windows, weighted_rms};
 pub use conicity::{CONTACT_DISTANCE_M, RollingRadiusDifference, RollingRadiusError};
-pub use limits::{nadal_limit, prudhomme_limit_n, wheel_unloading};
+pub use limits::{nadal_limit, prudhomme_limit_n, wheel_load_limit_n, wheel_unloading};
+pub use low_pass::LowPass;
 pub use spectrum::SpectrumError;
 pub use sperling::{RideDirection, SPERLING_BAND_HZ, Sperling, sperling};
 pub use weighting::{COMFORT_BAND_HZ, Weighting};

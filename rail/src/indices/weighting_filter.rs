@@ -31,14 +31,14 @@ pub struct WeightingFilter {
 
 /// A factor of the transfer function in transposed direct form II.
 #[derive(Debug, Clone, Copy)]
-struct Factor {
+pub(super) struct Factor {
     numerator: [f64; 3],
     denominator: [f64; 2],
     state: [f64; 2],
 }
 
 impl Factor {
-    fn new(section: &Section, rate_hz: f64) -> Self {
+    pub(super) fn new(section: &Section, rate_hz: f64) -> Self {
         // s = c (z - 1)/(z + 1), where c keeps the corner frequency exact.
         let c = 2.0 * PI * section.corner_hz / (PI * section.corner_hz / rate_hz).tan();
         let discretise = |[constant, linear, quadratic]: [f64; 3]| {
@@ -64,7 +64,13 @@ impl Factor {
         self.state = [b1 * value + b2 * value, b2 * value];
     }
 
-    fn next(&mut self, value: f64) -> f64 {
+    /// Sets the steady state for a constant input of a low-pass, whose output equals it.
+    pub(super) fn settle_at(&mut self, value: f64) {
+        let ([b0, _, b2], [_, a2]) = (self.numerator, self.denominator);
+        self.state = [(1.0 - b0) * value, (b2 - a2) * value];
+    }
+
+    pub(super) fn next(&mut self, value: f64) -> f64 {
         let ([b0, b1, b2], [a1, a2]) = (self.numerator, self.denominator);
         let [first, last] = self.state;
         let out = b0 * value + first;

@@ -60,7 +60,7 @@ impl RailDeviation {
     }
 
     /// Returns the displacement of the rail under a wheel that moves along it. Velocities are the speed times the
-    /// slopes.
+    /// slopes; the lateral slope also turns the rail, which itself rests.
     #[inline]
     pub fn displacement(&self, speed_m_per_s: f64) -> RailDisplacement {
         RailDisplacement {
@@ -68,6 +68,7 @@ impl RailDeviation {
             vertical_m: self.vertical_m,
             lateral_velocity_m_per_s: speed_m_per_s * self.lateral_slope,
             vertical_velocity_m_per_s: speed_m_per_s * self.vertical_slope,
+            yaw_rad: self.lateral_slope,
             ..RailDisplacement::default()
         }
     }

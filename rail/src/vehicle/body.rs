@@ -52,7 +52,8 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    pub(super) fn name(self) -> &'static str {
+    /// Returns the name in lower case.
+    pub fn name(self) -> &'static str {
         match self {
             Self::Lateral => "lateral",
             Self::Vertical => "vertical",

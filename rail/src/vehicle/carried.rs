@@ -1,6 +1,6 @@
 //! A centred wheelset on rails that carry its load.
 
-use crate::contact::{Motion, PatchSource, RailDisplacement, WheelsetContact};
+use crate::contact::{Motion, PatchSource, RailDisplacement, WheelForces, WheelsetContact};
 use crate::creep::CreepLaw;
 
 /// Equilibrium of a centred wheelset under its load, and the radius on which it rolls freely.
@@ -14,6 +14,8 @@ pub(super) struct Carried {
     pub contact_j: f64,
     /// Forces of the left and right rail on their wheels, N.
     pub wheel_forces_n: [[f64; 3]; 2],
+    /// Stiffness of the contact of the stiffer wheel along the normal, N/m.
+    pub wheel_stiffness_n_per_m: f64,
 }
 
 /// Speed at which the contact is evaluated, m/s. Creep forces do not depend on it.
@@ -49,8 +51,14 @@ impl Carried {
         }
         let forces = contact.forces(&motion, &rails);
         let contact_j = contact.elastic_energy_j(&motion, &rails).iter().sum();
+        let stiffness = |wheel: &WheelForces| -> f64 {
+            let patches = wheel.loaded_patches();
+            patches.map(|patch| patch.stiffness_n_per_m).sum()
+        };
+        let [left, right] = forces.wheels.each_ref().map(stiffness);
         Some(Self {
             contact_j,
+            wheel_stiffness_n_per_m: left.max(right),
             wheel_forces_n: [forces.wheels[0].force_n, forces.wheels[1].force_n],
             vertical_m: motion.vertical_m,
             rolling_radius_m: SPEED_M_PER_S / motion.rotation_rad_per_s,

@@ -88,6 +88,17 @@ pub enum VehicleError {
         /// Step, s.
         step_s: f64,
     },
+    /// The lighter of wheel and rail is too light for the stiffness and damping of their contact.
+    #[error(
+        "contact of wheel and rail: needs steps of {needed_s:.1e} s, allowed: at least {least_s:.1e} s, a hundredth of \
+         the tick; use heavier rails, less normal damping or a shorter tick"
+    )]
+    ContactTooFast {
+        /// Step that the contact needs, s.
+        needed_s: f64,
+        /// Shortest allowed step, s.
+        least_s: f64,
+    },
     /// The index of a damper is out of range.
     #[error("damper {damper}: the vehicle has {dampers} dampers, counted from 0")]
     NoSuchDamper {
@@ -187,6 +198,7 @@ impl VehicleError {
             | Self::NotHeld { body: part, .. } => Some(part),
             Self::NoWheelset
             | Self::StepTooLong { .. }
+            | Self::ContactTooFast { .. }
             | Self::NoSuchDamper { .. }
             | Self::NoSuchBodyIndex { .. }
             | Self::OtherVehicle

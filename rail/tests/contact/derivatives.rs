@@ -125,6 +125,7 @@ fn motions() -> impl Strategy<Value = (Motion, [RailDisplacement; 2])> {
                 vertical_velocity_m_per_s: 0.5 * rate,
                 roll_rad: roll,
                 roll_rate_rad_per_s: rate,
+                yaw_rad: 0.1 * roll,
                 friction_ratio: 1.0,
             };
             (motion, [rail, LEVEL[1]])

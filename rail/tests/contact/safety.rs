@@ -243,6 +243,7 @@ proptest! {
             friction_ratio: 1.0 + 100.0 * lateral.abs(),
             roll_rad: 0.5 * lateral,
             roll_rate_rad_per_s: lateral,
+            yaw_rad: 2.0 * lateral,
             lateral_m: lateral,
             vertical_m: vertical,
             lateral_velocity_m_per_s: 10.0 * lateral,
@@ -268,7 +269,7 @@ proptest! {
     }
 
     #[test]
-    fn no_input_causes_a_panic(numbers in prop::collection::vec(anything(), 17)) {
+    fn no_input_causes_a_panic(numbers in prop::collection::vec(anything(), 18)) {
         let n = &numbers;
         let motion = Motion {
             speed_m_per_s: n[0], lateral_m: n[1], vertical_m: n[2], roll_rad: n[3], yaw_rad: n[4],
@@ -286,6 +287,7 @@ proptest! {
             roll_rad: n[14],
             roll_rate_rad_per_s: n[15],
             friction_ratio: n[16],
+            yaw_rad: n[17],
         };
         let forces = polach().forces(&motion, &[rail, RailDisplacement::default()]);
         prop_assert!(is_finite(&forces), "{:?}", forces);

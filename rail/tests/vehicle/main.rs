@@ -14,5 +14,6 @@ mod states;
 mod support;
 mod suspended;
 mod track;
+mod turned_line_was_not_followed;
 mod wagon;
 mod wheelset;

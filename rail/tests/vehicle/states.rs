@@ -70,7 +70,7 @@ fn a_state_reports_its_ticks_distance_and_forces() {
     assert!(state.rail_coordinates().is_empty());
     assert!(!state.is_diverged());
     let load = 0.5 * WHEELSET_KG * GRAVITY_M_PER_S2;
-    for greatest in state.greatest_wheel_loads_n()[0] {
+    for greatest in state.extremes()[0].greatest_loads_n {
         assert!(
             (greatest / load - 1.0).abs() < 1e-3,
             "{greatest} for {load}"

@@ -9,6 +9,7 @@ use super::attachment::{Coordinates, Pose};
 use super::chain::Chain;
 use super::coupling::Coupling;
 use super::frame::{Following, Path};
+use super::rails::Flexible;
 use super::standing::Standing;
 use super::stop::Stop;
 
@@ -33,8 +34,8 @@ pub(super) struct Rolling {
     pub(super) constant: Coordinates,
 }
 
-/// The vehicle. Its state consists of the coordinates of bodies and wheelsets, their velocities, and the positions of
-/// the dampers' pistons.
+/// The vehicle. Its state consists of the coordinates of bodies and wheelsets, their velocities, the positions of the
+/// dampers' pistons, and displacements and velocities of flexible rails.
 pub(super) struct Equations<'a, L, S: PatchSource> {
     /// Contact of each wheelset.
     pub(super) contacts: Vec<&'a WheelsetContact<L, S>>,
@@ -44,6 +45,8 @@ pub(super) struct Equations<'a, L, S: PatchSource> {
     pub(super) couplings: Vec<Coupling>,
     pub(super) ranged: Vec<Ranged>,
     pub(super) dampers: usize,
+    /// `None` if the rails are rigid.
+    pub(super) rails: Option<Flexible>,
 }
 
 /// Data that stays constant between two events.
@@ -107,7 +110,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
     }
 
     pub(super) fn size(&self) -> usize {
-        2 * N * self.bodies() + self.dampers
+        let rails = self.rails.map_or(0, |rails| rails.size());
+        2 * N * self.bodies() + self.dampers + rails
     }
 
     fn coordinates(&self, state: &[f64], body: usize) -> Coordinates {
@@ -119,7 +123,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
     }
 
     pub(super) fn pistons<'s>(&self, state: &'s [f64]) -> &'s [f64] {
-        &state[2 * N * self.bodies()..]
+        &state[2 * N * self.bodies()..][..self.dampers]
     }
 
     /// Poses of the bodies at the ends of an element: in the frame of the vehicle's middle, or in the body's own frame
@@ -191,7 +195,11 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             yaw_rate_rad_per_s: v[4],
         };
         let distance = path.distance_of(body, time);
-        (motion, path.track.displacements(distance, path.speed))
+        let mut rails = path.track.displacements(distance, path.speed);
+        if let Some(flexible) = &self.rails {
+            flexible.displace(state, wheelset, &mut rails);
+        }
+        (motion, rails)
     }
 
     /// Computes all rates and forces at a state.

@@ -16,21 +16,26 @@ mod coupling;
 mod equations;
 mod events;
 mod frame;
+mod rails;
 mod ranges;
 mod slopes;
 mod solver;
 mod standing;
 mod stop;
+mod tabulated;
 
 use dashpot_rail::contact::{PatchSource, WheelsetContact, WheelsetForces};
 use dashpot_rail::creep::CreepLaw;
 use dashpot_rail::track::Track;
-use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, Law, Standstill, VehicleError, VehicleParameters};
+use dashpot_rail::vehicle::{
+    GRAVITY_M_PER_S2, Law, RailSupport, Standstill, VehicleError, VehicleParameters,
+};
 
 use self::chain::{CLEARANCE, Chain};
 use self::coupling::Coupling;
 use self::equations::{Equations, N, Outcome, Ranged, Rolling, Situation};
 use self::frame::{Path, Runner};
+use self::rails::Flexible;
 use self::standing::Standing;
 use self::stop::Stop;
 use crate::error::ReferenceError;
@@ -180,6 +185,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
             couplings,
             ranged,
             dampers,
+            rails: None,
         };
         situation.follow(0.0);
         let coordinates = N * equations.bodies();
@@ -201,6 +207,19 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         })
     }
 
+    /// Puts the vehicle on flexible rails, which start at rest under it.
+    ///
+    /// # Errors
+    /// Those of [`RailSupport::check`].
+    pub fn on_flexible_rails(mut self, support: RailSupport) -> Result<Self, ReferenceError> {
+        support.check()?;
+        let first = 2 * N * self.equations.bodies() + self.equations.dampers;
+        let wheelsets = self.equations.wheelsets.len();
+        self.equations.rails = Some(Flexible::new(support, wheelsets, first));
+        self.start.resize(self.equations.size(), 0.0);
+        Ok(self)
+    }
+
     /// Runs the vehicle from time 0 and returns a sample at each of the increasing times (s). `tolerance` is relative
     /// and holds per step.
     ///
@@ -212,6 +231,21 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         times_s: &[f64],
         tolerance: f64,
     ) -> Result<Vec<VehicleSample>, ReferenceError> {
+        let mut samples = Vec::with_capacity(times_s.len());
+        self.run_each(times_s, tolerance, |sample| samples.push(sample.clone()))?;
+        Ok(samples)
+    }
+
+    /// Runs the vehicle like [`VehicleReference::run`], and passes each sample on instead of collecting them.
+    ///
+    /// # Errors
+    /// Those of [`VehicleReference::run`].
+    pub fn run_each(
+        &mut self,
+        times_s: &[f64],
+        tolerance: f64,
+        mut on_sample: impl FnMut(&VehicleSample),
+    ) -> Result<(), ReferenceError> {
         VehicleError::check("reference", "tolerance", tolerance, TOLERANCE)?;
         for (sample, time_s) in times_s.iter().enumerate() {
             VehicleError::check("reference", "time_s", *time_s, [0.0, 1e6])?;
@@ -225,9 +259,8 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
             }
         }
         let equations = &self.equations;
-        let mut samples = Vec::with_capacity(times_s.len());
         let on_sample = |situation: &mut Situation<'a>, time: f64, state: &[f64]| {
-            samples.push(sample(equations, situation, time, state));
+            on_sample(&sample(equations, situation, time, state));
         };
         self.statistics = solver::run(
             equations,
@@ -237,7 +270,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
             tolerance,
             on_sample,
         )?;
-        Ok(samples)
+        Ok(())
     }
 
     /// Statistics of the last run.

@@ -1,7 +1,7 @@
 //! Jacobian matrix of the equations for the solver's iteration. The linear part is computed once, the rest at each
 //! state.
 
-use dashpot_rail::contact::{PatchSource, WheelsetForces};
+use dashpot_rail::contact::{PatchSource, WheelDerivatives, WheelsetForces};
 use dashpot_rail::creep::CreepLaw;
 
 use super::attachment::{Coordinates, Pose};
@@ -148,18 +148,22 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             let (motion, rails) = self.contact_motion(situation, time, state, number);
             let wheels =
                 self.contacts[number].update_with_derivatives(&motion, &rails, &mut forces);
+            // Rates that a wheel's forces cause, by the wheelset's coordinate and a field of its motion.
+            let slope = |wheel: &WheelDerivatives, k: usize, field: usize| {
+                let load = match k {
+                    0 | 1 => wheel.force[k + 1][field],
+                    // Moment about the axle, which has yawed and rolled.
+                    3 => {
+                        wheel.moment[1][field] - motion.yaw_rad * wheel.moment[0][field]
+                            + motion.roll_rad * wheel.moment[2][field]
+                    }
+                    _ => wheel.moment[k - 2][field],
+                };
+                load / self.inertia[body][k]
+            };
             for k in 0..N {
                 let by = |field: usize| -> f64 {
-                    let derivative = |wheel: &dashpot_rail::contact::WheelDerivatives| match k {
-                        0 | 1 => wheel.force[k + 1][field],
-                        // Moment about the axle, which has yawed and rolled.
-                        3 => {
-                            wheel.moment[1][field] - motion.yaw_rad * wheel.moment[0][field]
-                                + motion.roll_rad * wheel.moment[2][field]
-                        }
-                        _ => wheel.moment[k - 2][field],
-                    };
-                    wheels.iter().map(derivative).sum::<f64>() / self.inertia[body][k]
+                    wheels.iter().map(|wheel| slope(wheel, k, field)).sum()
                 };
                 let row = coordinates + N * body + k;
                 for column in 0..N {
@@ -175,6 +179,42 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                     let spin = self.inertia[body][k];
                     matrix.add(row, N * body + 2, about_z / spin);
                     matrix.add(row, N * body + 4, -about_x / spin);
+                }
+            }
+            let Some(flexible) = &self.rails else {
+                continue;
+            };
+            for (side, wheel) in wheels.iter().enumerate() {
+                for direction in 0..2 {
+                    // A rail that moves acts on its wheel as if the wheel moved the other way.
+                    let columns = flexible.places(number, side, direction);
+                    let fields = [BY_COORDINATE[direction], Some(BY_VELOCITY[direction].0)];
+                    for (column, field) in columns.into_iter().zip(fields) {
+                        let Some(field) = field else { continue };
+                        for k in 0..N {
+                            let row = coordinates + N * body + k;
+                            matrix.add(row, column, -slope(wheel, k, field));
+                        }
+                        for along in 0..2 {
+                            let [_, row] = flexible.places(number, side, along);
+                            let [mass, ..] = flexible.mass_on_spring(along);
+                            matrix.add(row, column, wheel.force[1 + along][field] / mass);
+                        }
+                    }
+                    let [at, row] = columns;
+                    let [mass, stiffness, damping] = flexible.mass_on_spring(direction);
+                    matrix.add(at, row, 1.0);
+                    matrix.add(row, at, -stiffness / mass);
+                    matrix.add(row, row, -damping / mass);
+                    for column in 0..N {
+                        let coordinate = N * body + column;
+                        let by = |field: usize| -wheel.force[1 + direction][field] / mass;
+                        if let Some(field) = BY_COORDINATE[column] {
+                            matrix.add(row, coordinate, by(field));
+                        }
+                        let (field, sign) = BY_VELOCITY[column];
+                        matrix.add(row, coordinates + coordinate, sign * by(field));
+                    }
                 }
             }
         }

@@ -52,7 +52,16 @@ impl<L: CreepLaw, S: PatchSource> Problem<'_, '_, L, S> {
                 rates[N * (bodies + body) + k] = outcome.accelerations[body][k];
             }
         }
-        rates[2 * N * bodies..].copy_from_slice(&outcome.piston_velocities);
+        let pistons = 2 * N * bodies;
+        rates[pistons..pistons + self.equations.dampers]
+            .copy_from_slice(&outcome.piston_velocities);
+        if let Some(rails) = &self.equations.rails {
+            let wheelsets = self.equations.wheelsets.iter().zip(&outcome.contacts);
+            for (wheelset, (rolling, contact)) in wheelsets.enumerate() {
+                let standing = &rolling.standing.wheel_forces;
+                rails.write_rates(state, wheelset, contact, standing, rates);
+            }
+        }
     }
 }
 
@@ -103,7 +112,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
     /// Magnitude of a state below which the tolerance is absolute.
     fn scale(&self, k: usize) -> f64 {
         let coordinates = N * self.bodies();
-        let is_velocity = (coordinates..2 * coordinates).contains(&k);
+        let is_velocity = (coordinates..2 * coordinates).contains(&k)
+            || self.rails.is_some_and(|rails| rails.is_velocity(k));
         SCALES[usize::from(is_velocity)]
     }
 

@@ -23,6 +23,8 @@ pub(super) struct Standing {
     pub(super) load: f64,
     /// Speed divided by the rolling radius (rad/s).
     pub(super) rotation: f64,
+    /// Forces of the left and right rail on their wheels (N).
+    pub(super) wheel_forces: [[f64; 3]; 2],
 }
 
 /// Sets the force of each element with the vehicle at rest and the wheelsets fixed; returns the loads of the elements
@@ -99,18 +101,19 @@ impl Standing {
             return None;
         }
         let rails = [RailDisplacement::default(); 2];
+        let at = |vertical: f64, rotation: f64| Motion {
+            speed_m_per_s: speed,
+            vertical_m: vertical,
+            rotation_rad_per_s: rotation,
+            ..Motion::default()
+        };
         let mut rotation = speed / 0.5;
         let mut vertical = 0.0;
         // The height depends slightly on the creep, and the rolling radius on the height, so both are found by
         // iteration.
         for _ in 0..4 {
-            let at = |vertical: f64| Motion {
-                speed_m_per_s: speed,
-                vertical_m: vertical,
-                rotation_rad_per_s: rotation,
-                ..Motion::default()
-            };
-            let carried = |vertical: f64| -contact.forces(&at(vertical), &rails).force_n[2];
+            let carried =
+                |vertical: f64| -contact.forces(&at(vertical, rotation), &rails).force_n[2];
             let (mut above, mut below) = (-DEEPEST_M, DEEPEST_M);
             if carried(below) < load || carried(above) > load {
                 return None;
@@ -127,16 +130,18 @@ impl Standing {
                 }
             }
             vertical = below;
-            let patches = contact.forces(&at(vertical), &rails).wheels[1].patches;
+            let patches = contact.forces(&at(vertical, rotation), &rails).wheels[1].patches;
             let heaviest = patches
                 .iter()
                 .max_by(|a, b| a.load_n.total_cmp(&b.load_n))?;
             rotation = speed / heaviest.rolling_radius_m;
         }
+        let forces = contact.forces(&at(vertical, rotation), &rails);
         Some(Self {
             vertical,
             load,
             rotation,
+            wheel_forces: forces.wheels.map(|wheel| wheel.force_n),
         })
     }
 }

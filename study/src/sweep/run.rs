@@ -9,7 +9,7 @@ use super::study::Study;
 use dashpot_files::case::Case;
 use dashpot_files::study::{StudyFileError, Sweep};
 use dashpot_vehicle_run::wear::WearLaw;
-use dashpot_vehicle_run::{Ending, Indexer, RunWear, ValidityWatch, VehicleRunError};
+use dashpot_vehicle_run::{Ending, Indexer, RunWear, ValidityWatch, VehicleRunError, confirmed};
 
 /// Length of the last part of a run, in which the amplitude of a limit cycle is measured, s.
 const LAST_S: f64 = 3.0;
@@ -53,6 +53,7 @@ pub fn observe(
             break run.interrupted();
         }
     };
+    let ending = confirmed(case, &run, ending)?;
     let indices = (ending == Ending::Completed).then(|| indexer.indices());
     let observation = indices.flatten().map(|indices| Observation {
         indices,

@@ -3,7 +3,8 @@
 use dashpot_reference::deviation::{errors, root_mean_square};
 use serde::Serialize;
 
-use super::deviations::{Deviations, Trace, Worst};
+use super::deviations::{Deviations, Worst};
+use super::trace::Trace;
 use dashpot_files::case::Case;
 use dashpot_vehicle_run::{Run, VehicleRunError, VehicleTick};
 
@@ -71,7 +72,7 @@ impl InsideComparison {
             return;
         }
         self.ticks += 1;
-        self.trace.add_state(tick);
+        self.trace.add(tick);
         for (series, damper) in self.outside_n.iter_mut().zip(&self.dampers) {
             series.push(tick.damper_forces_n()[*damper]);
         }

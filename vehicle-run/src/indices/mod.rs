@@ -1,6 +1,7 @@
 //! Indices of a run: accelerations, ride, safety against derailment, wear, damper forces.
 
 mod body;
+mod limits;
 mod nadal;
 mod ride;
 mod sums;
@@ -9,8 +10,8 @@ mod wheelset;
 
 pub use body::{BodyIndices, UnbalancedIndices};
 use body::{BodySums, unbalanced};
-use dashpot_rail::contact::WheelsetForces;
 use dashpot_rail::vehicle::Standstill;
+pub use limits::Judged;
 pub use nadal::{Nadal, NadalWheel};
 use ride::Ride;
 pub use ride::{RideError, RideIndices, check_ride};
@@ -26,6 +27,9 @@ use dashpot_files::case::Case;
 /// Distance over which wheel forces are averaged, m.
 pub const WINDOW_M: f64 = 2.0;
 
+/// Corner frequency of the low-pass of wheel forces, Hz.
+pub const FILTER_HZ: f64 = 20.0;
+
 /// Indices of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Indices {
@@ -39,12 +43,16 @@ pub struct Indices {
     pub ride: Vec<RideIndices>,
     /// Distance over which wheel and wheelset forces are averaged, m.
     pub window_m: f64,
+    /// Corner frequency of the low-pass of filtered forces, Hz.
+    pub filter_hz: f64,
     /// Nadal's limit of `Y/Q`; the lowest if wheels have different limits.
     pub nadal: Nadal,
     /// Nadal's limits of all wheels: one for each distinct wheel profile and friction.
     pub nadal_limits: Vec<Nadal>,
     /// Forces of each wheelset.
     pub wheelsets: Vec<WheelsetIndices>,
+    /// Forces relative to their limits.
+    pub limits: Vec<Judged>,
     /// Maximum magnitude of each damper's force, N.
     pub greatest_damper_forces_n: Vec<f64>,
 }
@@ -52,9 +60,8 @@ pub struct Indices {
 /// Accumulates the indices of a run tick by tick.
 #[derive(Debug, Clone)]
 pub struct Indexer {
-    ticks: u64,
-    step_s: f64,
-    tick_m: f64,
+    count: u64,
+    ticks: Ticks,
     nadal: Vec<Nadal>,
     bodies: Vec<BodySums>,
     unbalanced: Statistics,
@@ -64,19 +71,23 @@ pub struct Indexer {
     dampers: Vec<f64>,
 }
 
-/// Values of one tick from which indices are computed.
+/// Ticks of a run.
 #[derive(Debug, Clone, Copy)]
-pub struct Sample<'a, A: Fn(usize) -> [f64; 5]> {
-    /// Returns the accelerations of a body, in the order of its coordinates, m/s^2 and rad/s^2; see
-    /// [`VehicleTick::acceleration`].
-    pub acceleration: A,
-    /// Unbalanced lateral acceleration of the track under the first body, m/s^2; see
-    /// [`VehicleTick::unbalanced_m_per_s2`].
-    pub unbalanced_m_per_s2: f64,
-    /// Contact forces of each wheelset.
-    pub contacts: &'a [WheelsetForces],
-    /// Force of each damper, N.
-    pub damper_forces_n: &'a [f64],
+struct Ticks {
+    step_s: f64,
+    speed_m_per_s: f64,
+}
+
+impl Ticks {
+    /// Distance of a tick, m.
+    fn tick_m(&self) -> f64 {
+        self.speed_m_per_s * self.step_s
+    }
+
+    /// Ticks in a window of [`WINDOW_M`].
+    fn window(&self) -> usize {
+        ((WINDOW_M / self.tick_m()).round() as usize).max(1)
+    }
 }
 
 impl Indexer {
@@ -88,8 +99,10 @@ impl Indexer {
             speed_m_per_s,
             ..
         } = case;
-        let tick_m = speed_m_per_s * step_s;
-        let window = ((WINDOW_M / tick_m).round() as usize).max(1);
+        let ticks = Ticks {
+            step_s: *step_s,
+            speed_m_per_s: *speed_m_per_s,
+        };
         let (nadal, nadal_of) = Nadal::of_case(case);
         // Every vehicle that can run has an equilibrium at standstill; without one, loads are not compared with it.
         let standstill = Standstill::new(vehicle).ok();
@@ -100,16 +113,15 @@ impl Indexer {
         let wheelsets = vehicle.wheelsets.iter().enumerate();
         let bodies = vehicle.bodies.iter();
         Self {
-            ticks: 0,
-            step_s: *step_s,
-            tick_m,
+            count: 0,
+            ticks,
             bodies: bodies.map(|body| BodySums::new(&body.name)).collect(),
             unbalanced: Statistics::default(),
             ride: Ride::new(vehicle, *step_s).ok(),
             wheelsets: wheelsets
                 .map(|(index, wheelset)| {
                     let limits = nadal_of[index].map(|of_wheel| nadal[of_wheel].limit);
-                    WheelsetSums::new(&wheelset.name, axle_load_n(index), window, limits)
+                    WheelsetSums::new(&wheelset.name, axle_load_n(index), &ticks, limits)
                 })
                 .collect(),
             nadal,
@@ -118,54 +130,47 @@ impl Indexer {
     }
 
     /// Adds a tick of the vehicle.
-    pub fn add(&mut self, state: &impl VehicleTick) {
-        self.add_sample(&Sample {
-            acceleration: |body| state.acceleration(body),
-            unbalanced_m_per_s2: state.unbalanced_m_per_s2(),
-            contacts: state.contacts(),
-            damper_forces_n: state.damper_forces_n(),
-        });
-    }
-
-    /// Adds a tick given by its values; bodies, wheelsets and dampers are those of the case.
-    pub fn add_sample<A: Fn(usize) -> [f64; 5]>(&mut self, sample: &Sample<A>) {
-        self.ticks += 1;
-        let speed_m_per_s = self.tick_m / self.step_s;
+    pub fn add(&mut self, tick: &impl VehicleTick) {
+        self.count += 1;
         if let Some(ride) = &mut self.ride {
-            ride.add(&sample.acceleration);
+            ride.add(|body| tick.acceleration(body));
         }
         for (index, body) in self.bodies.iter_mut().enumerate() {
-            body.add((sample.acceleration)(index));
+            body.add(tick.acceleration(index));
         }
-        self.unbalanced.add(sample.unbalanced_m_per_s2);
-        for (wheelset, contact) in self.wheelsets.iter_mut().zip(sample.contacts) {
-            wheelset.add(contact, speed_m_per_s);
+        self.unbalanced.add(tick.unbalanced_m_per_s2());
+        let contacts = tick.contacts().iter().zip(tick.extremes());
+        for (wheelset, (contact, extremes)) in self.wheelsets.iter_mut().zip(contacts) {
+            wheelset.add(contact, extremes, &self.ticks);
         }
-        for (greatest, force) in self.dampers.iter_mut().zip(sample.damper_forces_n) {
+        for (greatest, force) in self.dampers.iter_mut().zip(tick.damper_forces_n()) {
             *greatest = greatest.max(force.abs());
         }
     }
 
     /// Returns the indices of all ticks so far; `None` before the first tick, or if the vehicle has no wheelsets.
     pub fn indices(&self) -> Option<Indices> {
-        if self.ticks == 0 {
+        if self.count == 0 {
             return None;
         }
         let lowest = self.nadal.iter();
         let lowest = lowest.min_by(|a, b| a.limit.total_cmp(&b.limit))?;
         let ride = self.ride.as_ref();
         let wheelsets = self.wheelsets.iter();
+        let wheelsets: Vec<WheelsetIndices> = wheelsets
+            .map(|wheelset| wheelset.indices(&self.ticks))
+            .collect();
         Some(Indices {
-            duration_s: self.ticks as f64 * self.step_s,
+            duration_s: self.count as f64 * self.ticks.step_s,
             bodies: self.bodies.iter().map(BodySums::indices).collect(),
             unbalanced: unbalanced(&self.unbalanced),
             ride: ride.map(Ride::indices).unwrap_or_default(),
             window_m: WINDOW_M,
+            filter_hz: FILTER_HZ,
             nadal: lowest.clone(),
             nadal_limits: self.nadal.clone(),
-            wheelsets: wheelsets
-                .map(|wheelset| wheelset.indices(self.tick_m))
-                .collect(),
+            limits: limits::judged(&wheelsets),
+            wheelsets,
             greatest_damper_forces_n: self.dampers.clone(),
         })
     }

@@ -9,10 +9,9 @@ pub(super) struct Statistics {
     max_magnitude: f64,
 }
 
-/// Running statistics, with the range of the mean over a moving window of ticks.
+/// Range of the mean over a moving window of ticks.
 #[derive(Debug, Clone)]
 pub(super) struct Windowed {
-    statistics: Statistics,
     ring: Vec<f64>,
     /// Sum of the values in the ring.
     sum: f64,
@@ -26,6 +25,19 @@ pub(super) struct Windowed {
 pub(super) struct Range {
     pub min: f64,
     pub max: f64,
+}
+
+impl Range {
+    /// Range of no value.
+    pub const NONE: Self = Self {
+        min: f64::INFINITY,
+        max: f64::NEG_INFINITY,
+    };
+
+    pub fn add(&mut self, value: f64) {
+        self.min = self.min.min(value);
+        self.max = self.max.max(value);
+    }
 }
 
 /// Longest run of consecutive ticks for which a condition holds.
@@ -62,20 +74,15 @@ impl Windowed {
     /// Starts with a moving window of `ticks` ticks, at least 1.
     pub fn new(ticks: usize) -> Self {
         Self {
-            statistics: Statistics::default(),
             ring: vec![0.0; ticks.max(1)],
             sum: 0.0,
             next: 0,
             is_full: false,
-            means: Range {
-                min: f64::INFINITY,
-                max: f64::NEG_INFINITY,
-            },
+            means: Range::NONE,
         }
     }
 
     pub fn add(&mut self, value: f64) {
-        self.statistics.add(value);
         self.sum += value - self.ring[self.next];
         self.ring[self.next] = value;
         self.next += 1;
@@ -84,15 +91,8 @@ impl Windowed {
             self.is_full = true;
         }
         if self.is_full {
-            let mean = self.sum / self.ring.len() as f64;
-            self.means.min = self.means.min.min(mean);
-            self.means.max = self.means.max.max(mean);
+            self.means.add(self.sum / self.ring.len() as f64);
         }
-    }
-
-    /// Statistics of the values themselves.
-    pub fn statistics(&self) -> &Statistics {
-        &self.statistics
     }
 
     /// Range of the means over a window; `None` before the first whole window.
@@ -137,11 +137,7 @@ mod tests {
             ramp.add(f64::from(tick));
         }
         assert_eq!(ramp.means(), range(4.5, 94.5));
-        assert_eq!(
-            (ramp.statistics().mean(), ramp.max_mean_magnitude()),
-            (49.5, 94.5)
-        );
-        assert_eq!(ramp.statistics().max_magnitude(), 99.0);
+        assert_eq!(ramp.max_mean_magnitude(), 94.5);
     }
 
     /// A pulse of 3 ticks in a window of 4 ticks gives three quarters of its height; negative pulses count by
@@ -154,7 +150,19 @@ mod tests {
         }
         assert_eq!(pulse.means(), range(-6.0, 0.0));
         assert_eq!(pulse.max_mean_magnitude(), 6.0);
-        assert!((pulse.statistics().rms() - (3.0 * 64.0 / 20.0_f64).sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn statistics_are_mean_root_mean_square_and_greatest_magnitude() {
+        let mut statistics = Statistics::default();
+        for value in [1.0, -7.0, 3.0, 3.0] {
+            statistics.add(value);
+        }
+        assert_eq!(
+            (statistics.mean(), statistics.rms()),
+            (0.0, 17.0_f64.sqrt())
+        );
+        assert_eq!(statistics.max_magnitude(), 7.0);
     }
 
     #[test]

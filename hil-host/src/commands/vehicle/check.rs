@@ -11,9 +11,11 @@ use crate::commands::print::print_report;
 use crate::commands::progress;
 use dashpot_files::case::Case;
 use dashpot_study::verification::VerificationError;
-use dashpot_study::verification::deviations::{BOUNDS, Deviations, Trace, Worst};
-use dashpot_study::verification::seeds::{OverSeeds, STANDARD_ERRORS, over_seeds};
-use dashpot_study::verification::{TOLERANCE, reference, stepped};
+use dashpot_study::verification::deviations::{BOUNDS, CHAOS, Deviations, Worst};
+use dashpot_study::verification::seeds::{
+    DISTANCE, Difference, OverSeeds, STANDARD_ERRORS, Seeds, over_seeds,
+};
+use dashpot_study::verification::{LOOSER_TOLERANCE, TOLERANCE, Trace, reference, stepped};
 use dashpot_vehicle_run::Ending;
 
 #[derive(Serialize)]
@@ -44,7 +46,6 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
             "changes dampers during the run",
             "faults",
         ),
-        (case.rails.is_some(), "has flexible rails", "[rails]"),
         (case.push_m != 0.0, "starts with a push", "push_m"),
     ] {
         if has {
@@ -69,7 +70,7 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
     let whole = traced(1)?;
     // These ticks take one step each, which is half as long as the steps inside a tick of the case.
     let half = traced((2.0 * case.step_s / whole.inner_step_s()).round() as u64)?;
-    bar.set_message("reference solution: takes at least one second per simulated second");
+    bar.set_message("reference solution: takes about ten seconds per simulated second");
     let solution = reference(case, &whole, TOLERANCE).map_err(failed)?;
     let deviations = whole.deviations(&solution);
     let is_within_bounds = deviations.is_within_bounds();
@@ -77,26 +78,41 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
         None
     } else {
         bar.set_message("second reference solution, to check whether the case is chaotic");
-        let looser = reference(case, &whole, 100.0 * TOLERANCE).map_err(failed)?;
+        let looser = reference(case, &whole, LOOSER_TOLERANCE).map_err(failed)?;
         Some(looser.deviations(&solution))
     };
-    // The case is chaotic if even two reference solutions differ by more than the bounds.
-    let is_chaotic = parting
-        .as_ref()
-        .is_some_and(|parting| !parting.is_within_bounds());
-    let over_seeds = if is_chaotic {
-        bar.set_message("step and reference with other seeds, to compare means");
-        over_seeds(case).map_err(failed)?
+    let is_chaotic = parting.as_ref().is_some_and(Deviations::show_chaos);
+    let seeds = if is_chaotic {
+        bar.set_message("step and reference with other seeds, to compare distributions");
+        Some(over_seeds(case).map_err(failed)?)
     } else {
         None
     };
     bar.finish_and_clear();
+    let half = half.deviations(&solution);
+    let remedy = match &seeds {
+        Some(Seeds::NoSeed) => {
+            "; the case is chaotic, and its track has no seed to compare distributions over".into()
+        }
+        Some(Seeds::Ended { seed, ending }) => format!(
+            "; the case is chaotic, and its distribution over seeds cannot be compared, for seed {seed} ends: {ending}"
+        ),
+        None if half.is_within_bounds() => format!(
+            "; it is within them with a step of {:.0} us",
+            5e5 * whole.inner_step_s()
+        ),
+        _ => String::new(),
+    };
+    let over_seeds = match seeds {
+        Some(Seeds::Compared(found)) => Some(found),
+        _ => None,
+    };
     let agrees = over_seeds.as_ref().is_some_and(OverSeeds::agrees);
     let report = Report {
         case: case.name.clone(),
         step_s: case.step_s,
         reference_tolerance: TOLERANCE,
-        with_half_the_inner_step: half.deviations(&solution),
+        with_half_the_inner_step: half,
         deviations,
         bounds: BOUNDS,
         parting,
@@ -108,7 +124,7 @@ pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
         Ok(())
     } else {
         Err(Failure::new(format!(
-            "--check: {}: a deviation is out of bounds",
+            "--check: {}: a deviation is out of bounds{remedy}",
             case.name
         )))
     }
@@ -146,7 +162,20 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             &half.load_n,
             BOUNDS.load_n,
         ),
-        ("index, %", 1e2, &worst.index, &half.index, BOUNDS.index),
+        (
+            "mean or rms, %",
+            1e2,
+            &worst.index,
+            &half.index,
+            BOUNDS.index,
+        ),
+        (
+            "maximum or minimum, %",
+            1e2,
+            &worst.extreme,
+            &half.extreme,
+            BOUNDS.extreme,
+        ),
     ];
     writeln!(
         out,
@@ -167,23 +196,46 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if let Some(parting) = &report.parting {
         writeln!(
             out,
-            "\nA second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %. If these \
-             differences are as large as the deviations above, the case is chaotic.",
-            100.0 * report.reference_tolerance,
+            "\nA second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %, {:.4} %: the case \
+             is {}.",
+            LOOSER_TOLERANCE,
             1e2 * parting.acceleration.deviation,
             1e6 * parting.lateral_m.deviation,
             1e-3 * parting.load_n.deviation,
-            1e2 * parting.index.deviation
+            1e2 * parting.index.deviation,
+            1e2 * parting.extreme.deviation,
+            if parting.show_chaos() {
+                format!(
+                    "chaotic (an index differs by more than {:.0} %)",
+                    1e2 * CHAOS
+                )
+            } else {
+                "not chaotic".to_owned()
+            }
         )?;
     }
     if let Some(found) = &report.over_seeds {
-        let (by_step, by_reference) = (found.means.step, found.means.reference);
         writeln!(
             out,
-            "over {} seeds of the irregularity, the means of all indices differ by at most {:.1} standard errors \
-             (allowed {STANDARD_ERRORS}); the largest difference is that of {}, {by_step:.4} with the step and \
-             {by_reference:.4} with the reference",
-            found.seeds, found.greatest, found.index
+            "so the distributions of all indices over {} seeds of the irregularity are compared instead:",
+            found.seeds
+        )?;
+        let mut line = |what: &str, found: &Difference, bound: f64| {
+            writeln!(
+                out,
+                "{what}: {:.2} at most (allowed {bound}), {}, means {:.4} with the step and {:.4} with the reference",
+                found.greatest, found.index, found.means.step, found.means.reference
+            )
+        };
+        line(
+            "difference of the means in standard errors",
+            &found.mean,
+            STANDARD_ERRORS,
+        )?;
+        line(
+            "distance of the cumulative distributions",
+            &found.distribution,
+            DISTANCE,
         )?;
     }
     Ok(())

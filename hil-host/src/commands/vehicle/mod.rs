@@ -33,7 +33,8 @@ use dashpot_realtime::pacing::{Pacer, PacingReport};
 use dashpot_recording::columns;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
-    Ending, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch, check_ride, signals,
+    Ending, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch, check_ride, confirmed,
+    signals,
 };
 
 /// Simulate a vehicle on a track: time histories, indices and a page.
@@ -141,6 +142,11 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         &path,
         &mut wear,
     )?;
+    if outside.is_none() {
+        let ended = report.ending.clone();
+        report.ending =
+            confirmed(&case, &run, ended).map_err(|error| options::refused(&case, &error))?;
+    }
     report.wear = wear.indices().filter(|_| report.indices.is_some());
     let mut forces = Vec::new();
     if let Some(outside) = outside {

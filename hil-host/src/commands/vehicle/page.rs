@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::report::{Limits, Report, counted_windows, nadal_limits, percent};
+use super::report::{Limits, Report, counted_windows, nadal_limits, percent, verdict};
 use super::{drawing, figures, spectra, wear};
 use crate::commands::vehicle::history::History;
 use dashpot_files::case::Case;
@@ -41,6 +41,7 @@ pub(super) fn write(
         }
         div.wide { table {
             @for (what, text) in report.contact.lines() { tr { td.text { (what) } td.text { (text) } } }
+            tr { td.text { "support of the rails" } td.text { (report.support) } }
         } }
         @if report.ending != Ending::Completed {
             p { strong { "The run did not complete: " (report.ending) "." } }
@@ -50,6 +51,9 @@ pub(super) fn write(
                 p { strong { "Results outside the validity of the model:" } }
                 @for found in &report.warnings { p { (found.message) "." } }
             }
+        }
+        @if let Some(indices) = &report.indices {
+            @for sentence in verdict(indices) { p { (sentence) } }
         }
         (headline(report))
         figure {
@@ -217,7 +221,8 @@ fn tables(report: &Report) -> Markup {
                     }
                 } }
                 p {
-                    "Y/Q and lateral force: maximum of the mean over 2 m. Wear number: mean creep power over the speed."
+                    "Q: range within all steps. Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over 2 m. "
+                    "Wear number: mean creep power over the speed."
                 }
                 (limits(indices))
             }
@@ -241,7 +246,7 @@ fn limits(indices: &Indices) -> Markup {
     html! {
         div.wide { table {
             tr {
-                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "Nadal, %" }
+                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "Q limit, %" } th { "Nadal, %" }
                 th { "beyond, m" } th { "Prud'homme, %" } th { "wear rms, N" } th { "max" }
             }
             @for wheelset in &indices.wheelsets {
@@ -251,6 +256,7 @@ fn limits(indices: &Indices) -> Markup {
                     td { (percent(worse.unloading)) }
                     td { (percent(worse.unloading_of_mean)) }
                     td { (format!("{:.1}", 1e2 * worse.lifted_share)) }
+                    td { (percent(worse.load_over_limit)) }
                     td { (format!("{:.0}", 1e2 * worse.over_nadal)) }
                     td { (format!("{:.2}", worse.longest_over_nadal_m)) }
                     td { (percent(wheelset.lateral_force_over_limit)) }
@@ -260,7 +266,8 @@ fn limits(indices: &Indices) -> Markup {
             }
         } }
         p {
-            "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Y/Q as % of Nadal's "
+            "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Q, filtered at 20 Hz, as % "
+            "of the limit of EN 14363 for the speed. Y/Q, filtered at 20 Hz, as % of Nadal's "
             "limit, mean over 2 m, and the longest distance beyond it. Lateral force as % of Prud'homme's limit, mean "
             "over 2 m. Nadal's limit is " (nadal_limits(indices))
             ". Prud'homme's limit is 10 kN plus a third of the static axle load."

@@ -13,10 +13,12 @@ use crate::commands::paced::Paced;
 use crate::commands::vehicle::drive::Driven;
 use dashpot_files::case::Case;
 use dashpot_files::output;
+use dashpot_rail::vehicle::RailSupport;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::span;
 use dashpot_vehicle_run::{
-    Ending, Indices, Nadal, RideIndices, Warning, WearIndices, WheelIndices, WheelsetIndices,
+    Ending, Indices, Judged, Nadal, RideIndices, Warning, WearIndices, WheelIndices,
+    WheelsetIndices,
 };
 
 /// Report of a run.
@@ -29,6 +31,10 @@ pub(super) struct Report {
     pub(super) friction: f64,
     /// Profiles, gauge, inclination and friction.
     pub(super) contact: ContactReport,
+    /// Support of the rails; `None` for rigid rails.
+    pub(super) rails: Option<RailSupport>,
+    #[serde(skip)]
+    pub(super) support: String,
     pub(super) normal_damping_s_per_m: f64,
     pub(super) step_s: f64,
     pub(super) ticks: u64,
@@ -81,6 +87,8 @@ impl Report {
             speed_km_h: 3.6 * case.speed_m_per_s,
             friction: case.friction,
             contact: ContactReport::new(case),
+            rails: case.rails,
+            support: support(case.rails.as_ref()),
             normal_damping_s_per_m: case.normal_damping_s_per_m,
             step_s: case.step_s,
             ticks: driven.ticks,
@@ -97,6 +105,35 @@ impl Report {
     }
 }
 
+/// Describes the support of the rails.
+fn support(rails: Option<&RailSupport>) -> String {
+    let Some(rails) = rails else {
+        return "rigid".to_owned();
+    };
+    let direction = |name: &str, stiffness: f64, damping: f64, mass: f64| {
+        format!(
+            "{name} {} MN/m, {} kN s/m, {mass} kg",
+            1e-6 * stiffness,
+            1e-3 * damping
+        )
+    };
+    format!(
+        "under each wheel, {}; {}",
+        direction(
+            "vertical",
+            rails.vertical_stiffness_n_per_m,
+            rails.vertical_damping_n_s_per_m,
+            rails.vertical_mass_kg
+        ),
+        direction(
+            "lateral",
+            rails.lateral_stiffness_n_per_m,
+            rails.lateral_damping_n_s_per_m,
+            rails.lateral_mass_kg
+        )
+    )
+}
+
 pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
@@ -106,6 +143,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for (what, text) in report.contact.lines() {
         writeln!(out, "{:<10}{text}", format!("{what}:"))?;
     }
+    writeln!(out, "support:  {}", report.support)?;
     writeln!(
         out,
         "normal damping {} s/m, step {} us; {} of {}",
@@ -163,8 +201,14 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 wheelset.wear_number_n
             )?;
         }
-        writeln!(out, "Y/Q and lateral force: maximum of the mean over 2 m")?;
+        writeln!(
+            out,
+            "Q: range within all steps; Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over 2 m"
+        )?;
         print_limits(out, indices)?;
+        for sentence in verdict(indices) {
+            writeln!(out, "{sentence}")?;
+        }
     }
     if let Some(found) = &report.wear {
         wear::print(out, found)?;
@@ -219,17 +263,18 @@ pub(super) fn counted_windows(ride: &RideIndices) -> String {
 fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     writeln!(
         out,
-        "\n%, worse wheel             unloaded  mean  lifted       Nadal       Prud'homme  wear rms, N       max"
+        "\n%, worse wheel             unloaded  mean  lifted  Q limit   Nadal  Prud'homme  wear rms, N       max"
     )?;
     for wheelset in &indices.wheelsets {
         let limits = Limits::of(wheelset);
         writeln!(
             out,
-            "{:<26} {:>8} {:>5} {:7.1} {:11.0} {:>16} {:12.0} {:9.0}",
+            "{:<26} {:>8} {:>5} {:7.1} {:>8} {:7.0} {:>11} {:12.0} {:9.0}",
             wheelset.wheelset,
             percent(limits.unloading),
             percent(limits.unloading_of_mean),
             1e2 * limits.lifted_share,
+            percent(limits.load_over_limit),
             1e2 * limits.over_nadal,
             percent(wheelset.lateral_force_over_limit),
             wheelset.wear_number_rms_n,
@@ -238,10 +283,44 @@ fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     }
     writeln!(
         out,
-        "unloading relative to the static load: instantaneous, and of the mean over 2 m; Y/Q as % of Nadal's limit,\n\
-         {}; lateral force as % of Prud'homme's limit for the static load",
+        "unloading relative to the static load: instantaneous, and of the mean over 2 m; Q filtered at 20 Hz as % of the\n\
+         limit of EN 14363 for the speed; Y/Q as % of Nadal's limit, {};\n\
+         lateral force as % of Prud'homme's limit for the static load",
         nadal_limits(indices)
     )
+}
+
+/// States whether every limit is kept, and the value of each force with its limit.
+pub(super) fn verdict(indices: &Indices) -> Vec<String> {
+    let limits = &indices.limits;
+    let broken = limits.iter().filter(|judged| !judged.is_kept()).count();
+    let sentence = match (limits.len(), broken) {
+        (0, _) => return Vec::new(),
+        (all, 0) => format!("limits: all {all} kept"),
+        (all, broken) => format!("limits: {broken} of {all} NOT kept"),
+    };
+    let line = |judged: &Judged| {
+        let Judged {
+            quantity,
+            of,
+            value,
+            limit,
+            ratio,
+        } = judged;
+        let percent = 1e2 * ratio;
+        if quantity.contains('/') {
+            format!("  {quantity} {value:.2} of {limit:.2}, {percent:.0} %: {of}")
+        } else {
+            format!(
+                "  {quantity} {:.0} of {:.0} kN, {percent:.0} %: {of}",
+                1e-3 * value,
+                1e-3 * limit
+            )
+        }
+    };
+    std::iter::once(sentence)
+        .chain(limits.iter().map(line))
+        .collect()
 }
 
 /// States Nadal's limits and the wheels that have them.
@@ -274,6 +353,7 @@ pub(super) struct Limits {
     pub(super) unloading: Option<f64>,
     pub(super) unloading_of_mean: Option<f64>,
     pub(super) lifted_share: f64,
+    pub(super) load_over_limit: Option<f64>,
     pub(super) over_nadal: f64,
     pub(super) longest_over_nadal_m: f64,
 }
@@ -290,6 +370,7 @@ impl Limits {
             unloading: max(&|wheel| wheel.unloading_greatest),
             unloading_of_mean: max(&|wheel| wheel.unloading_of_mean_greatest),
             lifted_share: max_or_zero(&|wheel| wheel.lifted_share),
+            load_over_limit: max(&|wheel| wheel.load_over_limit),
             over_nadal: max_or_zero(&|wheel| wheel.derailment_over_nadal),
             longest_over_nadal_m: max_or_zero(&|wheel| wheel.longest_over_nadal_m),
         }

@@ -10,7 +10,7 @@ use super::across::{Across, DamperElement, StopElement};
 use super::block::N;
 use super::guidance::BodyPosition;
 use super::identity::Identity;
-use super::method::Method;
+use super::method::{Method, OnContact};
 use super::rails::{self, RailSupport};
 use super::shape::Shape;
 use super::springs::Springs;
@@ -122,7 +122,35 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             support.check()?;
             support.append(count, &mut inertia, &mut stiffness, &mut damping);
         }
-        let method = Method::new(step_s);
+        let with_contacts = parameters.wheelsets.iter().zip(&contacts);
+        let carried = with_contacts
+            .zip(standstill.axle_loads_n())
+            .map(|((wheelset, contact), load_n)| {
+                Carried::new(contact, *load_n).ok_or_else(|| VehicleError::NotCarried {
+                    wheelset: wheelset.name.clone(),
+                    load_n: *load_n,
+                })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let on_contacts: Vec<OnContact> = parameters
+            .wheelsets
+            .iter()
+            .zip(
+                contacts
+                    .iter()
+                    .zip(standstill.axle_loads_n().iter().zip(&carried)),
+            )
+            .map(|(wheelset, (contact, (load_n, carried)))| {
+                let of_wheel_kg = 0.5 * wheelset.mass_kg;
+                OnContact {
+                    mass_kg: support
+                        .map_or(of_wheel_kg, |rail| rail.least_mass_kg().min(of_wheel_kg)),
+                    stiffness_n_per_m: carried.wheel_stiffness_n_per_m,
+                    damping_n_s_per_m: 0.5 * load_n * contact.normal_damping_s_per_m(),
+                }
+            })
+            .collect();
+        let method = Method::new(step_s, &on_contacts)?;
         let system = DMatrix::from_diagonal(&inertia)
             + &damping * method.damping_weight()
             + &stiffness * method.stiffness_weight();
@@ -142,12 +170,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let mut wheelsets = Vec::with_capacity(count);
         let with_contacts = parameters.wheelsets.iter().zip(&contacts);
         for (number, (wheelset, contact)) in with_contacts.enumerate() {
-            let load_n = standstill.axle_loads_n()[number];
-            let carried =
-                Carried::new(contact, load_n).ok_or_else(|| VehicleError::NotCarried {
-                    wheelset: wheelset.name.clone(),
-                    load_n,
-                })?;
+            let carried = carried[number];
             let body = first + number;
             // Rails are coupled to their wheelset only, so they are eliminated before it.
             let rails = rails_of(number);
@@ -163,7 +186,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 },
                 standing_n: rails::standing_n(&carried.wheel_forces_n),
                 carried,
-                axle_load_n: load_n,
+                axle_load_n: standstill.axle_loads_n()[number],
                 spin_inertia_kg_m2: wheelset.inertia_kg_m2[1],
             });
         }

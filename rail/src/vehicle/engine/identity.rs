@@ -23,7 +23,8 @@ impl Identity {
         digest.numbers(&[step_s]);
         match rails {
             Some(rails) => digest.numbers(&[
-                rails.mass_kg,
+                rails.lateral_mass_kg,
+                rails.vertical_mass_kg,
                 rails.lateral_stiffness_n_per_m,
                 rails.lateral_damping_n_s_per_m,
                 rails.vertical_stiffness_n_per_m,

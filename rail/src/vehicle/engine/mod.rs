@@ -5,6 +5,7 @@ mod assembly;
 mod block;
 mod dampers;
 mod energy;
+mod extremes;
 mod guidance;
 mod identity;
 mod method;
@@ -25,6 +26,7 @@ use self::across::{DamperElement, StopElement};
 use self::assembly::build;
 use self::block::{N, Vector};
 pub use self::energy::Energy;
+pub use self::extremes::Extremes;
 pub use self::guidance::CANT_BASE_M;
 use self::guidance::{BodyPosition, Guidance};
 use self::identity::Identity;
@@ -182,7 +184,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 tick_changes: zeros,
                 target_damper_forces_n: vec![0.0; self.dampers.len()],
                 target_stop_forces_n: vec![0.0; self.stops.len()],
-                greatest_loads_n: vec![[0.0; 2]; self.wheelsets.len()],
+                extremes: vec![Extremes::default(); self.wheelsets.len()],
             },
         }
     }

@@ -20,12 +20,14 @@ use crate::vehicle::error::VehicleError;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct RailSupport {
-    /// Effective mass of rail and sleeper, kg.
-    pub mass_kg: f64,
+    /// Effective mass of rail and sleeper in lateral motion, kg.
+    pub lateral_mass_kg: f64,
     /// Lateral stiffness, N/m.
     pub lateral_stiffness_n_per_m: f64,
     /// Lateral damping, N s/m.
     pub lateral_damping_n_s_per_m: f64,
+    /// Effective mass of rail and sleeper in vertical motion, kg.
+    pub vertical_mass_kg: f64,
     /// Vertical stiffness, N/m.
     pub vertical_stiffness_n_per_m: f64,
     /// Vertical damping, N s/m.
@@ -45,10 +47,22 @@ const LATERAL: [usize; 2] = [0, 2];
 const VERTICAL: [usize; 2] = [1, 3];
 
 impl RailSupport {
-    /// Returns a support with this effective mass, kg; its stiffnesses must be set, its dampings are zero.
+    /// Ballasted main line track under a wheel of a locomotive.
+    ///
+    /// Vertical values and lateral stiffness and mass are those of British Rail's track for the force on a dipped joint
+    /// and on a lateral ramp (GM/TT0088, Permissible track forces for railway vehicles, 1993). It has no lateral
+    /// damping; here the lateral damping ratio equals the vertical one, 0.22.
+    pub const BALLASTED: Self = Self::new(245.0)
+        .with_vertical(62e6, 55.4e3)
+        .with_lateral(25e6, 29e3)
+        .with_lateral_mass(170.0);
+
+    /// Returns a support with this effective mass in both directions, kg; its stiffnesses must be set, its dampings are
+    /// zero.
     pub const fn new(mass_kg: f64) -> Self {
         Self {
-            mass_kg,
+            lateral_mass_kg: mass_kg,
+            vertical_mass_kg: mass_kg,
             lateral_stiffness_n_per_m: 0.0,
             lateral_damping_n_s_per_m: 0.0,
             vertical_stiffness_n_per_m: 0.0,
@@ -61,6 +75,13 @@ impl RailSupport {
     pub const fn with_lateral(mut self, stiffness_n_per_m: f64, damping_n_s_per_m: f64) -> Self {
         self.lateral_stiffness_n_per_m = stiffness_n_per_m;
         self.lateral_damping_n_s_per_m = damping_n_s_per_m;
+        self
+    }
+
+    /// Sets the effective mass in lateral motion, kg.
+    #[must_use]
+    pub const fn with_lateral_mass(mut self, mass_kg: f64) -> Self {
+        self.lateral_mass_kg = mass_kg;
         self
     }
 
@@ -78,7 +99,8 @@ impl RailSupport {
     /// A mass outside 1 to 1e5 kg, a stiffness outside 1e5 to 1e12 N/m, or a damping outside 0 to 1e9 N s/m.
     pub fn check(&self) -> Result<(), VehicleError> {
         for (name, value, allowed) in [
-            ("mass_kg", self.mass_kg, MASS_KG),
+            ("lateral_mass_kg", self.lateral_mass_kg, MASS_KG),
+            ("vertical_mass_kg", self.vertical_mass_kg, MASS_KG),
             (
                 "lateral_stiffness_n_per_m",
                 self.lateral_stiffness_n_per_m,
@@ -105,6 +127,11 @@ impl RailSupport {
         Ok(())
     }
 
+    /// Returns the smaller of the two masses, kg.
+    pub(super) fn least_mass_kg(&self) -> f64 {
+        self.lateral_mass_kg.min(self.vertical_mass_kg)
+    }
+
     /// Appends the rails under `wheelsets` wheelsets to the equations of the bodies.
     pub(super) fn append(
         &self,
@@ -119,21 +146,23 @@ impl RailSupport {
         *stiffness = stiffness.clone().resize(size, size, 0.0);
         *damping = damping.clone().resize(size, size, 0.0);
         for rails in 0..wheelsets {
-            for (coordinates, k, c) in [
+            for (coordinates, m, k, c) in [
                 (
                     LATERAL,
+                    self.lateral_mass_kg,
                     self.lateral_stiffness_n_per_m,
                     self.lateral_damping_n_s_per_m,
                 ),
                 (
                     VERTICAL,
+                    self.vertical_mass_kg,
                     self.vertical_stiffness_n_per_m,
                     self.vertical_damping_n_s_per_m,
                 ),
             ] {
                 for coordinate in coordinates {
                     let i = first + N * rails + coordinate;
-                    inertia[i] = self.mass_kg;
+                    inertia[i] = m;
                     stiffness[(i, i)] = k;
                     damping[(i, i)] = c;
                 }
@@ -195,11 +224,12 @@ mod tests {
         for (wrong, name) in [
             (
                 RailSupport {
-                    mass_kg: 0.5,
+                    vertical_mass_kg: 0.5,
                     ..support
                 },
-                "mass_kg",
+                "vertical_mass_kg",
             ),
+            (support.with_lateral_mass(2e5), "lateral_mass_kg"),
             (support.with_lateral(0.0, 0.0), "lateral_stiffness_n_per_m"),
             (
                 support.with_lateral(40e6, -1.0),
@@ -228,6 +258,7 @@ mod tests {
             vertical_velocity_m_per_s: 4.0,
             roll_rad: 5.0,
             roll_rate_rad_per_s: 6.0,
+            yaw_rad: 8.0,
             friction_ratio: 0.7,
         };
         let mut rails = [irregularity; 2];
@@ -269,6 +300,7 @@ mod tests {
     fn rails_follow_the_bodies_in_the_equations() {
         let support = RailSupport::new(60.0)
             .with_lateral(2.0, 3.0)
+            .with_lateral_mass(50.0)
             .with_vertical(4.0, 5.0);
         let bodies = 3 * N;
         let mut inertia = DVector::from_element(bodies, 7.0);
@@ -278,15 +310,13 @@ mod tests {
         assert_eq!((inertia.len(), stiffness.shape()), (25, (25, 25)));
         for wheelset in 0..2 {
             let first = bodies + N * wheelset;
-            for (i, [k, c]) in [[2.0, 3.0], [4.0, 5.0], [2.0, 3.0], [4.0, 5.0]]
+            let (lateral, vertical) = ([50.0, 2.0, 3.0], [60.0, 4.0, 5.0]);
+            for (i, expected) in [lateral, vertical, lateral, vertical]
                 .into_iter()
                 .enumerate()
             {
                 let at = (first + i, first + i);
-                assert_eq!(
-                    [inertia[first + i], stiffness[at], damping[at]],
-                    [60.0, k, c]
-                );
+                assert_eq!([inertia[first + i], stiffness[at], damping[at]], expected);
             }
             // The fifth coordinate has an inertia, so that the equations can be solved.
             let unused = first + 4;

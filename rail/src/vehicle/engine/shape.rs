@@ -35,7 +35,7 @@ struct WorkShape {
     tick_changes: usize,
     target_damper_forces: usize,
     target_stop_forces: usize,
-    greatest_loads: usize,
+    extremes: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -92,7 +92,7 @@ impl WorkShape {
             tick_changes: work.tick_changes.len(),
             target_damper_forces: work.target_damper_forces_n.len(),
             target_stop_forces: work.target_stop_forces_n.len(),
-            greatest_loads: work.greatest_loads_n.len(),
+            extremes: work.extremes.len(),
         }
     }
 }

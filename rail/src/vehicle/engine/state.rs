@@ -3,6 +3,7 @@
 use dashpot_core::DamperState;
 
 use super::block::{N, Vector};
+use super::extremes::Extremes;
 use super::guidance::Guidance;
 use super::identity::Identity;
 use super::structure::Blocks;
@@ -79,8 +80,8 @@ pub(super) struct Work {
     pub target_damper_forces_n: Vec<f64>,
     /// Stop forces at the end of the tick.
     pub target_stop_forces_n: Vec<f64>,
-    /// Maximum load of the left and right wheel of each wheelset over all steps of the tick.
-    pub greatest_loads_n: Vec<[f64; 2]>,
+    /// Extremes of each wheelset over all steps of the tick.
+    pub extremes: Vec<Extremes>,
 }
 
 impl VehicleState {
@@ -143,12 +144,12 @@ impl VehicleState {
         &self.contacts
     }
 
-    /// Returns the maximum load of the left and right wheel of each wheelset during the last tick, N.
+    /// Returns the extremes of each wheelset during the last tick.
     ///
     /// A tick consists of several steps, so an impact may be over before the tick ends. [`contacts`](Self::contacts)
     /// returns only the forces at the end of the tick.
-    pub fn greatest_wheel_loads_n(&self) -> &[[f64; 2]] {
-        &self.work.greatest_loads_n
+    pub fn extremes(&self) -> &[Extremes] {
+        &self.work.extremes
     }
 
     /// Returns the displacement of each damper, positive in extension, m.
@@ -259,7 +260,7 @@ clone_by_field!(Work {
     tick_changes,
     target_damper_forces_n,
     target_stop_forces_n,
-    greatest_loads_n,
+    extremes,
 });
 clone_by_field!(Guidance {
     pose,

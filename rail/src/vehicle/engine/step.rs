@@ -5,6 +5,7 @@ use std::array::from_fn;
 use fearless_simd::{Simd, dispatch};
 
 use super::block::{N, Vector};
+use super::extremes::Extremes;
 use super::method::Method;
 use super::rails::{displace, push};
 use super::state::VehicleState;
@@ -39,7 +40,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         if state.is_diverged() {
             return;
         }
-        state.work.greatest_loads_n.fill([0.0; 2]);
+        state.work.extremes.fill(Extremes::NONE);
         self.step_dampers(state, track);
         for substep in 1..=self.method.substeps {
             self.substep(simd, state, track, substep);
@@ -303,10 +304,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         let contact = &mut state.contacts[number];
         self.contacts[number].update(&motion, &rails, contact);
-        let greatest_n = &mut state.work.greatest_loads_n[number];
-        for (greatest_n, wheel) in greatest_n.iter_mut().zip(&contact.wheels) {
-            *greatest_n = greatest_n.max(-wheel.force_n[2]);
-        }
+        state.work.extremes[number].add(contact);
         let [_, fy, fz] = contact.force_n;
         let [mx, my, mz] = contact.moment_n_m;
         let turned = state.work.guidance.relative[body][2];

@@ -53,6 +53,7 @@ pub const LEVEL: [RailDisplacement; 2] = [RailDisplacement {
     vertical_velocity_m_per_s: 0.0,
     roll_rad: 0.0,
     roll_rate_rad_per_s: 0.0,
+    yaw_rad: 0.0,
     friction_ratio: 1.0,
 }; 2];
 
