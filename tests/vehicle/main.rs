@@ -3,6 +3,7 @@
 mod curving;
 mod eigenvalues;
 mod energy;
+mod flexible_rails_diverged;
 mod mirror;
 mod rails;
 mod reference;

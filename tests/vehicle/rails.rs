@@ -121,7 +121,7 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
             .flat_map(|wheel| wheel.loaded_patches())
     };
     let of_contact: f64 = patches().map(|patch| patch.stiffness_n_per_m).sum();
-    let (m, mr) = (3239.0, 2.0 * SUPPORT.mass_kg);
+    let (m, mr) = (3239.0, 2.0 * SUPPORT.vertical_mass_kg);
     let kr = 2.0 * SUPPORT.vertical_stiffness_n_per_m;
     let above = 2.0 * 2.15e6;
     let (a, b) = ((of_contact + above) / m, (of_contact + kr) / mr);
@@ -137,10 +137,10 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
 #[test]
 fn an_invalid_support_is_rejected() {
     let mut support = SUPPORT;
-    support.mass_kg = -1.0;
+    support.vertical_mass_kg = -1.0;
     let error = Vehicle::on_rails(&locomotive(), contact(5.0), 1e-3, Some(support)).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "rails: mass_kg = -1, allowed: 1 to 100000"
+        "rails: vertical_mass_kg = -1, allowed: 1 to 100000"
     );
 }

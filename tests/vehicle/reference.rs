@@ -2,12 +2,16 @@
 
 use dashpot_core::DamperParameters;
 use dashpot_core::parameters::Mount;
+use dashpot_rail::contact::Tables;
+use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::{Generation, Irregularity, Layout, Part, Seeds, Spectrum, Track};
-use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};
-use dashpot_reference::vehicle::VehicleReference;
+use dashpot_rail::vehicle::{Law, RailSupport, Vehicle, VehicleParameters};
+use dashpot_reference::vehicle::{VehicleReference, VehicleSample};
 use fastrand::Rng;
 
 use crate::support::{contact, locomotive};
+
+type Reference<'a> = VehicleReference<'a, KalkerBook, Tables>;
 
 fn between(random: &mut Rng, min: f64, max: f64) -> f64 {
     min + random.f64() * (max - min)
@@ -69,21 +73,41 @@ fn track(random: &mut Rng) -> Track {
     Track::new(Layout::new(&parts).unwrap(), irregularity, vec![]).unwrap()
 }
 
+/// Samples of the reference, computed by the solver's own crate.
+fn solve(reference: &mut Reference<'_>, times_s: &[f64], tolerance: f64) -> Vec<VehicleSample> {
+    let mut samples = Vec::with_capacity(times_s.len());
+    let mut on_sample = |sample: &VehicleSample| samples.push(sample.clone());
+    reference
+        .run_on_tables(times_s, tolerance, &mut on_sample)
+        .unwrap();
+    samples
+}
+
+/// On rigid rails, on ballasted track, and on rails as light as they are alone.
 #[test]
 fn random_vehicles_run_as_in_the_reference() {
     let mut random = Rng::with_seed(20_261_122);
-    for case in 0..3 {
+    let light = RailSupport::new(60.0)
+        .with_lateral(40e6, 60e3)
+        .with_vertical(80e6, 60e3);
+    for (case, rails) in [None, Some(RailSupport::BALLASTED), Some(light)]
+        .into_iter()
+        .enumerate()
+    {
         let parameters = vehicle(&mut random);
         let track = track(&mut random);
         let speed = between(&mut random, 15.0, 35.0);
-        let contact = contact(5.0);
-        let engine = Vehicle::new(&parameters, contact.clone(), 1e-3).unwrap();
+        let contact = contact(if rails.is_some() { 0.3 } else { 5.0 });
+        let engine = Vehicle::on_rails(&parameters, contact.clone(), 1e-3, rails).unwrap();
         let mut state = engine.at_rest(&track, -15.0, speed).unwrap();
         let ticks = 3500;
         let times: Vec<f64> = (1..=ticks).map(|tick| f64::from(tick) * 1e-3).collect();
         let mut reference =
             VehicleReference::new(&parameters, &contact, &track, speed, -15.0).unwrap();
-        let samples = reference.run(&times, 1e-7).unwrap();
+        if let Some(rails) = rails {
+            reference = reference.on_flexible_rails(rails).unwrap();
+        }
+        let samples = solve(&mut reference, &times, 1e-7);
         let (mut lateral, mut load) = ([0.0; 6], [0.0; 12]);
         let (mut acceleration, mut scale, mut damper, mut damper_scale) = (0.0, 0.0, 0.0, 0.0);
         for sample in &samples {
@@ -131,7 +155,7 @@ fn the_reference_keeps_its_equilibrium() {
     let parameters = locomotive();
     let (contact, track) = (contact(0.0), Track::default());
     let mut reference = VehicleReference::new(&parameters, &contact, &track, 30.0, 0.0).unwrap();
-    let samples = reference.run(&[0.0, 0.5, 1.0], 1e-8).unwrap();
+    let samples = solve(&mut reference, &[0.0, 0.5, 1.0], 1e-8);
     let bodies = parameters.bodies.len();
     for sample in samples {
         let states = sample.coordinates.iter().zip(&sample.velocities);

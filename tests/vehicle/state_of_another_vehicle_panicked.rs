@@ -36,7 +36,7 @@ fn others() -> Vec<Vehicle<dashpot_rail::creep::KalkerBook>> {
 
 #[test]
 fn a_state_of_another_vehicle_is_unchanged_and_reports_it() {
-    let own = vehicle("locomotive", 1e-3);
+    let own = vehicle("locomotive-without-yaw-dampers", 1e-3);
     let track = curve(300.0);
     let mut before = own.at_rest(&track, 0.0, 20.0).unwrap();
     run(&own, &mut before, &track, 0.1);
@@ -61,15 +61,15 @@ fn a_state_of_another_vehicle_is_unchanged_and_reports_it() {
 /// Vehicles with equal parameters share states, also if a damper or the contact differs.
 #[test]
 fn a_state_belongs_to_every_vehicle_of_its_parameters() {
-    let own = vehicle("locomotive", 1e-3);
+    let own = vehicle("locomotive-without-yaw-dampers", 1e-3);
     let track = Track::default();
     let mut state = own.at_rest(&track, 0.0, 20.0).unwrap();
-    let mut replaced = vehicle("locomotive", 1e-3);
+    let mut replaced = vehicle("locomotive-without-yaw-dampers", 1e-3);
     let worn = DamperParameters::reduced(90e3, 0.07, Mount::new(3e6));
     replaced.set_damper(0, &worn).unwrap();
     let undamped: Contact = contact(0.0);
     let others = [
-        vehicle("locomotive", 1e-3),
+        vehicle("locomotive-without-yaw-dampers", 1e-3),
         replaced,
         Vehicle::new(&locomotive(), undamped, 1e-3).unwrap(),
     ];
@@ -83,7 +83,7 @@ fn a_state_belongs_to_every_vehicle_of_its_parameters() {
 /// A saved state with damaged bytes either gives a finite result or reports divergence.
 #[test]
 fn no_number_in_a_state_makes_the_step_panic() {
-    let own = vehicle("locomotive", 1e-3);
+    let own = vehicle("locomotive-without-yaw-dampers", 1e-3);
     let track = curve(300.0);
     let mut state = own.at_rest(&track, 0.0, 20.0).unwrap();
     run(&own, &mut state, &track, 0.1);
@@ -125,7 +125,7 @@ fn no_number_in_a_state_makes_the_step_panic() {
 
 #[test]
 fn a_state_with_a_wrong_length_belongs_to_no_vehicle() {
-    let own = vehicle("locomotive", 1e-3);
+    let own = vehicle("locomotive-without-yaw-dampers", 1e-3);
     let track = Track::default();
     let state = own.at_rest(&track, 0.0, 20.0).unwrap();
     let mut value = serde_json::to_value(&state).unwrap();

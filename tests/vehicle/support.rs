@@ -32,8 +32,9 @@ fn friction() -> Friction {
     Friction::constant(0.3)
 }
 
+/// The locomotive without yaw dampers, as independent computations have it.
 pub fn locomotive() -> VehicleParameters {
-    dashpot_files::vehicle::load("locomotive", &[]).unwrap()
+    dashpot_files::vehicle::load("locomotive-without-yaw-dampers", &[]).unwrap()
 }
 
 /// Total mass of bodies and wheelsets.

@@ -43,7 +43,7 @@ impl Kept {
         let is_at = |point: &u64| {
             let values = sweep.values(*point);
             let at_last = values.last().is_some_and(|value| match value {
-                Value::Number(number) => (number / last - 1.0).abs() < 1e-9,
+                Value::Number(number) => (number - last).abs() <= 1e-9 * last.abs(),
                 Value::Word(_) => false,
             });
             at_last && first.is_none_or(|first| values[0].to_string() == first)
@@ -90,7 +90,7 @@ impl Kept {
     }
 }
 
-/// A sentence about the runs that ended early.
+/// A sentence about the runs that ended early, with their reasons.
 pub fn early_endings(studies: &[&Kept]) -> String {
     let rows = studies.iter().flat_map(|kept| kept.rows.values());
     let early: Vec<&str> = rows
@@ -98,14 +98,27 @@ pub fn early_endings(studies: &[&Kept]) -> String {
         .map(|row| &*row.ending)
         .filter(|ending| *ending != "completed")
         .collect();
-    match early.len() {
-        0 => "Every run reached its end.".into(),
-        count => format!(
-            "{count} of {} runs ended early, and means and changes leave out their seeds: {}.",
-            rows.count(),
-            early.join("; ")
-        ),
+    if early.is_empty() {
+        return "Every run reached its end.".into();
     }
+    let mut reasons: Vec<(&str, usize)> = Vec::new();
+    for ending in &early {
+        let reason = ending.split(" at ").next().unwrap_or_default();
+        match reasons.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, count)) => *count += 1,
+            None => reasons.push((reason, 1)),
+        }
+    }
+    let reasons: Vec<String> = reasons
+        .iter()
+        .map(|(reason, count)| format!("{count} {reason}"))
+        .collect();
+    format!(
+        "{} of {} runs ended early ({}), and means and changes leave out their seeds.",
+        early.len(),
+        rows.count(),
+        reasons.join("; ")
+    )
 }
 
 /// Formats a change in percent with its confidence interval.

@@ -85,8 +85,6 @@ pub struct CoupledVariable {
 enum Role {
     /// Force of an external damper, by its index in `Coupled::outside`.
     Force(usize),
-    /// Mean rate of displacement of an external damper over the last tick, by its index in `Coupled::outside`.
-    Velocity(usize),
     Output(Signal),
 }
 
@@ -102,15 +100,7 @@ impl CoupledVariable {
 struct Outside {
     /// Index of the damper in the vehicle.
     index: usize,
-    signals: OutsideSignals,
-}
-
-/// Values of an external damper that change during the run.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct OutsideSignals {
     force_n: f64,
-    /// Displacement one tick ago, m.
-    last_m: f64,
 }
 
 /// Vehicle whose external dampers are computed by another simulation.
@@ -149,24 +139,16 @@ impl Coupled {
                 run.state_mut().set_outside_force_n(index, Some(0.0))?;
                 Ok(Outside {
                     index,
-                    signals: OutsideSignals {
-                        force_n: 0.0,
-                        last_m: run.state().damper_displacements_m()[index],
-                    },
+                    force_n: 0.0,
                 })
             })
             .collect::<Result<_, VehicleRunError>>()?;
         let mut variables = Vec::new();
         for (slot, damper) in outside.iter().enumerate() {
-            let name = slug(&names[damper.index]);
-            let roles = [
-                ("force_n", Role::Force(slot)),
-                ("velocity_m_per_s", Role::Velocity(slot)),
-            ];
-            variables.extend(roles.map(|(suffix, role)| CoupledVariable {
-                name: format!("{name}_{suffix}"),
-                role,
-            }));
+            variables.push(CoupledVariable {
+                name: format!("{}_force_n", slug(&names[damper.index])),
+                role: Role::Force(slot),
+            });
         }
         let is_outside = |signal: &Signal| {
             outside
@@ -199,7 +181,7 @@ impl Coupled {
         })
     }
 
-    /// Variables: force and velocity of each external damper, then all signals of the vehicle except the time.
+    /// Variables: force of each external damper, then all other signals of the vehicle except the time.
     pub fn variables(&self) -> &[CoupledVariable] {
         &self.variables
     }
@@ -218,24 +200,15 @@ impl Coupled {
     pub fn reset(&mut self) {
         self.run.clone_from(&self.start);
         self.ending = None;
-        let displacements_m = self.run.state().damper_displacements_m();
         for damper in &mut self.outside {
-            damper.signals = OutsideSignals {
-                force_n: 0.0,
-                last_m: displacements_m[damper.index],
-            };
+            damper.force_n = 0.0;
         }
     }
 
     /// Value of the variable with index `index`; `None` if there is no such variable.
     pub fn value(&self, index: usize) -> Option<f64> {
         Some(match &self.variables.get(index)?.role {
-            Role::Force(slot) => self.outside[*slot].signals.force_n,
-            Role::Velocity(slot) => {
-                let damper = &self.outside[*slot];
-                let displacements_m = self.run.state().damper_displacements_m();
-                (displacements_m[damper.index] - damper.signals.last_m) / self.step_s()
-            }
+            Role::Force(slot) => self.outside[*slot].force_n,
             Role::Output(signal) => signal.value(self.run.state(), self.run.time_s()),
         })
     }
@@ -252,7 +225,7 @@ impl Coupled {
         let damper = &mut self.outside[*slot];
         let state = self.run.state_mut();
         state.set_outside_force_n(damper.index, Some(force_n))?;
-        damper.signals.force_n = force_n;
+        damper.force_n = force_n;
         Ok(())
     }
 
@@ -263,27 +236,15 @@ impl Coupled {
     /// See [`Run::step`].
     pub fn step(&mut self, ticks: u64) -> Result<u64, VehicleRunError> {
         self.before.clone_from(self.run.state());
-        let before: Vec<f64> = self
-            .outside
-            .iter()
-            .map(|damper| damper.signals.last_m)
-            .collect();
         for tick in 0..ticks {
             if self.ending.is_some() {
                 return Ok(tick);
-            }
-            let displacements_m = self.run.state().damper_displacements_m();
-            for damper in &mut self.outside {
-                damper.signals.last_m = displacements_m[damper.index];
             }
             self.ending = self.run.step()?;
             match self.ending {
                 Some(Ending::Completed) => return Ok(tick),
                 Some(Ending::Diverged { .. }) => {
                     self.run.state_mut().clone_from(&self.before);
-                    for (damper, last_m) in self.outside.iter_mut().zip(before) {
-                        damper.signals.last_m = last_m;
-                    }
                     return Ok(0);
                 }
                 _ => {}
@@ -298,8 +259,7 @@ impl Coupled {
     /// # Errors
     /// None are known.
     pub fn save(&self) -> Result<Vec<u8>, postcard::Error> {
-        let outside: Vec<OutsideSignals> =
-            self.outside.iter().map(|damper| damper.signals).collect();
+        let outside: Vec<f64> = self.outside.iter().map(|damper| damper.force_n).collect();
         postcard::to_stdvec(&(self.run.state(), outside, self.ending_code()))
     }
 
@@ -308,15 +268,14 @@ impl Coupled {
     /// # Errors
     /// The bytes are not a state of this vehicle. On an error, nothing changes.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), postcard::Error> {
-        let (state, outside, ending): (VehicleState, Vec<OutsideSignals>, i32) =
-            postcard::from_bytes(bytes)?;
+        let (state, outside, ending): (VehicleState, Vec<f64>, i32) = postcard::from_bytes(bytes)?;
         let invalid = |_| postcard::Error::DeserializeBadEncoding;
         if outside.len() != self.outside.len() {
             return Err(postcard::Error::DeserializeBadEncoding);
         }
         self.run.restore(&self.start, state).map_err(invalid)?;
-        for (damper, signals) in self.outside.iter_mut().zip(outside) {
-            damper.signals = signals;
+        for (damper, force_n) in self.outside.iter_mut().zip(outside) {
+            damper.force_n = force_n;
         }
         self.ending = match ending {
             0 => None,

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
-use dashpot_rail::vehicle::{Vehicle, VehicleError, VehicleParameters, VehicleState};
+use dashpot_rail::vehicle::{RailSupport, Vehicle, VehicleError, VehicleParameters, VehicleState};
 use serde::Serialize;
 
 use super::VehicleRunError;
@@ -76,7 +76,12 @@ impl Hunting {
         contacts: Vec<Contact>,
     ) -> Result<Self, VehicleRunError> {
         Ok(Self {
-            vehicle: Vehicle::with_contacts(parameters, contacts, STEP_S, None)?,
+            vehicle: Vehicle::with_contacts(
+                parameters,
+                contacts,
+                STEP_S,
+                Some(RailSupport::BALLASTED),
+            )?,
             track: Track::default(),
         })
     }

@@ -6,8 +6,10 @@ mod accelerometer;
 mod confirmation;
 pub mod contact;
 mod coupled;
+pub mod damping;
 mod ending;
 mod error;
+mod filtered;
 pub mod hunting;
 mod indices;
 mod outside;
@@ -25,6 +27,7 @@ pub use confirmation::confirmed;
 pub use coupled::{Coupled, CoupledCase, CoupledVariable};
 pub use ending::{Ending, Place};
 pub use error::VehicleRunError;
+pub use filtered::FilteredForces;
 pub use indices::{
     BodyIndices, FILTER_HZ, Indexer, Indices, Judged, Nadal, NadalWheel, RideError, RideIndices,
     UnbalancedIndices, WINDOW_M, WheelIndices, WheelsetIndices, check_ride,

@@ -17,7 +17,9 @@ enum Source {
     WheelLoad { wheelset: usize, side: usize },
     WheelLateral { wheelset: usize, side: usize },
     Derailment { wheelset: usize, side: usize },
+    ContactPosition { wheelset: usize, side: usize },
     DamperDisplacement(usize),
+    DamperVelocity(usize),
     DamperForce(usize),
 }
 
@@ -101,6 +103,10 @@ pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> 
                 format!("{name}_{side_name}_derailment"),
                 Source::Derailment { wheelset, side },
             );
+            add(
+                format!("{name}_{side_name}_contact_m"),
+                Source::ContactPosition { wheelset, side },
+            );
         }
     }
     for (damper, name) in vehicle.damper_names().enumerate() {
@@ -108,6 +114,10 @@ pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> 
         add(
             format!("{name}_displacement_m"),
             Source::DamperDisplacement(damper),
+        );
+        add(
+            format!("{name}_velocity_m_per_s"),
+            Source::DamperVelocity(damper),
         );
         add(format!("{name}_force_n"), Source::DamperForce(damper));
     }
@@ -164,6 +174,10 @@ impl Signal {
                 state.contacts()[*wheelset].derailment_coefficients()[*side]
             }
             Source::DamperDisplacement(damper) => state.damper_displacements_m()[*damper],
+            Source::ContactPosition { wheelset, side } => {
+                contact_m(&state.contacts()[*wheelset], *side)
+            }
+            Source::DamperVelocity(damper) => state.damper_velocities_m_per_s()[*damper],
             Source::DamperForce(damper) => state.damper_forces_n()[*damper],
         }
     }
@@ -173,6 +187,14 @@ impl Signal {
 pub fn load_n(contact: &WheelsetForces, side: usize) -> f64 {
     // Subtracting from zero avoids -0.0 for a lifted wheel.
     0.0 - contact.wheels[side].force_n[2]
+}
+
+/// Lateral position on the wheel of the patch with the greatest load, from the tread datum, field side positive, m; 0
+/// while the wheel is lifted.
+pub fn contact_m(contact: &WheelsetForces, side: usize) -> f64 {
+    let patches = contact.wheels[side].loaded_patches();
+    let heaviest = patches.max_by(|a, b| a.load_n.total_cmp(&b.load_n));
+    heaviest.map_or(0.0, |patch| patch.wheel_y_m)
 }
 
 /// Lateral force `Y` of the rail on a wheel, positive towards the middle of the track, N.

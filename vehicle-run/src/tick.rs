@@ -19,6 +19,8 @@ pub trait VehicleTick {
     fn extremes(&self) -> &[Extremes];
     /// Displacement of each damper, m; see [`VehicleState::damper_displacements_m`].
     fn damper_displacements_m(&self) -> &[f64];
+    /// Mean velocity of each damper during the tick, m/s; see [`VehicleState::damper_velocities_m_per_s`].
+    fn damper_velocities_m_per_s(&self) -> &[f64];
     /// Force of each damper, N; see [`VehicleState::damper_forces_n`].
     fn damper_forces_n(&self) -> &[f64];
 }
@@ -45,6 +47,9 @@ impl VehicleTick for VehicleState {
     fn damper_displacements_m(&self) -> &[f64] {
         self.damper_displacements_m()
     }
+    fn damper_velocities_m_per_s(&self) -> &[f64] {
+        self.damper_velocities_m_per_s()
+    }
     fn damper_forces_n(&self) -> &[f64] {
         self.damper_forces_n()
     }
@@ -62,6 +67,7 @@ pub struct TickRecord {
     contacts: Vec<WheelsetForces>,
     extremes: Vec<Extremes>,
     damper_displacements_m: Vec<f64>,
+    damper_velocities_m_per_s: Vec<f64>,
     damper_forces_n: Vec<f64>,
 }
 
@@ -78,6 +84,7 @@ impl TickRecord {
             contacts: state.contacts().to_vec(),
             extremes: state.extremes().to_vec(),
             damper_displacements_m: state.damper_displacements_m().to_vec(),
+            damper_velocities_m_per_s: state.damper_velocities_m_per_s().to_vec(),
             damper_forces_n: state.damper_forces_n().to_vec(),
         }
     }
@@ -98,6 +105,8 @@ impl TickRecord {
         self.extremes.copy_from_slice(state.extremes());
         self.damper_displacements_m
             .copy_from_slice(state.damper_displacements_m());
+        self.damper_velocities_m_per_s
+            .copy_from_slice(state.damper_velocities_m_per_s());
         self.damper_forces_n
             .copy_from_slice(state.damper_forces_n());
     }
@@ -124,6 +133,9 @@ impl VehicleTick for TickRecord {
     }
     fn damper_displacements_m(&self) -> &[f64] {
         &self.damper_displacements_m
+    }
+    fn damper_velocities_m_per_s(&self) -> &[f64] {
+        &self.damper_velocities_m_per_s
     }
     fn damper_forces_n(&self) -> &[f64] {
         &self.damper_forces_n

@@ -31,6 +31,9 @@ pub enum FigureContent {
         /// Factor by which each index is multiplied, so that all share one axis that starts at zero; empty for unscaled
         /// indices.
         factors: Vec<f64>,
+        /// True if changes from the first value are drawn, in percent: those on the same irregularity, so that the
+        /// confidence interval is that of the change.
+        changes: bool,
     },
     /// Damper forces over time, displacement and velocity, for the first case of a sweep with its first seed.
     Dampers {
@@ -103,6 +106,8 @@ struct IndicesTable {
     observed: Vec<String>,
     #[serde(default)]
     factors: Vec<f64>,
+    #[serde(default)]
+    changes: bool,
 }
 
 #[derive(Deserialize)]
@@ -152,7 +157,11 @@ impl FigureTable {
                         "{factors} factors for {observed} observed indices, allowed: none or one each"
                     ));
                 }
+                if factors > 0 && table.changes {
+                    return Err("factors and changes, allowed: one of the two".into());
+                }
                 FigureContent::Indices {
+                    changes: table.changes,
                     sweeps: table.sweeps,
                     observed: table.observed,
                     factors: table.factors,

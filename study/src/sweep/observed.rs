@@ -65,7 +65,7 @@ fn wheels(observation: &Observation) -> impl Iterator<Item = &WheelIndices> {
 }
 
 /// All indices that a study can observe.
-pub const OBSERVED: [Observed; 25] = [
+pub const OBSERVED: [Observed; 26] = [
     Observed {
         name: "sperling_vertical",
         meaning: "vertical Sperling ride index, maximum of all ride points",
@@ -175,6 +175,11 @@ pub const OBSERVED: [Observed; 25] = [
         name: "wheel_load_greatest_n",
         meaning: "wheel load, maximum of all wheels, N",
         extract: |run| max(wheels(run).map(|wheel| wheel.load_greatest_n)),
+    },
+    Observed {
+        name: "wheel_load_over_limit",
+        meaning: "wheel load, filtered at 20 Hz, divided by its limit, maximum of all wheels",
+        extract: |run| max(wheels(run).filter_map(|wheel| wheel.load_over_limit)),
     },
     Observed {
         name: "wheel_load_over_static",

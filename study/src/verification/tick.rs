@@ -63,6 +63,9 @@ impl VehicleTick for ReferenceTick {
     fn damper_displacements_m(&self) -> &[f64] {
         &self.sample.damper_displacements_m
     }
+    fn damper_velocities_m_per_s(&self) -> &[f64] {
+        &[]
+    }
     fn damper_forces_n(&self) -> &[f64] {
         &self.sample.damper_forces_n
     }
@@ -96,6 +99,9 @@ impl VehicleTick for LongTick<'_> {
     }
     fn damper_displacements_m(&self) -> &[f64] {
         self.state.damper_displacements_m()
+    }
+    fn damper_velocities_m_per_s(&self) -> &[f64] {
+        self.state.damper_velocities_m_per_s()
     }
     fn damper_forces_n(&self) -> &[f64] {
         self.state.damper_forces_n()

@@ -67,6 +67,9 @@ impl VehicleTick for Made {
     fn damper_displacements_m(&self) -> &[f64] {
         &[]
     }
+    fn damper_velocities_m_per_s(&self) -> &[f64] {
+        &[]
+    }
     fn damper_forces_n(&self) -> &[f64] {
         &[]
     }

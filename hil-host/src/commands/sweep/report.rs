@@ -89,9 +89,10 @@ impl Report {
 
 /// Returns the reason for the end of a case, without the position, which is in the row.
 fn reason(ending: &str) -> &str {
+    const NUMERICAL: &str = "numerically diverged";
     const LEFT: &str = "left the tables of the contact";
     const BEYOND: &str = "beyond the model";
-    for reason in [LEFT, BEYOND] {
+    for reason in [NUMERICAL, LEFT, BEYOND] {
         if ending.contains(reason) {
             return reason;
         }

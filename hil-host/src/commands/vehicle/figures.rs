@@ -82,6 +82,52 @@ pub(super) fn loads(history: &History, names: &[String]) -> Figure {
     )
 }
 
+/// Vertical forces of the left and right wheels, filtered.
+pub(super) fn filtered_loads(history: &History, names: &[String]) -> Figure {
+    let left = ("left_filtered_load_n", 1e-3, "Q left, kN");
+    of_both(
+        history,
+        names,
+        [left, ("right_filtered_load_n", 1e-3, "Q right, kN")],
+    )
+}
+
+/// Lateral forces of the wheelsets, filtered and averaged.
+pub(super) fn lateral_forces(history: &History, names: &[String]) -> Figure {
+    let what = "filtered_lateral_force_n";
+    Figure {
+        panels: vec![of_wheelsets(
+            history,
+            names,
+            what,
+            1e-3,
+            "lateral force, kN",
+        )],
+        height: HEIGHT,
+        cursor_group: Some(TIME),
+    }
+}
+
+/// Contact positions on the left and right wheels.
+pub(super) fn contact_positions(history: &History, names: &[String]) -> Figure {
+    let left = ("left_contact_m", 1e3, "contact left, mm");
+    of_both(
+        history,
+        names,
+        [left, ("right_contact_m", 1e3, "contact right, mm")],
+    )
+}
+
+/// `Y/Q` of the left and right wheels, filtered and averaged.
+pub(super) fn filtered_derailment(history: &History, names: &[String]) -> Figure {
+    let left = ("left_filtered_derailment", 1.0, "Y/Q left");
+    of_both(
+        history,
+        names,
+        [left, ("right_filtered_derailment", 1.0, "Y/Q right")],
+    )
+}
+
 /// `Y/Q` of the left and right wheels.
 pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
     let left = ("left_derailment", 1.0, "Y/Q left");
@@ -130,16 +176,34 @@ pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
 
 /// Force over displacement of dampers, two dampers per panel.
 pub(super) fn loops(history: &History, dampers: &[&str]) -> Figure {
+    of_dampers(
+        history,
+        dampers,
+        ("displacement_m", 1e3, "displacement, mm"),
+    )
+}
+
+/// Force over velocity of dampers, two dampers per panel.
+pub(super) fn characteristics(history: &History, dampers: &[&str]) -> Figure {
+    of_dampers(history, dampers, ("velocity_m_per_s", 1.0, "velocity, m/s"))
+}
+
+/// Force of dampers over another of their signals, given with its factor and axis label.
+fn of_dampers(
+    history: &History,
+    dampers: &[&str],
+    (over, factor, label): (&str, f64, &str),
+) -> Figure {
     let colours = [BLUE_LINE, RED_LINE];
     let panels = dampers.chunks(2).map(|pair| {
         let curves = pair.iter().zip(colours).map(|(name, colour)| {
             let name_of = |what: &str| format!("{}_{what}", slug(name));
-            let (x, y) = (name_of("displacement_m"), name_of("force_n"));
-            Curve::new(*name, colour, history.points([&x, &y], [1e3, 1e-3])).wide(4)
+            let (x, y) = (name_of(over), name_of("force_n"));
+            Curve::new(*name, colour, history.points([&x, &y], [factor, 1e-3])).wide(4)
         });
         Panel {
             title: String::new(),
-            x_label: "displacement, mm".into(),
+            x_label: label.into(),
             y_label: "force, kN".into(),
             legend: None,
             sides: true,

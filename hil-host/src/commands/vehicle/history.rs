@@ -1,14 +1,13 @@
 //! History of a run for its page, with bounded memory for runs of any length.
 
 use dashpot_report::plot::envelope::{Envelope, time_s};
-use dashpot_vehicle_run::signals::Signal;
 
 /// Maximum number of rows kept. A longer run keeps every second, third, ... row.
 const MAX_ROWS: u64 = 12_000;
 
 /// Signals of a run: envelopes over time, which keep every peak, and rows for plots of one signal over another.
 pub(super) struct History {
-    signals: Vec<Signal>,
+    names: Vec<String>,
     /// Envelope of each signal over ticks.
     envelopes: Vec<Envelope>,
     step_s: f64,
@@ -18,11 +17,11 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Creates an empty history for a run of `ticks` ticks.
-    pub(super) fn new(signals: Vec<Signal>, ticks: u64, step_s: f64) -> Self {
+    /// Creates an empty history of the signals with these names, for a run of `ticks` ticks.
+    pub(super) fn new(names: Vec<String>, ticks: u64, step_s: f64) -> Self {
         Self {
-            envelopes: signals.iter().map(|_| Envelope::default()).collect(),
-            signals,
+            envelopes: names.iter().map(|_| Envelope::default()).collect(),
+            names,
             step_s,
             stride: ticks.div_ceil(MAX_ROWS).max(1),
             seen: 0,
@@ -42,7 +41,7 @@ impl History {
     }
 
     fn number(&self, name: &str) -> Option<usize> {
-        self.signals.iter().position(|signal| signal.name() == name)
+        self.names.iter().position(|known| known == name)
     }
 
     /// Returns points of signal `y` over signal `x`, each scaled by its factor; empty for an unknown signal.

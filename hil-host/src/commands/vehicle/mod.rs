@@ -31,10 +31,11 @@ use dashpot_realtime::options::RealtimeOptions;
 use dashpot_realtime::pacing::{Pacer, PacingReport};
 #[cfg(feature = "parquet")]
 use dashpot_recording::columns;
+use dashpot_vehicle_run::damping::DampingInfluence;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
-    Ending, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch, check_ride, confirmed,
-    signals,
+    Ending, FilteredForces, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch,
+    check_ride, confirmed,
 };
 
 /// Simulate a vehicle on a track: time histories, indices and a page.
@@ -146,6 +147,7 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         let ended = report.ending.clone();
         report.ending =
             confirmed(&case, &run, ended).map_err(|error| options::refused(&case, &error))?;
+        report.damping = damping_influence(&case, &run, &report)?;
     }
     report.wear = wear.indices().filter(|_| report.indices.is_some());
     let mut forces = Vec::new();
@@ -194,6 +196,28 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     }
 }
 
+/// Examines how far the greatest wheel load of a completed run without external dampers depends on the normal damping.
+fn damping_influence(case: &Case, run: &Run, report: &Report) -> Outcome<Option<DampingInfluence>> {
+    let Some(indices) = report
+        .indices
+        .as_ref()
+        .filter(|_| report.ending == Ending::Completed)
+    else {
+        return Ok(None);
+    };
+    let wheels = indices
+        .wheelsets
+        .iter()
+        .flat_map(|wheelset| &wheelset.wheels);
+    let loads = wheels.filter_map(|wheel| Some((wheel.load_greatest_n, wheel.load_static_n?)));
+    let greatest = loads.max_by(|(a, _), (b, _)| a.total_cmp(b));
+    let Some((load_n, static_n)) = greatest else {
+        return Ok(None);
+    };
+    DampingInfluence::of(case, run, load_n, load_n / static_n)
+        .map_err(|error| options::refused(case, &error))
+}
+
 /// Prints a note to standard error, before a possibly long run, if the run will have no ride indices.
 fn note_missing_ride(case: &Case) {
     let Err(reason) = check_ride(case) else {
@@ -235,7 +259,10 @@ fn follow(
     wear: &mut RunWear,
 ) -> Outcome<(History, Report)> {
     let all = all_signals(run, &case.vehicle);
-    let mut history = History::new(all.clone(), run.ticks(), case.step_s);
+    let mut filtered = FilteredForces::new(case);
+    let names = all.iter().map(|signal| signal.name().to_owned());
+    let names: Vec<String> = names.chain(filtered.names().iter().cloned()).collect();
+    let mut history = History::new(names.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case);
     let (exchange, mut beside) = outside.map(Outside::parts).unzip();
@@ -245,9 +272,8 @@ fn follow(
     let (driven, pacing) = write_whole::<_, Failure>(path, |file| {
         let failed = |error: csv::Error| cannot_write_rows(path, error);
         let mut rows = csv::Writer::from_writer(file);
-        rows.write_record(all.iter().map(signals::Signal::name))
-            .map_err(failed)?;
-        let mut row: Vec<f64> = Vec::with_capacity(all.len());
+        rows.write_record(&names).map_err(failed)?;
+        let mut row: Vec<f64> = Vec::with_capacity(names.len());
         let mut ticks = 0_u64;
         let driven = std::thread::scope(|scope| {
             let stepping = std::thread::Builder::new()
@@ -265,6 +291,7 @@ fn follow(
                     let time_s = super::nearest_nanosecond(record.time_s);
                     row.clear();
                     row.extend(all.iter().map(|signal| signal.value(record, time_s)));
+                    row.extend_from_slice(filtered.next(record));
                     written = rows.serialize(&row);
                     history.add(&row);
                     indexer.add(record);

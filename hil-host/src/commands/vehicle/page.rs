@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::report::{Limits, Report, counted_windows, nadal_limits, percent, verdict};
+use super::report::{Limits, Report, counted_windows, nadal_limits, of_damping, percent, verdict};
 use super::{drawing, figures, spectra, wear};
 use crate::commands::vehicle::history::History;
 use dashpot_files::case::Case;
@@ -55,6 +55,7 @@ pub(super) fn write(
         @if let Some(indices) = &report.indices {
             @for sentence in verdict(indices) { p { (sentence) } }
         }
+        @if let Some(found) = &report.damping { p { (of_damping(found)) "." } }
         (headline(report))
         figure {
             div.wide { (drawing::vehicle(&case.vehicle)) }
@@ -73,9 +74,22 @@ pub(super) fn write(
         })?)
         h2 { "Wheel loads" }
         (figure(&figures::loads(history, wheelsets), &html! { "Vertical force Q of each wheel on the rail." })?)
+        (figure(&figures::filtered_loads(history, wheelsets), &html! {
+            "The same, filtered at 20 Hz as acceptance tests do."
+        })?)
+        h2 { "Lateral forces" }
+        (figure(&figures::lateral_forces(history, wheelsets), &html! {
+            "Force of the rails on each wheelset, positive to the right, filtered at 20 Hz and averaged over 2 m."
+        })?)
+        (figure(&figures::contact_positions(history, wheelsets), &html! {
+            "Position of the patch with the greatest load on each wheel, from the tread datum, field side positive."
+        })?)
         h2 { "Derailment coefficient" }
         (figure(&figures::derailment(history, wheelsets), &html! {
             "Lateral force divided by vertical force, positive if the rail pushes the wheel towards the track centre."
+        })?)
+        (figure(&figures::filtered_derailment(history, wheelsets), &html! {
+            "The same, filtered at 20 Hz and averaged over 2 m."
         })?)
         (spectra::section(densities)?)
         @if !dampers.is_empty() {
@@ -83,6 +97,9 @@ pub(super) fn write(
             @for some in dampers.chunks(LOOPS) {
                 (figure(&figures::loops(history, some), &html! {
                     "Extension and the force that resists it are positive."
+                })?)
+                (figure(&figures::characteristics(history, some), &html! {
+                    "Force over the mean velocity of each tick."
                 })?)
             }
         }

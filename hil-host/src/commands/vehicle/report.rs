@@ -16,6 +16,7 @@ use dashpot_files::output;
 use dashpot_rail::vehicle::RailSupport;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::span;
+use dashpot_vehicle_run::damping::DampingInfluence;
 use dashpot_vehicle_run::{
     Ending, Indices, Judged, Nadal, RideIndices, Warning, WearIndices, WheelIndices,
     WheelsetIndices,
@@ -39,6 +40,9 @@ pub(super) struct Report {
     pub(super) step_s: f64,
     pub(super) ticks: u64,
     pub(super) ending: Ending,
+    /// Influence of the normal damping on the greatest wheel load; `None` if it shows no impact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) damping: Option<DampingInfluence>,
     /// Results outside the validity of the model, with time and position.
     pub(super) warnings: Vec<Found>,
     /// `None` if [`Ending::has_indices`] is false.
@@ -93,6 +97,7 @@ impl Report {
             step_s: case.step_s,
             ticks: driven.ticks,
             ending: driven.ending.clone(),
+            damping: None,
             warnings: warnings.into_iter().map(found).collect(),
             indices: indices.filter(|_| has_indices),
             wear: None,
@@ -209,6 +214,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         for sentence in verdict(indices) {
             writeln!(out, "{sentence}")?;
         }
+        if let Some(found) = &report.damping {
+            writeln!(out, "{}", of_damping(found))?;
+        }
     }
     if let Some(found) = &report.wear {
         wear::print(out, found)?;
@@ -287,6 +295,23 @@ fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
          limit of EN 14363 for the speed; Y/Q as % of Nadal's limit, {};\n\
          lateral force as % of Prud'homme's limit for the static load",
         nadal_limits(indices)
+    )
+}
+
+/// States how far the greatest wheel load depends on the normal damping.
+pub(super) fn of_damping(found: &DampingInfluence) -> String {
+    let load = |load_n: Option<f64>| {
+        load_n.map_or_else(
+            || "no result".into(),
+            |load_n| format!("{:.0} kN", 1e-3 * load_n),
+        )
+    };
+    let [low, high] = found.damping_s_per_m;
+    let [with_low, with_high] = found.greatest_loads_n.map(load);
+    format!(
+        "impacts: the greatest wheel load, {:.0} kN, depends on the normal damping, which is assumed: {with_low} with \
+         {low} s/m, {with_high} with {high} s/m, the range of steel",
+        1e-3 * found.greatest_load_n
     )
 }
 

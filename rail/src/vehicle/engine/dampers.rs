@@ -68,8 +68,12 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             across.displacement(|body| from[body])
         };
         let displacements = &mut state.damper_displacements_m;
-        for (element, number) in self.dampers.iter().zip(displacements.iter_mut()) {
-            *number = displacement(&element.across);
+        let velocities = &mut state.damper_velocities_m_per_s;
+        let motions = displacements.iter_mut().zip(velocities);
+        for (element, (number, velocity)) in self.dampers.iter().zip(motions) {
+            let new = displacement(&element.across);
+            *velocity = (new - *number) / h;
+            *number = new;
         }
         let (banks, _) = state.dampers.as_chunks_mut::<BANK>();
         let elements = self.dampers.chunks(BANK).zip(displacements.chunks(BANK));

@@ -16,7 +16,7 @@ const EXTRAPOLATION: f64 = 0.5;
 const MAX_STEP_S: f64 = 0.25e-3;
 
 /// Maximum number of steps in a tick.
-const MAX_STEPS: f64 = 100.0;
+const MAX_STEPS: f64 = 200.0;
 
 /// Maximum phase of the oscillation of a mass on the contact's spring during a step, rad. At this value the greatest
 /// wheel loads of flange impacts differ by less than 3 % from those of much shorter steps.
@@ -24,7 +24,7 @@ const MAX_PHASE_RAD: f64 = 0.75;
 
 /// Maximum decay of a mass against the contact's damping during a step, under the load at standstill. Impacts reach
 /// several times this load and decay, so the bound is far below 1.
-const MAX_DECAY: f64 = 0.1;
+const MAX_DECAY: f64 = 0.06;
 
 /// What the contact of a wheel at standstill acts on: it limits the length of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -175,14 +175,14 @@ mod tests {
         assert_eq!(substeps(1e-3, rail), Ok(6));
         rail.mass_kg = 245.0;
         assert_eq!(substeps(1e-3, rail), Ok(4));
-        // 500 kN s/m brake the rail with a time constant of 0.49 ms, a tenth of which is the longest step.
+        // 500 kN s/m brake the rail with a time constant of 0.49 ms.
         rail.damping_n_s_per_m = 500e3;
-        assert_eq!(substeps(1e-3, rail), Ok(21));
-        assert_eq!(substeps(40e-6, rail), Ok(1));
+        assert_eq!(substeps(1e-3, rail), Ok(35));
+        assert_eq!(substeps(25e-6, rail), Ok(1));
         rail.mass_kg = 40.0;
         let error = substeps(1e-3, rail).unwrap_err().to_string();
         assert!(
-            error.starts_with("contact of wheel and rail: needs steps of 8.0e-6 s"),
+            error.starts_with("contact of wheel and rail: needs steps of 4.8e-6 s"),
             "{error}"
         );
     }

@@ -169,6 +169,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             contacts: vec![WheelsetForces::default(); self.wheelsets.len()],
             dampers: self.dampers_at_rest(&zeros),
             damper_displacements_m: vec![0.0; self.dampers.len()],
+            damper_velocities_m_per_s: vec![0.0; self.dampers.len()],
             damper_forces_n: vec![0.0; self.dampers.len()],
             outside_forces_n: vec![None; self.dampers.len()],
             stop_forces_n: vec![0.0; self.stops.len()],

@@ -41,6 +41,7 @@ pub struct VehicleState {
     /// Padded to whole banks with copies of the last damper.
     pub(super) dampers: Vec<DamperState<f64>>,
     pub(super) damper_displacements_m: Vec<f64>,
+    pub(super) damper_velocities_m_per_s: Vec<f64>,
     pub(super) damper_forces_n: Vec<f64>,
     pub(super) outside_forces_n: Vec<Option<f64>>,
     pub(super) stop_forces_n: Vec<f64>,
@@ -157,6 +158,11 @@ impl VehicleState {
         &self.damper_displacements_m
     }
 
+    /// Returns the mean velocity of each damper during the last tick, positive in extension, m/s.
+    pub fn damper_velocities_m_per_s(&self) -> &[f64] {
+        &self.damper_velocities_m_per_s
+    }
+
     /// Returns the force of each damper, positive if it resists extension, N.
     pub fn damper_forces_n(&self) -> &[f64] {
         &self.damper_forces_n
@@ -243,6 +249,7 @@ clone_by_field!(VehicleState {
     contacts,
     dampers,
     damper_displacements_m,
+    damper_velocities_m_per_s,
     damper_forces_n,
     outside_forces_n,
     stop_forces_n,

@@ -46,6 +46,7 @@ pub(super) fn part(
     drawn: &Drawn<'_>,
     sweeps: &[&Sweep],
     observed: &[Index],
+    changes: bool,
     caption: &str,
 ) -> Outcome<Markup> {
     let is_number = |axis: &Axis| matches!(axis.values.first(), Some(Value::Number(_)));
@@ -54,7 +55,7 @@ pub(super) fn part(
         .partition(|sweep| sweep.axes.first().is_some_and(is_number));
     let panels: Vec<Panel> = plotted
         .iter()
-        .map(|sweep| over_axis(drawn, sweep, observed))
+        .map(|sweep| over_axis(drawn, sweep, observed, changes))
         .collect();
     let drawing = Figure {
         panels,
@@ -70,8 +71,29 @@ pub(super) fn part(
     })
 }
 
+/// Values of an index at a point of a sweep, one per seed: scaled, or the change from the first value of the first axis
+/// in percent.
+fn values(
+    drawn: &Drawn<'_>,
+    sweep: &Sweep,
+    point: u64,
+    index: &Index,
+    changes: bool,
+) -> Vec<Option<f64>> {
+    let own = drawn.seed_values(sweep, point, index.number);
+    if !changes {
+        return own.iter().map(|y| Some((*y)? * index.scale())).collect();
+    }
+    let others = sweep.points() / sweep.axes[0].values.len() as u64;
+    let first = drawn.seed_values(sweep, point % others, index.number);
+    let pairs = own.iter().zip(&first);
+    pairs
+        .map(|(y, first)| Some(1e2 * ((*y)? / (*first)? - 1.0)))
+        .collect()
+}
+
 /// Draws means with confidence intervals: one curve per index and per value of a second axis.
-fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
+fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index], changes: bool) -> Panel {
     let first = &sweep.axes[0];
     let others = sweep.points() / first.values.len() as u64;
     let mut curves = Vec::new();
@@ -87,13 +109,13 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
                     return None;
                 };
                 let point = at as u64 * others + other;
-                let values = drawn.values(sweep, point, index.number);
-                let scaled: Vec<f64> = values.iter().map(|y| y * index.scale()).collect();
-                Some((x * first.factor, Estimate::of(&scaled)?))
+                let values = values(drawn, sweep, point, index, changes);
+                let present: Vec<f64> = values.into_iter().flatten().collect();
+                Some((x * first.factor, Estimate::of(&present)?))
             });
             let estimates: Vec<(f64, Estimate)> = estimates.collect();
             if others == 1 {
-                curves.extend(seed_curves(drawn, sweep, index, colour));
+                curves.extend(seed_curves(drawn, sweep, index, changes, colour));
             }
             let name = match (others, observed.len()) {
                 (1, 1) => String::new(),
@@ -114,6 +136,7 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
         }
     }
     let (y, title) = match observed {
+        _ if changes => ("change, %", sweep.title.clone()),
         [index] => {
             let meaning = drawn.study.observed[index.number].meaning;
             (meaning, format!("{}: {meaning}", sweep.title))
@@ -123,23 +146,26 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Panel {
     Panel {
         title,
         sides: true,
-        keeps_to_values: observed.iter().all(|index| index.factor.is_none()),
+        keeps_to_values: changes || observed.iter().all(|index| index.factor.is_none()),
         ..panel(&first.label, y, curves)
     }
 }
 
 /// Draws pale curves of the individual seeds, which show how far the seeds spread and that they change together.
-fn seed_curves(drawn: &Drawn<'_>, sweep: &Sweep, index: &Index, colour: RGBColor) -> Vec<Curve> {
+fn seed_curves(
+    drawn: &Drawn<'_>,
+    sweep: &Sweep,
+    index: &Index,
+    changes: bool,
+    colour: RGBColor,
+) -> Vec<Curve> {
     let axis = &sweep.axes[0];
     let mut seeds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); sweep.seeds.len()];
     for (at, value) in axis.values.iter().enumerate() {
         let Value::Number(x) = value else { continue };
-        let numbers = drawn.study.numbers(sweep, at as u64);
-        for (points, number) in seeds.iter_mut().zip(numbers) {
-            let row = drawn.rows.get(&number);
-            if let Some(y) = row.and_then(|row| row.observed[index.number]) {
-                points.push((x * axis.factor, y * index.scale()));
-            }
+        let values = values(drawn, sweep, at as u64, index, changes);
+        for (points, value) in seeds.iter_mut().zip(values) {
+            points.extend(value.map(|y| (x * axis.factor, y)));
         }
     }
     let RGBColor(red, green, blue) = colour;

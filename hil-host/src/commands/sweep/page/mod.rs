@@ -119,6 +119,7 @@ impl Drawn<'_> {
                 sweeps,
                 observed,
                 factors,
+                changes,
             } => {
                 let sweeps: Outcome<Vec<&Sweep>> = sweeps.iter().map(sweep).collect();
                 let index = |(at, name): (usize, &String)| {
@@ -128,7 +129,7 @@ impl Drawn<'_> {
                     })
                 };
                 let observed: Vec<_> = observed.iter().enumerate().filter_map(index).collect();
-                indices::part(self, &sweeps?, &observed, caption)
+                indices::part(self, &sweeps?, &observed, *changes, caption)
             }
             FigureContent::Dampers {
                 sweep: name,

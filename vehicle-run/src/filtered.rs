@@ -1,0 +1,106 @@
+//! Wheel forces as acceptance tests judge them: filtered at 20 Hz, and averaged over 2 m.
+
+use dashpot_files::case::Case;
+use dashpot_rail::indices::LowPass;
+
+use super::signals::{SIDES, load_n, slug};
+use super::{FILTER_HZ, VehicleTick, WINDOW_M};
+
+/// Filters the forces of every wheelset tick by tick: the lateral force on the track and `Y/Q`, averaged over 2 m, and the
+/// load of each wheel.
+#[derive(Debug, Clone)]
+pub struct FilteredForces {
+    names: Vec<String>,
+    wheelsets: Vec<Wheelset>,
+    values: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+struct Wheelset {
+    lateral: Averaged,
+    derailment: [Averaged; 2],
+    loads: [LowPass; 2],
+}
+
+/// A low-pass, and the mean of its last outputs.
+#[derive(Debug, Clone)]
+struct Averaged {
+    filter: LowPass,
+    last: Vec<f64>,
+    next: usize,
+    sum: f64,
+}
+
+impl Averaged {
+    fn new(filter: LowPass, ticks: usize) -> Self {
+        Self {
+            filter,
+            last: Vec::with_capacity(ticks),
+            next: 0,
+            sum: 0.0,
+        }
+    }
+
+    /// Returns the mean over the window up to this value, or over all values before the first whole window.
+    fn next(&mut self, value: f64) -> f64 {
+        let filtered = self.filter.next(value);
+        self.sum += filtered;
+        if self.last.len() < self.last.capacity() {
+            self.last.push(filtered);
+        } else {
+            self.sum -= std::mem::replace(&mut self.last[self.next], filtered);
+            self.next = (self.next + 1) % self.last.len();
+        }
+        self.sum / self.last.len() as f64
+    }
+}
+
+impl FilteredForces {
+    /// Starts with the first tick of a case.
+    pub fn new(case: &Case) -> Self {
+        let mut names = Vec::new();
+        for wheelset in &case.vehicle.wheelsets {
+            let name = slug(&wheelset.name);
+            names.push(format!("{name}_filtered_lateral_force_n"));
+            for side in SIDES {
+                names.push(format!("{name}_{side}_filtered_derailment"));
+                names.push(format!("{name}_{side}_filtered_load_n"));
+            }
+        }
+        let tick_m = case.speed_m_per_s * case.step_s;
+        let ticks = ((WINDOW_M / tick_m).round() as usize).max(1);
+        let filter = LowPass::new(FILTER_HZ, 1.0 / case.step_s);
+        let averaged = || Averaged::new(filter.clone(), ticks);
+        let wheelsets = case.vehicle.wheelsets.iter().map(|_| Wheelset {
+            lateral: averaged(),
+            derailment: [averaged(), averaged()],
+            loads: [filter.clone(), filter.clone()],
+        });
+        Self {
+            wheelsets: wheelsets.collect(),
+            values: Vec::with_capacity(names.len()),
+            names,
+        }
+    }
+
+    /// Names of the values, which end in the unit.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Adds a tick and returns its values. Does not allocate.
+    pub fn next(&mut self, tick: &impl VehicleTick) -> &[f64] {
+        self.values.clear();
+        for (wheelset, contact) in self.wheelsets.iter_mut().zip(tick.contacts()) {
+            self.values.push(wheelset.lateral.next(contact.force_n[1]));
+            let coefficients = contact.derailment_coefficients();
+            for (side, coefficient) in coefficients.into_iter().enumerate() {
+                self.values
+                    .push(wheelset.derailment[side].next(coefficient));
+                self.values
+                    .push(wheelset.loads[side].next(load_n(contact, side)));
+            }
+        }
+        &self.values
+    }
+}
