@@ -13,7 +13,7 @@ pub enum Claim {
     RisesSlightly,
     /// It falls, however little.
     FallsSlightly,
-    /// It changes by this amount (%).
+    /// It changes by this amount (%): in this direction, and by at least [`SIZE`] of it.
     By(f64),
     /// It does not change.
     Keeps,
@@ -33,6 +33,9 @@ pub enum Verdict {
     NotShown,
     DoesNotHold,
 }
+
+/// Share of a published amount that a change must reach.
+pub const SIZE: f64 = 0.25;
 
 /// Maximum ratio of the slope of a flat part to the slope before it.
 pub const FLAT: f64 = 0.25;
@@ -104,6 +107,7 @@ impl Claim {
             Self::Rises | Self::Changes if is_none => Verdict::DoesNotHold,
             Self::Rises | Self::RisesSlightly => signed(1.0),
             Self::FallsSlightly => signed(-1.0),
+            Self::By(percent) if (SIZE * percent.abs()) > high.max(-low) => Verdict::DoesNotHold,
             Self::By(percent) => signed(percent),
             Self::Keeps if is_none => Verdict::Holds,
             Self::Keeps if low > NONE_PERCENT || high < -NONE_PERCENT => Verdict::DoesNotHold,
@@ -139,6 +143,8 @@ fn verdicts_follow_the_interval() {
         ("rises with C", change(-2.0, 1.0), Verdict::DoesNotHold),
         ("-2.94 %", change(-5.0, 1.0), Verdict::Holds),
         ("-2.94 %", change(5.0, 1.0), Verdict::DoesNotHold),
+        ("-2.94 %", change(-0.3, 0.2), Verdict::DoesNotHold),
+        ("-2.94 %", change(-0.5, 0.4), Verdict::Holds),
         ("hardly changes", change(0.2, 0.5), Verdict::Holds),
         ("hardly changes", change(0.2, 0.9), Verdict::NotShown),
         ("hardly changes", change(3.0, 0.9), Verdict::DoesNotHold),

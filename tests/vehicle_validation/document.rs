@@ -48,7 +48,8 @@ absolute values.
   95 % confidence interval (Student). {early}
 - A rise or fall holds if the interval lies on that side of zero. **Rises** and **is influenced** do not hold if the change is
   within {NONE_PERCENT} %, unless the paper calls it slight. **Hardly changes** holds within {NONE_PERCENT} %. **Flat above** holds if the slope above,
-  including its interval, is less than a quarter of the slope below. **Limited fluctuation** holds if the range of the means is
+  including its interval, is less than a quarter of the slope below. **An amount** holds if the direction does and the interval
+  reaches a quarter of the amount. **Limited fluctuation** holds if the range of the means is
   within {LIMITED_PERCENT} % of their mean; it has no interval. *Not shown* means that the interval includes the bound.
 
 {}

@@ -16,7 +16,7 @@ use crate::overrides::explain;
 use crate::shipped::{Found, Shipped};
 
 /// Built-in studies: name and text.
-pub const STUDIES: [(&str, &str); 7] = [
+pub const STUDIES: [(&str, &str); 8] = [
     ("paper", include_str!("../../data/studies/paper.toml")),
     (
         "curve-r600",
@@ -31,6 +31,7 @@ pub const STUDIES: [(&str, &str); 7] = [
         include_str!("../../data/studies/out-of-service.toml"),
     ),
     ("hunting", include_str!("../../data/studies/hunting.toml")),
+    ("damping", include_str!("../../data/studies/damping.toml")),
     (
         "temperature",
         include_str!("../../data/studies/temperature.toml"),

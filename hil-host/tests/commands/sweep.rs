@@ -18,7 +18,7 @@ observed = ["body_vertical_rms_m_per_s2", "derailment_greatest", "last_lateral_m
 name = "clearance"
 track = "straight"
 speed_km_h = 120
-duration_s = 0.5
+duration_s = 1.5
 vary = [
   { parameter = "vertical.mount.clearance_m", values = [0, 5e-3] },
   { parameter = "speed_km_h", from = 100, to = 140, count = 2 },
@@ -28,7 +28,7 @@ vary = [
 name = "worn"
 track = "straight"
 speed_km_h = 120
-duration_s = 0.5
+duration_s = 1.5
 vary = [{ parameter = "worn_damper", values = ["none", "rear vertical damper 4"], set = ["mount.stiffness_n_per_m=1e5"] }]
 
 [[figure]]
@@ -129,7 +129,7 @@ fn rows_are_those_of_the_vehicle_command() {
         "--speed-km-h",
         "140",
         "--duration-s",
-        "0.5",
+        "1.5",
     ];
     let set = [
         "--set",
@@ -326,7 +326,7 @@ fn rows_of_another_shard_are_refused() {
 #[test]
 fn a_vehicle_that_changes_while_it_runs_spoils_no_rows() {
     let study = STUDY.replace("track = ", "vehicle = \"own.toml\"\ntrack = ");
-    let folder = folder(&study.replace("duration_s = 0.5", "duration_s = 4"));
+    let folder = folder(&study.replace("duration_s = 1.5", "duration_s = 4"));
     let own = folder.path().join("own.toml");
     let text = include_str!("../../../data/vehicles/locomotive.toml");
     fs::write(&own, text).unwrap();
@@ -396,7 +396,7 @@ fn two_processes_do_not_mix_their_rows() {
 #[test]
 fn an_interrupted_study_resumes() {
     // Use one thread, and cases that are long enough to be interrupted.
-    let folder = folder(&STUDY.replace("duration_s = 0.5", "duration_s = 4"));
+    let folder = folder(&STUDY.replace("duration_s = 1.5", "duration_s = 4"));
     let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
     wait_for_rows(&mut child, folder.path(), 2);
@@ -595,9 +595,10 @@ fn the_shipped_studies_are_valid() {
     for (study, cases) in [
         ("paper", 536),
         ("curve-r600", 168),
-        ("stand-ins", 752),
-        ("out-of-service", 614),
+        ("stand-ins", 784),
+        ("out-of-service", 789),
         ("hunting", 54),
+        ("damping", 144),
         ("temperature", 144),
         ("worn-damper", 208),
     ] {

@@ -22,8 +22,13 @@ fn track(depth_m: f64, folder: &Path) {
     fs::write(folder.join("dip.toml"), format!("{TRACK}{dip}")).unwrap();
 }
 
-const RUN: [&str; 9] = [
+/// On rigid rails with a damping far above that of steel, a short deep dip gives loads that no model stands behind.
+const RUN: [&str; 13] = [
     "vehicle",
+    "--set",
+    "rails=rigid",
+    "--normal-damping-s-per-m",
+    "5",
     "--track",
     "dip.toml",
     "--speed-km-h",
@@ -80,6 +85,7 @@ fn a_row_of_a_study_has_the_ending() {
     let study = "name = \"dip\"\nobserved = [\"derailment_rms\", \"wheel_load_over_static\", \
      \"wheel_lift_longest_s\"]\n\
                  [[sweep]]\nname = \"dip\"\ntrack = \"dip.toml\"\nspeed_km_h = 120\nduration_s = 1\n\
+                 set = [\"rails=rigid\"]\nnormal_damping_s_per_m = 5\n\
                  vary = [{ parameter = \"speed_km_h\", values = [20, 120] }]\n";
     fs::write(folder.path().join("study.toml"), study).unwrap();
     let ended = dashpot(
