@@ -1,5 +1,5 @@
-//! Flexible rails broke the step: a mass of 60 kg under each wheel oscillates on the contact faster than a step of 0.25 ms
-//! follows, so most runs with flange impacts diverged or left the tables.
+//! Flexible rails broke the step: a mass of 60 kg under each wheel oscillates on the contact faster than a step of 0.25
+//! ms follows, so most runs with flange impacts diverged or left the tables.
 
 use dashpot_rail::track::{Generation, Layout, Part, Seeds, Spectrum, Track};
 use dashpot_rail::vehicle::{RailSupport, Vehicle, VehicleError, VehicleParameters, VehicleState};

@@ -87,8 +87,8 @@ fn health(paper: &Kept) -> String {
     let nadal = "derailment_over_nadal";
     let lift_ms = most("wheel_lift_longest_s") * 10.0;
     format!(
-        "**Vehicle.** A six-axle locomotive of 124 t with four yaw dampers per bogie, on rails that give way, at 180 km/h. As new it is
-healthy: over {} seeds the lateral force of its worst wheelset is {:.0} % of Prud'homme's limit on average and {:.0} % at most (above the
+        "**Vehicle.** A six-axle locomotive of 124 t with four yaw dampers per bogie, on rails that give way, at 180 km/h. As new
+it is healthy: over {} seeds the lateral force of its worst wheelset is {:.0} % of Prud'homme's limit on average and {:.0} % at most (above the
 limit for {}), the filtered load of its worst wheel {:.0} % of the limit of EN 14363 (at most {:.0} %), Y/Q {:.0} % of Nadal's limit (at most {:.0} %),
 and {}.",
         of(lateral).len(),

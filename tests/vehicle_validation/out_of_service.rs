@@ -126,8 +126,8 @@ pub fn text(kept: &Kept) -> String {
     let square = |value: &f64| (value - mean).powi(2);
     let variance = new_values.iter().map(square).sum::<f64>() / (new_values.len() - 1) as f64;
     let scatter = 100.0 * variance.sqrt() / mean;
-    // The means of two sets of n windows differ by chance by up to 1.96 sd sqrt(2/n) with 95 % probability; a true change
-    // that exceeds this by 0.84 sd sqrt(2/n) is found in 80 % of cases.
+    // The means of two sets of n windows differ by chance by up to 1.96 sd sqrt(2/n) with 95 % probability; a true
+    // change that exceeds this by 0.84 sd sqrt(2/n) is found in 80 % of cases.
     let windows = (2.0 * ((1.96 + 0.84) * scatter / WORSE_PERCENT).powi(2)).ceil();
     let tables: String = [
         ("vertical clearance", 0.5e-3, 1e3, "2a, mm"),

@@ -6,8 +6,8 @@ use dashpot_rail::indices::LowPass;
 use super::signals::{SIDES, load_n, slug};
 use super::{FILTER_HZ, VehicleTick, WINDOW_M};
 
-/// Filters the forces of every wheelset tick by tick: the lateral force on the track and `Y/Q`, averaged over 2 m, and the
-/// load of each wheel.
+/// Filters the forces of every wheelset tick by tick: the lateral force on the track and `Y/Q`, averaged over 2 m, and
+/// the load of each wheel.
 #[derive(Debug, Clone)]
 pub struct FilteredForces {
     names: Vec<String>,

@@ -48,7 +48,8 @@ const SHIPPED: Shipped = Shipped {
 };
 
 /// Default normal damping, s/m: the middle of the range for steel, 0.12 to 0.48 s/m (Hunt and Crossley, Journal of
-/// Applied Mechanics 42, 1975, 440-445, `3/2` times their 0.08 to 0.32 s/m). The rails damp impacts more than the contact.
+/// Applied Mechanics 42, 1975, 440-445, `3/2` times their 0.08 to 0.32 s/m). The rails damp impacts more than the
+/// contact.
 pub const NORMAL_DAMPING_S_PER_M: f64 = 0.3;
 
 /// A vehicle on a track at a constant speed.

@@ -297,8 +297,8 @@ fn the_step_is_within_its_bounds_of_the_reference() {
     assert!((2.5..6.0).contains(&ratio), "{ratio}");
 }
 
-/// On rigid rails without normal damping, flange impacts make any two solutions diverge; the distributions over seeds still
-/// agree.
+/// On rigid rails without normal damping, flange impacts make any two solutions diverge; the distributions over seeds
+/// still agree.
 #[test]
 fn a_chaotic_case_is_compared_over_seeds() {
     let arguments = [

@@ -3,8 +3,8 @@
 use super::motion::{MotionNumbers, RailNumbers, STANDSTILL_SPEED_M_PER_S};
 use crate::math::number::Number;
 
-/// Attitude and velocities of a wheelset as seen by the right wheel, in the axes of the track turned into the direction of
-/// the rail.
+/// Attitude and velocities of a wheelset as seen by the right wheel, in the axes of the track turned into the direction
+/// of the rail.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame<T> {
     sin_roll: T,

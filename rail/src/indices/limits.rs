@@ -32,9 +32,9 @@ pub fn wheel_unloading(static_load_n: f64, load_n: f64) -> f64 {
     (static_load_n - load_n) / static_load_n
 }
 
-/// Returns the limit of a wheel's load in motion, filtered at 20 Hz, N: `90 kN + Q0` with the load `Q0` at standstill, at
-/// most 200 kN up to 160 km/h, 190 kN up to 200 km/h, 180 kN up to 250 km/h, 170 kN up to 300 km/h, 160 kN above (UIC 518
-/// and EN 14363).
+/// Returns the limit of a wheel's load in motion, filtered at 20 Hz, N: `90 kN + Q0` with the load `Q0` at standstill,
+/// at most 200 kN up to 160 km/h, 190 kN up to 200 km/h, 180 kN up to 250 km/h, 170 kN up to 300 km/h, 160 kN above
+/// (UIC 518 and EN 14363).
 ///
 /// ```
 /// use dashpot_rail::indices::wheel_load_limit_n;

@@ -10,8 +10,8 @@ const QUALITIES: [f64; 2] = [0.541_196_1, 1.306_563];
 
 /// Butterworth low-pass of order 4, sample by sample.
 ///
-/// Acceptance tests (EN 14363) filter wheel forces at 20 Hz. Discretised by the bilinear transform, exact at the corner.
-/// The filter starts in the steady state for a constant input that equals the first sample.
+/// Acceptance tests (EN 14363) filter wheel forces at 20 Hz. Discretised by the bilinear transform, exact at the
+/// corner. The filter starts in the steady state for a constant input that equals the first sample.
 ///
 /// ```
 /// use dashpot_rail::indices::LowPass;

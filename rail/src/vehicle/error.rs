@@ -90,8 +90,8 @@ pub enum VehicleError {
     },
     /// The lighter of wheel and rail is too light for the stiffness and damping of their contact.
     #[error(
-        "contact of wheel and rail: needs steps of {needed_s:.1e} s, allowed: at least {least_s:.1e} s, a two-hundredth of \
-         the tick; use heavier rails, less normal damping or a shorter tick"
+        "contact of wheel and rail: needs steps of {needed_s:.1e} s, allowed: at least {least_s:.1e} s, a \
+         two-hundredth of the tick; use heavier rails, less normal damping or a shorter tick"
     )]
     ContactTooFast {
         /// Step that the contact needs, s.

@@ -1,6 +1,6 @@
-//! A straight line that turns by a small angle, given as lateral irregularity, left the wheelsets yawed against the rails
-//! with permanent creep forces: the rate at which the irregularity shifts the rail under a wheel counted as a motion of the
-//! rail's surface, which rests.
+//! A straight line that turns by a small angle, given as lateral irregularity, left the wheelsets yawed against the
+//! rails with permanent creep forces: the rate at which the irregularity shifts the rail under a wheel counted as a
+//! motion of the rail's surface, which rests.
 
 use std::fmt::Write as _;
 

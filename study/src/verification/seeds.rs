@@ -19,8 +19,8 @@ const TOLERANCE: f64 = 1e-6;
 /// errors in about one of a hundred cases.
 pub const STANDARD_ERRORS: f64 = 4.0;
 
-/// Maximum distance of two cumulative distributions (Kolmogorov and Smirnov). For twice 16 values, chance alone exceeds it
-/// for one index in four thousand.
+/// Maximum distance of two cumulative distributions (Kolmogorov and Smirnov). For twice 16 values, chance alone exceeds
+/// it for one index in four thousand.
 pub const DISTANCE: f64 = 0.75;
 
 /// Difference between the distributions of indices with the fixed step and with the reference over seeds.

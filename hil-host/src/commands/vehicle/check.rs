@@ -196,7 +196,8 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if let Some(parting) = &report.parting {
         writeln!(
             out,
-            "\nA second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %, {:.4} %: the case \
+            "\nA second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %, {:.4} %: the \
+             case \
              is {}.",
             LOOSER_TOLERANCE,
             1e2 * parting.acceleration.deviation,

@@ -238,7 +238,8 @@ fn tables(report: &Report) -> Markup {
                     }
                 } }
                 p {
-                    "Q: range within all steps. Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over 2 m. "
+                    "Q: range within all steps. Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over 2 "
+                    "m. "
                     "Wear number: mean creep power over the speed."
                 }
                 (limits(indices))
@@ -263,7 +264,8 @@ fn limits(indices: &Indices) -> Markup {
     html! {
         div.wide { table {
             tr {
-                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "Q limit, %" } th { "Nadal, %" }
+                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "Q limit, %" }
+                th { "Nadal, %" }
                 th { "beyond, m" } th { "Prud'homme, %" } th { "wear rms, N" } th { "max" }
             }
             @for wheelset in &indices.wheelsets {
@@ -283,7 +285,8 @@ fn limits(indices: &Indices) -> Markup {
             }
         } }
         p {
-            "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Q, filtered at 20 Hz, as % "
+            "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Q, filtered at 20 Hz, as "
+            "% "
             "of the limit of EN 14363 for the speed. Y/Q, filtered at 20 Hz, as % of Nadal's "
             "limit, mean over 2 m, and the longest distance beyond it. Lateral force as % of Prud'homme's limit, mean "
             "over 2 m. Nadal's limit is " (nadal_limits(indices))

@@ -291,8 +291,8 @@ fn print_limits(out: &mut dyn Write, indices: &Indices) -> io::Result<()> {
     }
     writeln!(
         out,
-        "unloading relative to the static load: instantaneous, and of the mean over 2 m; Q filtered at 20 Hz as % of the\n\
-         limit of EN 14363 for the speed; Y/Q as % of Nadal's limit, {};\n\
+        "unloading relative to the static load: instantaneous, and of the mean over 2 m; Q filtered at 20 Hz as %\n\
+         of the limit of EN 14363 for the speed; Y/Q as % of Nadal's limit, {};\n\
          lateral force as % of Prud'homme's limit for the static load",
         nadal_limits(indices)
     )
