@@ -175,7 +175,7 @@ fn hunting_begins_at_the_critical_speed() {
         "rear",
     ]
     .map(|place| format!("{place} primary.stiffness_n_per_m=[2e6, 2e6, 2.15e6]"));
-    let mut arguments = vec!["--hunting", "--format", "json"];
+    let mut arguments = [&BARE[..], &["--hunting", "--format", "json"]].concat();
     for assignment in &soft {
         arguments.extend(["--set", assignment]);
     }
@@ -240,7 +240,7 @@ fn errors_name_the_problem_its_location_and_the_allowed_values() {
         (
             &["--set", "body.mass_kg=-3"],
             1,
-            "locomotive:10: body: mass_kg = -3, allowed: 1 to 1000000",
+            "locomotive:11: body: mass_kg = -3, allowed: 1 to 1000000",
         ),
         (
             &["--set", "front lateral damper.damper='none'"],

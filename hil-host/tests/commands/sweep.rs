@@ -595,7 +595,7 @@ fn the_shipped_studies_are_valid() {
     for (study, cases) in [
         ("paper", 536),
         ("curve-r600", 168),
-        ("stand-ins", 784),
+        ("stand-ins", 848),
         ("out-of-service", 789),
         ("hunting", 54),
         ("damping", 144),
