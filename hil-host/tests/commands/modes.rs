@@ -245,7 +245,7 @@ fn errors_name_the_problem_its_location_and_the_allowed_values() {
         (
             &["--set", "front lateral damper.damper='none'"],
             1,
-            "locomotive:119: front lateral damper: damper `none`: no such preset or file",
+            "locomotive:120: front lateral damper: damper `none`: no such preset or file",
         ),
     ];
     for (arguments, code, expected) in cases {
