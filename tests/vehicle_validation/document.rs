@@ -69,7 +69,7 @@ absolute values.
     )
 }
 
-/// What vehicle this is, and how healthy.
+/// Describes the vehicle and its health.
 fn health(paper: &Kept) -> String {
     let sweep = paper.sweep("straight");
     let of = |index: &str| -> Vec<f64> {

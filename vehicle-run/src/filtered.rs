@@ -3,6 +3,7 @@
 use dashpot_files::case::Case;
 use dashpot_rail::indices::LowPass;
 
+use super::indices::Windowed;
 use super::signals::{SIDES, load_n, slug};
 use super::{FILTER_HZ, VehicleTick, WINDOW_M};
 
@@ -26,32 +27,14 @@ struct Wheelset {
 #[derive(Debug, Clone)]
 struct Averaged {
     filter: LowPass,
-    last: Vec<f64>,
-    next: usize,
-    sum: f64,
+    last: Windowed,
 }
 
 impl Averaged {
-    fn new(filter: LowPass, ticks: usize) -> Self {
-        Self {
-            filter,
-            last: Vec::with_capacity(ticks),
-            next: 0,
-            sum: 0.0,
-        }
-    }
-
     /// Returns the mean over the window up to this value, or over all values before the first whole window.
     fn next(&mut self, value: f64) -> f64 {
-        let filtered = self.filter.next(value);
-        self.sum += filtered;
-        if self.last.len() < self.last.capacity() {
-            self.last.push(filtered);
-        } else {
-            self.sum -= std::mem::replace(&mut self.last[self.next], filtered);
-            self.next = (self.next + 1) % self.last.len();
-        }
-        self.sum / self.last.len() as f64
+        self.last.add(self.filter.next(value));
+        self.last.mean()
     }
 }
 
@@ -70,7 +53,10 @@ impl FilteredForces {
         let tick_m = case.speed_m_per_s * case.step_s;
         let ticks = ((WINDOW_M / tick_m).round() as usize).max(1);
         let filter = LowPass::new(FILTER_HZ, 1.0 / case.step_s);
-        let averaged = || Averaged::new(filter.clone(), ticks);
+        let averaged = || Averaged {
+            filter: filter.clone(),
+            last: Windowed::new(ticks),
+        };
         let wheelsets = case.vehicle.wheelsets.iter().map(|_| Wheelset {
             lateral: averaged(),
             derailment: [averaged(), averaged()],

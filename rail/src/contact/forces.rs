@@ -108,6 +108,13 @@ impl PatchForces {
 }
 
 impl WheelsetForces {
+    /// Returns the power that creep dissipates on both wheels, W.
+    #[inline]
+    pub fn dissipation_w(&self) -> f64 {
+        let patches = self.wheels.iter().flat_map(WheelForces::loaded_patches);
+        patches.map(|patch| patch.dissipation_w).sum()
+    }
+
     /// Returns true if forces can be computed for the motion; otherwise sets them to zero and the status to
     /// `NotFinite`.
     #[inline(always)]

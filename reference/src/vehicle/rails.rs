@@ -4,7 +4,7 @@ use dashpot_rail::contact::{RailDisplacement, WheelsetForces};
 use dashpot_rail::vehicle::RailSupport;
 
 /// Motions of the rails under a wheelset: lateral and vertical of the left rail, then of the right rail.
-pub(super) const RAILS: usize = 4;
+const RAILS: usize = 4;
 
 /// Flexible rails under all wheelsets.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub(super) struct Flexible {
     support: RailSupport,
     wheelsets: usize,
     /// Index of the first displacement in the state.
-    pub(super) first: usize,
+    first: usize,
 }
 
 impl Flexible {

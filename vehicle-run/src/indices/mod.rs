@@ -17,6 +17,7 @@ use ride::Ride;
 pub use ride::{RideError, RideIndices, check_ride};
 use serde::Serialize;
 use sums::Statistics;
+pub(crate) use sums::Windowed;
 pub use wheel::WheelIndices;
 pub use wheelset::WheelsetIndices;
 use wheelset::WheelsetSums;

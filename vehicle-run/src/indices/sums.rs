@@ -11,7 +11,7 @@ pub(super) struct Statistics {
 
 /// Range of the mean over a moving window of ticks.
 #[derive(Debug, Clone)]
-pub(super) struct Windowed {
+pub(crate) struct Windowed {
     ring: Vec<f64>,
     /// Sum of the values in the ring.
     sum: f64,
@@ -22,7 +22,7 @@ pub(super) struct Windowed {
 
 /// Smallest and largest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Range {
+pub(crate) struct Range {
     pub min: f64,
     pub max: f64,
 }
@@ -91,8 +91,18 @@ impl Windowed {
             self.is_full = true;
         }
         if self.is_full {
-            self.means.add(self.sum / self.ring.len() as f64);
+            self.means.add(self.mean());
         }
+    }
+
+    /// Mean of the values in the window; of all values before the first whole window.
+    pub fn mean(&self) -> f64 {
+        let count = if self.is_full {
+            self.ring.len()
+        } else {
+            self.next.max(1)
+        };
+        self.sum / count as f64
     }
 
     /// Range of the means over a window; `None` before the first whole window.
@@ -104,7 +114,7 @@ impl Windowed {
     /// window.
     pub fn max_mean_magnitude(&self) -> f64 {
         let magnitude = |means: Range| means.max.max(-means.min);
-        let overall = || (self.sum / self.next.max(1) as f64).abs();
+        let overall = || self.mean().abs();
         self.means().map_or_else(overall, magnitude)
     }
 }

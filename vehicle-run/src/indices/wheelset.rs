@@ -106,9 +106,5 @@ impl WheelsetSums {
 /// Wear number of a wheelset, N: `Tx gx + Ty gy + M phi` summed over all patches, with the creep forces `Tx`, `Ty`, the
 /// spin moment `M` and the creepages `gx`, `gy` and spin `phi`.
 fn wear_number_n(contact: &WheelsetForces, speed_m_per_s: f64) -> f64 {
-    let patches = contact
-        .wheels
-        .iter()
-        .flat_map(|wheel| wheel.loaded_patches());
-    patches.map(|patch| patch.dissipation_w).sum::<f64>() / speed_m_per_s
+    contact.dissipation_w() / speed_m_per_s
 }

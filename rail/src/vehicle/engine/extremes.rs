@@ -42,17 +42,13 @@ impl Extremes {
             .least_loads_n
             .iter_mut()
             .zip(&mut self.greatest_loads_n);
-        let mut dissipation_w = 0.0;
         for ((least_n, greatest_n), wheel) in loads.zip(&contact.wheels) {
             // Subtracting from zero avoids -0.0 for a lifted wheel.
             let load_n = 0.0 - wheel.force_n[2];
             *least_n = least_n.min(load_n);
             *greatest_n = greatest_n.max(load_n);
-            for patch in wheel.loaded_patches() {
-                dissipation_w += patch.dissipation_w;
-            }
         }
-        self.greatest_dissipation_w = self.greatest_dissipation_w.max(dissipation_w);
+        self.greatest_dissipation_w = self.greatest_dissipation_w.max(contact.dissipation_w());
     }
 
     /// Adds the extremes of another time.

@@ -26,7 +26,7 @@ const MAX_PHASE_RAD: f64 = 0.75;
 /// several times this load and decay, so the bound is far below 1.
 const MAX_DECAY: f64 = 0.06;
 
-/// What the contact of a wheel at standstill acts on: it limits the length of a step.
+/// A mass on the contact of a wheel at standstill. It limits the length of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct OnContact {
     /// The lighter of wheel and rail, kg.
