@@ -3,15 +3,16 @@
 use dashpot_files::case::Case;
 use dashpot_rail::indices::LowPass;
 
-use super::indices::Windowed;
+use super::indices::{Ticks, Windowed};
 use super::signals::{SIDES, load_n, slug};
-use super::{FILTER_HZ, VehicleTick, WINDOW_M};
+use super::{FILTER_HZ, VehicleTick};
 
 /// Filters the forces of every wheelset tick by tick: the lateral force on the track and `Y/Q`, averaged over 2 m, and
 /// the load of each wheel.
 #[derive(Debug, Clone)]
 pub struct FilteredForces {
     names: Vec<String>,
+    ticks: Ticks,
     wheelsets: Vec<Wheelset>,
     values: Vec<f64>,
 }
@@ -32,8 +33,8 @@ struct Averaged {
 
 impl Averaged {
     /// Returns the mean over the window up to this value, or over all values before the first whole window.
-    fn next(&mut self, value: f64) -> f64 {
-        self.last.add(self.filter.next(value));
+    fn next(&mut self, value: f64, window: usize) -> f64 {
+        self.last.add(self.filter.next(value), window);
         self.last.mean()
     }
 }
@@ -50,12 +51,11 @@ impl FilteredForces {
                 names.push(format!("{name}_{side}_filtered_load_n"));
             }
         }
-        let tick_m = case.speed_m_per_s * case.step_s;
-        let ticks = ((WINDOW_M / tick_m).round() as usize).max(1);
+        let ticks = Ticks::new(case);
         let filter = LowPass::new(FILTER_HZ, 1.0 / case.step_s);
         let averaged = || Averaged {
             filter: filter.clone(),
-            last: Windowed::new(ticks),
+            last: Windowed::new(ticks.longest_window()),
         };
         let wheelsets = case.vehicle.wheelsets.iter().map(|_| Wheelset {
             lateral: averaged(),
@@ -64,6 +64,7 @@ impl FilteredForces {
         });
         Self {
             wheelsets: wheelsets.collect(),
+            ticks,
             values: Vec::with_capacity(names.len()),
             names,
         }
@@ -77,12 +78,15 @@ impl FilteredForces {
     /// Adds a tick and returns its values. Does not allocate.
     pub fn next(&mut self, tick: &impl VehicleTick) -> &[f64] {
         self.values.clear();
+        self.ticks.go_on(tick);
+        let window = self.ticks.window();
         for (wheelset, contact) in self.wheelsets.iter_mut().zip(tick.contacts()) {
-            self.values.push(wheelset.lateral.next(contact.force_n[1]));
+            self.values
+                .push(wheelset.lateral.next(contact.force_n[1], window));
             let coefficients = contact.derailment_coefficients();
             for (side, coefficient) in coefficients.into_iter().enumerate() {
                 self.values
-                    .push(wheelset.derailment[side].next(coefficient));
+                    .push(wheelset.derailment[side].next(coefficient, window));
                 self.values
                     .push(wheelset.loads[side].next(load_n(contact, side)));
             }

@@ -12,6 +12,7 @@ mod error;
 mod filtered;
 pub mod hunting;
 mod indices;
+mod influences;
 mod outside;
 mod overturning;
 pub mod recorded;

@@ -12,6 +12,7 @@ use super::VehicleRunError;
 use super::contact::{Contact, ContactSetup};
 use super::ending::{Ending, Place};
 use super::hunting::push_aside;
+use super::influences::Influences;
 use super::overturning::Overturned;
 use super::signals::{SIDES, load_n};
 use super::validity::END_LOAD_RATIO;
@@ -26,6 +27,7 @@ pub struct Run {
     state: VehicleState,
     faults: Vec<BuiltFault>,
     next_fault: usize,
+    influences: Influences,
     ticks: u64,
 }
 
@@ -78,6 +80,7 @@ impl Run {
         let faults = faults.collect::<Result<_, _>>()?;
         Ok(Self {
             ticks: (case.duration_s / case.step_s).round() as u64,
+            influences: Influences::new(case, &vehicle),
             vehicle,
             contacts,
             track,
@@ -117,7 +120,7 @@ impl Run {
         &self.state
     }
 
-    /// Current state of the vehicle, for setting the force of an external damper.
+    /// Current state of the vehicle, for setting the force of an external damper, speed, friction or applied forces.
     pub fn state_mut(&mut self) -> &mut VehicleState {
         &mut self.state
     }
@@ -141,11 +144,12 @@ impl Run {
         self.state.ticks() >= self.ticks
     }
 
-    /// Simulates one tick, after applying the faults that are due. Returns the ending if the run ended. Allocates only
+    /// Simulates one tick, after applying the faults and events that are due. Returns the ending if the run ended. Allocates only
     /// if it ended.
     ///
     /// # Errors
-    /// No case is known in which this fails: [`Self::new`] has already built the dampers of all faults.
+    /// No case is known in which this fails: [`Self::new`] has built the dampers of all faults, and a case checks its
+    /// events.
     pub fn step(&mut self) -> Result<Option<Ending>, VehicleRunError> {
         if self.is_over() {
             return Ok(Some(Ending::Completed));
@@ -157,6 +161,8 @@ impl Run {
             self.vehicle.replace_damper(fault.damper, &fault.built)?;
             self.next_fault += 1;
         }
+        let time_s = self.time_s();
+        self.influences.apply(time_s, &mut self.state)?;
         self.vehicle.step(&mut self.state, &self.track);
         Ok(self.ending())
     }

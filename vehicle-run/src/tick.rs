@@ -7,6 +7,10 @@ use dashpot_rail::vehicle::{Extremes, VehicleState};
 pub trait VehicleTick {
     /// Position of the vehicle's middle along the track, m.
     fn distance_m(&self) -> f64;
+    /// Speed during the tick, m/s.
+    fn speed_m_per_s(&self) -> f64;
+    /// Factor on the friction of all wheels during the tick.
+    fn friction_factor(&self) -> f64;
     /// Returns the coordinates of each body and wheelset; see [`VehicleState::coordinates`].
     fn coordinates(&self) -> &[[f64; 5]];
     /// Returns the accelerations of a body, m/s^2 and rad/s^2; see [`VehicleState::acceleration`].
@@ -28,6 +32,12 @@ pub trait VehicleTick {
 impl VehicleTick for VehicleState {
     fn distance_m(&self) -> f64 {
         self.distance_m()
+    }
+    fn speed_m_per_s(&self) -> f64 {
+        self.speed_m_per_s()
+    }
+    fn friction_factor(&self) -> f64 {
+        self.friction_factor()
     }
     fn coordinates(&self) -> &[[f64; 5]] {
         self.coordinates()
@@ -61,6 +71,8 @@ pub struct TickRecord {
     /// Time since the start of the run, s.
     pub time_s: f64,
     distance_m: f64,
+    speed_m_per_s: f64,
+    friction_factor: f64,
     unbalanced_m_per_s2: f64,
     coordinates: Vec<[f64; 5]>,
     accelerations: Vec<[f64; 5]>,
@@ -78,6 +90,8 @@ impl TickRecord {
         Self {
             time_s,
             distance_m: state.distance_m(),
+            speed_m_per_s: state.speed_m_per_s(),
+            friction_factor: state.friction_factor(),
             unbalanced_m_per_s2: state.unbalanced_m_per_s2(),
             coordinates: state.coordinates().to_vec(),
             accelerations: (0..bodies).map(|body| state.acceleration(body)).collect(),
@@ -96,6 +110,8 @@ impl TickRecord {
     pub fn copy(&mut self, time_s: f64, state: &VehicleState) {
         self.time_s = time_s;
         self.distance_m = state.distance_m();
+        self.speed_m_per_s = state.speed_m_per_s();
+        self.friction_factor = state.friction_factor();
         self.unbalanced_m_per_s2 = state.unbalanced_m_per_s2();
         self.coordinates.copy_from_slice(state.coordinates());
         for (body, acceleration) in self.accelerations.iter_mut().enumerate() {
@@ -115,6 +131,12 @@ impl TickRecord {
 impl VehicleTick for TickRecord {
     fn distance_m(&self) -> f64 {
         self.distance_m
+    }
+    fn speed_m_per_s(&self) -> f64 {
+        self.speed_m_per_s
+    }
+    fn friction_factor(&self) -> f64 {
+        self.friction_factor
     }
     fn coordinates(&self) -> &[[f64; 5]] {
         &self.coordinates

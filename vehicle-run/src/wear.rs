@@ -10,6 +10,7 @@ use serde::Serialize;
 
 use super::VehicleTick;
 use super::contact::Contact;
+use super::indices::Travelled;
 use super::run::Run;
 use super::signals::SIDES;
 use dashpot_files::case::Case;
@@ -23,9 +24,8 @@ pub struct RunWear {
     wheelsets: Vec<WheelsetWear>,
     friction: Friction,
     track: Arc<Track>,
-    speed_m_per_s: f64,
-    tick_m: f64,
-    ticks: u64,
+    step_s: f64,
+    travelled: Travelled,
 }
 
 /// Wear of the left and the right wheel of a wheelset.
@@ -105,25 +105,27 @@ impl RunWear {
                 .collect(),
             friction: case.contact.friction(case.friction),
             track,
-            speed_m_per_s: case.speed_m_per_s,
-            tick_m: case.speed_m_per_s * case.step_s,
-            ticks: 0,
+            step_s: case.step_s,
+            travelled: Travelled::default(),
         }
     }
 
     /// Adds a tick of the vehicle. Does not allocate.
     pub fn add(&mut self, state: &impl VehicleTick) {
-        self.ticks += 1;
+        let speed_m_per_s = state.speed_m_per_s();
+        let tick_m = speed_m_per_s * self.step_s;
+        self.travelled.add(tick_m);
         for (wheelset, contact) in self.wheelsets.iter_mut().zip(state.contacts()) {
             let at_m = state.distance_m() + wheelset.position_m;
             let ratios = self.track.friction_ratios(at_m);
             let wheels = wheelset.wheels.iter_mut().zip(&contact.wheels);
             for ((wear, wheel), ratio) in wheels.zip(ratios) {
                 for patch in wheel.loaded_patches() {
-                    let sliding_m_per_s = patch.creepage.magnitude() * self.speed_m_per_s;
-                    let friction = ratio * self.friction.at(sliding_m_per_s);
-                    let wearing = WearingPatch::new(patch, self.speed_m_per_s, friction);
-                    wear.add(patch.wheel_y_m, &wearing, self.tick_m);
+                    let sliding_m_per_s = patch.creepage.magnitude() * speed_m_per_s;
+                    let friction =
+                        state.friction_factor() * ratio * self.friction.at(sliding_m_per_s);
+                    let wearing = WearingPatch::new(patch, speed_m_per_s, friction);
+                    wear.add(patch.wheel_y_m, &wearing, tick_m);
                 }
             }
         }
@@ -131,7 +133,7 @@ impl RunWear {
 
     /// The wear of all ticks so far; `None` before the first tick.
     pub fn indices(&self) -> Option<WearIndices> {
-        let distance_m = self.ticks as f64 * self.tick_m;
+        let distance_m = self.travelled.metres();
         let law = self.wheelsets.first()?.wheels[0].law();
         if distance_m <= 0.0 {
             return None;

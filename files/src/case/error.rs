@@ -60,6 +60,14 @@ pub enum CaseError {
     /// Invalid rail support.
     #[error(transparent)]
     Rails(VehicleError),
+    /// Invalid event entry.
+    #[error("event {number}: {reason}")]
+    Event {
+        /// Number of the entry in the file, from 1.
+        number: usize,
+        /// The problem, and the allowed values.
+        reason: String,
+    },
     /// Invalid fault entry.
     #[error("fault {number}: {reason}")]
     Fault {
@@ -78,6 +86,8 @@ pub(super) struct Origin {
     pub lines: BTreeMap<String, u64>,
     /// Line of each fault.
     pub faults: Vec<u64>,
+    /// Line of each event.
+    pub events: Vec<u64>,
 }
 
 impl Origin {
@@ -98,6 +108,7 @@ impl Origin {
         };
         let line = match error {
             CaseError::Fault { number, .. } => self.faults.get(number.wrapping_sub(1)),
+            CaseError::Event { number, .. } => self.events.get(number.wrapping_sub(1)),
             _ => self.lines.get(&key),
         };
         match line {

@@ -1,16 +1,20 @@
 //! Cases: a vehicle on a track at a speed, from a TOML file or from separate options.
 
 mod bounds;
+mod course;
 mod error;
+mod event;
 mod fault;
 mod parts;
 mod rails;
 mod tables;
 
+pub use course::Course;
 use dashpot_core::DamperParameters;
 use dashpot_rail::vehicle::{Law, RailSupport, VehicleParameters};
 pub use error::CaseError;
 use error::Origin;
+pub use event::{Change, Event, EventOptions, MAX_SPEED_RATE_M_PER_S2};
 pub use fault::{Fault, FaultOptions};
 pub use parts::{CaseNumbers, CaseParts};
 use tables::CaseTables;
@@ -81,6 +85,8 @@ pub struct Case {
     pub rails: Option<RailSupport>,
     /// Damper changes during the run, sorted by time.
     pub faults: Vec<Fault>,
+    /// Changes of speed, friction and forces during the run, sorted by time.
+    pub events: Vec<Event>,
 }
 
 impl Case {
@@ -110,7 +116,21 @@ impl Case {
 
     /// Final distance of the vehicle's centre along the track, m.
     pub fn end_m(&self) -> f64 {
-        self.start_m + self.speed_m_per_s * self.duration_s
+        if self.events.is_empty() {
+            return self.start_m + self.speed_m_per_s * self.duration_s;
+        }
+        self.start_m + self.speeds_m_per_s().integral(self.duration_s)[0]
+    }
+
+    /// Speed over time, m/s.
+    pub fn speeds_m_per_s(&self) -> Course<1> {
+        let mut speeds = Course::new([self.speed_m_per_s]);
+        for event in &self.events {
+            if let Change::Speed(speed_m_per_s) = event.change {
+                speeds.then(event.time_s, event.ramp_s, [speed_m_per_s]);
+            }
+        }
+        speeds
     }
 }
 
@@ -160,6 +180,8 @@ pub struct CaseOptions {
     pub rails: Option<RailSupport>,
     /// Damper changes during the run.
     pub faults: Vec<FaultOptions>,
+    /// Changes of speed, friction and forces during the run.
+    pub events: Vec<EventOptions>,
     /// Lines of the values in the case file; `None` if the options are not from a file.
     origin: Option<Origin>,
 }
@@ -184,6 +206,7 @@ impl CaseOptions {
             push_m: 0.0,
             rails: Some(RailSupport::BALLASTED),
             faults: Vec::new(),
+            events: Vec::new(),
             origin: None,
         }
     }
@@ -327,6 +350,12 @@ impl CaseOptions {
         track.gauge_changes = contact.gauge_changes();
         track.friction_ratios = contact.friction_ratios(*friction);
         let faults = fault::resolve(&self.faults, &vehicle, self.duration_s)?;
+        let events = event::resolve(
+            &self.events,
+            &vehicle,
+            self.speed_km_h / 3.6,
+            self.duration_s,
+        )?;
         let default_name = || {
             let Self {
                 vehicle,
@@ -350,6 +379,7 @@ impl CaseOptions {
             push_m: self.push_m,
             rails: *rails,
             faults,
+            events,
         })
     }
 }

@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::error::Origin;
 use super::rails::{self, RailsValue};
-use super::{CaseError, CaseOptions, FaultOptions};
+use super::{CaseError, CaseOptions, EventOptions, FaultOptions};
 use crate::FileError;
 use crate::contact::{ContactOptions, TABLE};
 use crate::lines::{line_at, lines_of_keys};
@@ -36,6 +36,8 @@ pub(super) struct CaseTables {
     dampers: BTreeMap<String, Spanned<String>>,
     #[serde(default)]
     fault: Vec<Spanned<FaultTable>>,
+    #[serde(default)]
+    event: Vec<Spanned<EventOptions>>,
     contact: Option<ContactOptions>,
 }
 
@@ -130,8 +132,11 @@ impl CaseTables {
         }
         let faults = self.fault.iter();
         let fault_lines = faults.map(|fault| line_at(text, fault.span().start));
+        let events = self.event.iter();
+        let event_lines = events.map(|event| line_at(text, event.span().start));
         let origin = Origin {
             faults: fault_lines.collect(),
+            events: event_lines.collect(),
             file: name.into(),
             lines,
         };
@@ -150,6 +155,7 @@ impl CaseTables {
             push_m,
             rails,
             faults: faults.collect(),
+            events: self.event.into_iter().map(Spanned::into_inner).collect(),
             origin: Some(origin),
             ..defaults
         })

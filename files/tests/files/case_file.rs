@@ -59,6 +59,7 @@ fn every_key_is_read() {
                 .with_vertical(80e6, 60e3),
         ),
         faults: Vec::new(),
+        events: Vec::new(),
     };
     assert_eq!(found, expected);
     assert_eq!(found.end_m(), 80.0);

@@ -41,8 +41,10 @@ mod standstill;
 pub use body::{Body, COORDINATES, Coordinate, Wheelset};
 pub use element::{Direction, Element, End, Law, MAX_STOP_POINTS};
 pub use engine::{
-    CANT_BASE_M, Energy, Extremes, RailSupport, SPEED_M_PER_S, STEP_S, Stop, Vehicle, VehicleState,
+    CANT_BASE_M, Energy, Extremes, FRICTION_FACTOR, MAX_APPLIED, RailSupport, SPEED_M_PER_S,
+    STEP_S, Stop, Vehicle, VehicleState,
 };
+
 pub use error::VehicleError;
 pub use modes::Mode;
 pub use parameters::VehicleParameters;

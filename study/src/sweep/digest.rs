@@ -58,8 +58,13 @@ impl Digest {
             push_m,
             rails,
             faults,
+            events,
         } = case;
         self.add(&(vehicle, rails, faults));
+        // Rows that were kept before cases had events stay valid.
+        if !events.is_empty() {
+            self.add(events);
+        }
         self.add(&(speed_m_per_s, duration_s, start_m, friction));
         self.add(&(normal_damping_s_per_m, step_s, push_m));
         self.add(&(&track.layout, &track.defects));

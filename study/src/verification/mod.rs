@@ -100,7 +100,7 @@ pub fn reference(case: &Case, stepped: &Trace, tolerance: f64) -> Result<Trace, 
     let mut samples = 0;
     let mut on_sample = |sample: &VehicleSample| {
         if samples % per_tick == 0 {
-            tick.begin(sample.contacts.len());
+            tick.begin(sample.contacts.len(), case.speed_m_per_s);
         }
         samples += 1;
         if samples % per_tick != 0 {

@@ -13,11 +13,13 @@ pub(super) struct ReferenceTick {
     track: Vec<[f64; 5]>,
     extremes: Vec<Extremes>,
     distance_m: f64,
+    speed_m_per_s: f64,
 }
 
 impl ReferenceTick {
-    /// Starts a tick of a vehicle with `wheelsets` wheelsets.
-    pub fn begin(&mut self, wheelsets: usize) {
+    /// Starts a tick of a vehicle with `wheelsets` wheelsets at a speed.
+    pub fn begin(&mut self, wheelsets: usize, speed_m_per_s: f64) {
+        self.speed_m_per_s = speed_m_per_s;
         self.extremes.clear();
         self.extremes.resize(wheelsets, Extremes::NONE);
     }
@@ -43,6 +45,13 @@ impl ReferenceTick {
 impl VehicleTick for ReferenceTick {
     fn distance_m(&self) -> f64 {
         self.distance_m
+    }
+    fn speed_m_per_s(&self) -> f64 {
+        self.speed_m_per_s
+    }
+    /// A case with events has no reference solution.
+    fn friction_factor(&self) -> f64 {
+        1.0
     }
     fn coordinates(&self) -> &[[f64; 5]] {
         &self.sample.coordinates
@@ -81,6 +90,12 @@ pub(super) struct LongTick<'a> {
 impl VehicleTick for LongTick<'_> {
     fn distance_m(&self) -> f64 {
         self.state.distance_m()
+    }
+    fn speed_m_per_s(&self) -> f64 {
+        self.state.speed_m_per_s()
+    }
+    fn friction_factor(&self) -> f64 {
+        self.state.friction_factor()
     }
     fn coordinates(&self) -> &[[f64; 5]] {
         self.state.coordinates()

@@ -17,7 +17,7 @@ use ride::Ride;
 pub use ride::{RideError, RideIndices, check_ride};
 use serde::Serialize;
 use sums::Statistics;
-pub(crate) use sums::Windowed;
+pub(crate) use sums::{Travelled, Windowed};
 pub use wheel::WheelIndices;
 pub use wheelset::WheelsetIndices;
 use wheelset::WheelsetSums;
@@ -72,38 +72,61 @@ pub struct Indexer {
     dampers: Vec<f64>,
 }
 
-/// Ticks of a run.
+/// Length of the ticks of a run.
 #[derive(Debug, Clone, Copy)]
-struct Ticks {
+pub(crate) struct Ticks {
     step_s: f64,
+    /// Speed in the current tick, m/s.
     speed_m_per_s: f64,
+    least_speed_m_per_s: f64,
+    greatest_speed_m_per_s: f64,
 }
 
 impl Ticks {
+    /// The first tick of a case.
+    pub fn new(case: &Case) -> Self {
+        let speeds = case.speeds_m_per_s();
+        Self {
+            step_s: case.step_s,
+            speed_m_per_s: case.speed_m_per_s,
+            least_speed_m_per_s: speeds.min(),
+            greatest_speed_m_per_s: speeds.max(),
+        }
+    }
+
+    /// Goes on to a tick.
+    pub fn go_on(&mut self, tick: &impl VehicleTick) {
+        self.speed_m_per_s = tick.speed_m_per_s();
+    }
+
     /// Distance of a tick, m.
     fn tick_m(&self) -> f64 {
         self.speed_m_per_s * self.step_s
     }
 
-    /// Ticks in a window of [`WINDOW_M`].
-    fn window(&self) -> usize {
-        ((WINDOW_M / self.tick_m()).round() as usize).max(1)
+    /// Ticks in a window of [`WINDOW_M`] at the current speed.
+    pub fn window(&self) -> usize {
+        window(self.tick_m())
     }
+
+    /// Ticks in a window of [`WINDOW_M`] at the least speed.
+    pub fn longest_window(&self) -> usize {
+        window(self.least_speed_m_per_s * self.step_s)
+    }
+}
+
+/// Ticks of a length in a window of [`WINDOW_M`].
+fn window(tick_m: f64) -> usize {
+    ((WINDOW_M / tick_m).round() as usize).max(1)
 }
 
 impl Indexer {
     /// Starts the indices of a case.
     pub fn new(case: &Case) -> Self {
         let Case {
-            vehicle,
-            step_s,
-            speed_m_per_s,
-            ..
+            vehicle, step_s, ..
         } = case;
-        let ticks = Ticks {
-            step_s: *step_s,
-            speed_m_per_s: *speed_m_per_s,
-        };
+        let ticks = Ticks::new(case);
         let (nadal, nadal_of) = Nadal::of_case(case);
         // Every vehicle that can run has an equilibrium at standstill; without one, loads are not compared with it.
         let standstill = Standstill::new(vehicle).ok();
@@ -133,6 +156,7 @@ impl Indexer {
     /// Adds a tick of the vehicle.
     pub fn add(&mut self, tick: &impl VehicleTick) {
         self.count += 1;
+        self.ticks.go_on(tick);
         if let Some(ride) = &mut self.ride {
             ride.add(|body| tick.acceleration(body));
         }

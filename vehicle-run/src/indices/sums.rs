@@ -9,15 +9,15 @@ pub(super) struct Statistics {
     max_magnitude: f64,
 }
 
-/// Range of the mean over a moving window of ticks.
+/// Range of the mean over a moving window, whose number of ticks may change.
 #[derive(Debug, Clone)]
 pub(crate) struct Windowed {
     ring: Vec<f64>,
-    /// Sum of the values in the ring.
+    /// Sum of the last `count` values.
     sum: f64,
     next: usize,
-    is_full: bool,
-    means: Range,
+    count: usize,
+    means: Option<Range>,
 }
 
 /// Smallest and largest value.
@@ -40,11 +40,36 @@ impl Range {
     }
 }
 
-/// Longest run of consecutive ticks for which a condition holds.
+/// Longest distance over which a condition holds without a break.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Longest {
-    current: u64,
-    longest: u64,
+    current: Travelled,
+    longest_m: f64,
+}
+
+/// Distance travelled.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Travelled {
+    /// Distance of the ticks before the last change of speed, m.
+    before_m: f64,
+    tick_m: f64,
+    /// Ticks since the last change of speed.
+    ticks: u64,
+}
+
+impl Travelled {
+    /// Adds a tick.
+    pub fn add(&mut self, tick_m: f64) {
+        if tick_m != self.tick_m {
+            (self.before_m, self.tick_m, self.ticks) = (self.metres(), tick_m, 0);
+        }
+        self.ticks += 1;
+    }
+
+    /// The distance, m.
+    pub fn metres(&self) -> f64 {
+        self.before_m + self.ticks as f64 * self.tick_m
+    }
 }
 
 impl Statistics {
@@ -71,43 +96,54 @@ impl Statistics {
 }
 
 impl Windowed {
-    /// Starts with a moving window of `ticks` ticks, at least 1.
-    pub fn new(ticks: usize) -> Self {
+    /// Starts with moving windows of at most `longest` ticks, at least 1.
+    pub fn new(longest: usize) -> Self {
         Self {
-            ring: vec![0.0; ticks.max(1)],
+            ring: vec![0.0; longest.max(1)],
             sum: 0.0,
             next: 0,
-            is_full: false,
-            means: Range::NONE,
+            count: 0,
+            means: None,
         }
     }
 
-    pub fn add(&mut self, value: f64) {
-        self.sum += value - self.ring[self.next];
+    /// Adds a value; the window has now `ticks` ticks, at least 1 and at most the longest.
+    pub fn add(&mut self, value: f64, ticks: usize) {
+        let length = self.ring.len();
+        let ticks = ticks.clamp(1, length);
+        let left = if self.count < ticks {
+            0.0
+        } else {
+            self.oldest()
+        };
+        self.sum += value - left;
+        self.count -= usize::from(self.count >= ticks);
+        while self.count >= ticks {
+            self.sum -= self.oldest();
+            self.count -= 1;
+        }
         self.ring[self.next] = value;
-        self.next += 1;
-        if self.next == self.ring.len() {
-            self.next = 0;
-            self.is_full = true;
+        self.next = (self.next + 1) % length;
+        self.count += 1;
+        if self.count == ticks {
+            let mean = self.mean();
+            self.means.get_or_insert(Range::NONE).add(mean);
         }
-        if self.is_full {
-            self.means.add(self.mean());
-        }
+    }
+
+    /// Oldest value in the window.
+    fn oldest(&self) -> f64 {
+        self.ring[(self.next + self.ring.len() - self.count) % self.ring.len()]
     }
 
     /// Mean of the values in the window; of all values before the first whole window.
     pub fn mean(&self) -> f64 {
-        let count = if self.is_full {
-            self.ring.len()
-        } else {
-            self.next.max(1)
-        };
-        self.sum / count as f64
+        self.sum / self.count.max(1) as f64
     }
 
     /// Range of the means over a window; `None` before the first whole window.
     pub fn means(&self) -> Option<Range> {
-        self.is_full.then_some(self.means)
+        self.means
     }
 
     /// Maximum magnitude of the mean over a window, or the magnitude of the mean of all values before the first whole
@@ -120,13 +156,17 @@ impl Windowed {
 }
 
 impl Longest {
-    pub fn add(&mut self, holds: bool) {
-        self.current = if holds { self.current + 1 } else { 0 };
-        self.longest = self.longest.max(self.current);
+    pub fn add(&mut self, holds: bool, tick_m: f64) {
+        if holds {
+            self.current.add(tick_m);
+        } else {
+            self.current = Travelled::default();
+        }
+        self.longest_m = self.longest_m.max(self.current.metres());
     }
 
-    pub fn ticks(&self) -> u64 {
-        self.longest
+    pub fn metres(&self) -> f64 {
+        self.longest_m
     }
 }
 
@@ -144,7 +184,7 @@ mod tests {
         let mut ramp = Windowed::new(10);
         for tick in 0..100 {
             assert_eq!(ramp.means().is_some(), tick >= 10);
-            ramp.add(f64::from(tick));
+            ramp.add(f64::from(tick), 10);
         }
         assert_eq!(ramp.means(), range(4.5, 94.5));
         assert_eq!(ramp.max_mean_magnitude(), 94.5);
@@ -156,7 +196,7 @@ mod tests {
     fn window_mean_of_a_short_pulse_is_its_share_of_the_window() {
         let mut pulse = Windowed::new(4);
         for tick in 0..20 {
-            pulse.add(if (8..11).contains(&tick) { -8.0 } else { 0.0 });
+            pulse.add(if (8..11).contains(&tick) { -8.0 } else { 0.0 }, 4);
         }
         assert_eq!(pulse.means(), range(-6.0, 0.0));
         assert_eq!(pulse.max_mean_magnitude(), 6.0);
@@ -176,11 +216,35 @@ mod tests {
     }
 
     #[test]
-    fn longest_counts_the_longest_run_of_consecutive_ticks() {
+    fn longest_is_the_longest_unbroken_distance() {
         let mut longest = Longest::default();
         for holds in [true, true, false, true, true, true, false, true] {
-            longest.add(holds);
+            longest.add(holds, 0.5);
         }
-        assert_eq!(longest.ticks(), 3);
+        assert_eq!(longest.metres(), 1.5);
+        // Three ticks at another speed.
+        for tick_m in [1.0, 1.0, 0.25] {
+            longest.add(true, tick_m);
+        }
+        assert_eq!(longest.metres(), 0.5 + 2.25);
+    }
+
+    /// A vehicle that brakes needs more and more ticks for a window; it then takes its whole last values.
+    #[test]
+    fn a_window_may_change_its_length() {
+        let mut mean = Windowed::new(4);
+        for (value, ticks, expected) in [
+            (1.0, 2, 1.0),
+            (3.0, 2, 2.0),
+            (5.0, 2, 4.0),
+            (7.0, 4, 5.0),
+            (9.0, 4, 6.0),
+            (11.0, 4, 8.0),
+            (13.0, 1, 13.0),
+        ] {
+            mean.add(value, ticks);
+            assert_eq!(mean.mean(), expected);
+        }
+        assert_eq!(mean.means(), range(2.0, 13.0));
     }
 }

@@ -33,7 +33,7 @@ pub struct WheelIndices {
     pub filtered_load_greatest_n: f64,
     /// Load at standstill, half the axle load, N.
     pub load_static_n: Option<f64>,
-    /// Limit of the filtered load for the load at standstill and the speed, N; see [`wheel_load_limit_n`].
+    /// Limit of the filtered load for the load at standstill and the greatest speed, N; see [`wheel_load_limit_n`].
     pub load_limit_n: Option<f64>,
     /// Maximum filtered load divided by its limit, dimensionless.
     pub load_over_limit: Option<f64>,
@@ -78,11 +78,11 @@ impl WheelSums {
         Self {
             derailment: Statistics::default(),
             derailment_filter: filter.clone(),
-            filtered_derailment: Windowed::new(ticks.window()),
+            filtered_derailment: Windowed::new(ticks.longest_window()),
             load_n: Range::NONE,
             load_filter: filter,
             filtered_load_n: Range::NONE,
-            mean_load: Windowed::new(ticks.window()),
+            mean_load: Windowed::new(ticks.longest_window()),
             ticks: 0,
             lifted: 0,
             nadal,
@@ -90,22 +90,23 @@ impl WheelSums {
         }
     }
 
-    pub fn add(&mut self, tick: &WheelTick) {
+    pub fn add(&mut self, tick: &WheelTick, ticks: &Ticks) {
         let WheelTick {
             derailment,
             load_n,
             loads_n,
         } = *tick;
+        let window = ticks.window();
         self.ticks += 1;
         self.derailment.add(derailment);
         self.filtered_derailment
-            .add(self.derailment_filter.next(derailment));
+            .add(self.derailment_filter.next(derailment), window);
         self.load_n.add(loads_n.min);
         self.load_n.add(loads_n.max);
         self.filtered_load_n.add(self.load_filter.next(load_n));
-        self.mean_load.add(load_n);
+        self.mean_load.add(load_n, window);
         self.lifted += u64::from(load_n <= 0.0);
-        self.over_nadal.add(derailment > self.nadal);
+        self.over_nadal.add(derailment > self.nadal, ticks.tick_m());
     }
 
     pub fn indices(&self, side: usize, static_n: Option<f64>, ticks: &Ticks) -> WheelIndices {
@@ -115,14 +116,15 @@ impl WheelSums {
             .means()
             .map_or(0.0, |means| means.max.max(0.0));
         let unloading = |load_n| Some(wheel_unloading(static_n?, load_n));
-        let limit_n = static_n.map(|load_n| wheel_load_limit_n(load_n, ticks.speed_m_per_s));
+        let limit_n =
+            static_n.map(|load_n| wheel_load_limit_n(load_n, ticks.greatest_speed_m_per_s));
         WheelIndices {
             side: SIDES[side],
             derailment_greatest: self.filtered_derailment.max_mean_magnitude(),
             derailment_rms: self.derailment.rms(),
             derailment_climbing: climbing,
             derailment_over_nadal: climbing / self.nadal,
-            longest_over_nadal_m: self.over_nadal.ticks() as f64 * ticks.tick_m(),
+            longest_over_nadal_m: self.over_nadal.metres(),
             load_least_n: self.load_n.min,
             load_greatest_n: self.load_n.max,
             filtered_load_least_n: self.filtered_load_n.min,

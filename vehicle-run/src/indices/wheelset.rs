@@ -54,7 +54,7 @@ impl WheelsetSums {
             axle_load_n,
             lateral: Statistics::default(),
             lateral_filter: LowPass::new(FILTER_HZ, 1.0 / ticks.step_s),
-            filtered_lateral: Windowed::new(ticks.window()),
+            filtered_lateral: Windowed::new(ticks.longest_window()),
             wear: Statistics::default(),
             greatest_wear_n: 0.0,
             wheels: nadal.map(|limit| WheelSums::new(ticks, limit)),
@@ -65,21 +65,22 @@ impl WheelsetSums {
         let lateral_n = contact.force_n[1];
         self.lateral.add(lateral_n);
         self.filtered_lateral
-            .add(self.lateral_filter.next(lateral_n));
+            .add(self.lateral_filter.next(lateral_n), ticks.window());
         let wear_number_n = wear_number_n(contact, ticks.speed_m_per_s);
         self.wear.add(wear_number_n);
         let greatest_n = extremes.greatest_dissipation_w / ticks.speed_m_per_s;
         self.greatest_wear_n = self.greatest_wear_n.max(greatest_n);
         let coefficients = contact.derailment_coefficients();
         for (side, (wheel, derailment)) in self.wheels.iter_mut().zip(coefficients).enumerate() {
-            wheel.add(&WheelTick {
+            let wheel_tick = WheelTick {
                 derailment,
                 load_n: load_n(contact, side),
                 loads_n: Range {
                     min: extremes.least_loads_n[side],
                     max: extremes.greatest_loads_n[side],
                 },
-            });
+            };
+            wheel.add(&wheel_tick, ticks);
         }
     }
 

@@ -2,5 +2,6 @@
 
 mod contacts;
 mod coupled;
+mod events;
 mod vehicle_indices;
 mod wear;

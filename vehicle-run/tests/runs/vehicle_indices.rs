@@ -45,6 +45,12 @@ impl VehicleTick for Made {
     fn distance_m(&self) -> f64 {
         0.0
     }
+    fn speed_m_per_s(&self) -> f64 {
+        SPEED_M_PER_S
+    }
+    fn friction_factor(&self) -> f64 {
+        1.0
+    }
     fn coordinates(&self) -> &[[f64; 5]] {
         &[]
     }

@@ -38,13 +38,18 @@ struct Report {
 /// Runs the check.
 ///
 /// # Errors
-/// The case is invalid, has faults or does not complete, or a deviation is out of bounds.
+/// The case is invalid, has faults or events, or does not complete, or a deviation is out of bounds.
 pub(super) fn run(case: &Case, format: Format) -> Outcome<()> {
     for (has, what, without) in [
         (
             !case.faults.is_empty(),
             "changes dampers during the run",
             "faults",
+        ),
+        (
+            !case.events.is_empty(),
+            "changes speed, friction or forces during the run",
+            "events",
         ),
         (case.push_m != 0.0, "starts with a push", "push_m"),
     ] {

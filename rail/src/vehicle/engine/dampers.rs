@@ -97,6 +97,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             *force = element.force(displacement(&element.across));
         }
         self.pull(state);
+        state.add_applied();
     }
 
     /// Sums the forces of dampers and stops on the bodies at the start of the tick, and their change during the tick.

@@ -8,6 +8,7 @@ mod energy;
 mod extremes;
 mod guidance;
 mod identity;
+mod influences;
 mod method;
 mod rails;
 mod shape;
@@ -30,6 +31,7 @@ pub use self::extremes::Extremes;
 pub use self::guidance::CANT_BASE_M;
 use self::guidance::{BodyPosition, Guidance};
 use self::identity::Identity;
+pub use self::influences::{FRICTION_FACTOR, MAX_APPLIED};
 use self::method::Method;
 pub use self::rails::RailSupport;
 use self::shape::Shape;
@@ -172,6 +174,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             damper_velocities_m_per_s: vec![0.0; self.dampers.len()],
             damper_forces_n: vec![0.0; self.dampers.len()],
             outside_forces_n: vec![None; self.dampers.len()],
+            friction_factor: 1.0,
+            applied: zeros.clone(),
             stop_forces_n: vec![0.0; self.stops.len()],
             is_diverged: false,
             met_other_vehicle: false,

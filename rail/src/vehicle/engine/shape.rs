@@ -22,6 +22,7 @@ pub(super) struct Shape {
     damper_forces: usize,
     outside_forces: usize,
     stop_forces: usize,
+    applied: usize,
     work: WorkShape,
 }
 
@@ -76,6 +77,7 @@ impl VehicleState {
             damper_forces: state.damper_forces_n.len(),
             outside_forces: state.outside_forces_n.len(),
             stop_forces: state.stop_forces_n.len(),
+            applied: state.applied.len(),
             work: WorkShape::new(&state.work),
         }
     }

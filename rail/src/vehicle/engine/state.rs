@@ -45,6 +45,9 @@ pub struct VehicleState {
     pub(super) damper_forces_n: Vec<f64>,
     pub(super) outside_forces_n: Vec<Option<f64>>,
     pub(super) stop_forces_n: Vec<f64>,
+    pub(super) friction_factor: f64,
+    /// Applied force and moment on each body, N and N m.
+    pub(super) applied: Vec<Vector>,
     pub(super) is_diverged: bool,
     /// True once the state was passed to the step of a vehicle that it does not belong to.
     pub(super) met_other_vehicle: bool,
@@ -253,6 +256,8 @@ clone_by_field!(VehicleState {
     damper_forces_n,
     outside_forces_n,
     stop_forces_n,
+    friction_factor,
+    applied,
     is_diverged,
     met_other_vehicle,
     work,

@@ -302,6 +302,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 &state.velocities[rail],
             );
         }
+        for rail in &mut rails {
+            rail.friction_ratio *= state.friction_factor;
+        }
         let contact = &mut state.contacts[number];
         self.contacts[number].update(&motion, &rails, contact);
         state.work.extremes[number].add(contact);
