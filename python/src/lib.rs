@@ -23,6 +23,7 @@ mod remedy;
 mod replacements;
 mod rig;
 mod state;
+mod stepped_vehicle;
 mod sweep;
 mod vehicle;
 mod whole;
@@ -52,6 +53,8 @@ mod _dashpot {
     use crate::rig::Cycle;
     #[pymodule_export]
     use crate::state::State;
+    #[pymodule_export]
+    use crate::stepped_vehicle::Vehicle;
     #[pymodule_export]
     use crate::sweep::Study;
     #[pymodule_export]

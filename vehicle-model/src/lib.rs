@@ -153,7 +153,7 @@ pub unsafe extern "C" fn model_get_integer(
 /// Describes the allowed values of a variable.
 #[unsafe(no_mangle)]
 pub extern "C" fn model_allowed(_: u32) -> *const c_char {
-    c"a force that is a finite number".as_ptr()
+    c"finite forces, applied forces and moments up to 1e8, speed_m_per_s 1 to 150, friction_factor 0 to 5".as_ptr()
 }
 
 /// Ends the initialization; the vehicle is already in the initial state of the case.

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, CString};
 use std::path::Path;
 
-use dashpot_vehicle_run::{Coupled, CoupledCase, Ending};
+use dashpot_vehicle_run::{Coupled, CoupledCase, Ending, Input};
 
 use crate::result::ModelResult;
 
@@ -79,15 +79,17 @@ impl Model {
         let index = Self::index(variable);
         match index.and_then(|index| self.vehicle.variables().get(index)) {
             None => ModelResult::NoVariable,
-            Some(variable) if !variable.is_force() => ModelResult::ReadOnly,
-            Some(_) if !value.is_finite() => ModelResult::OutOfRange,
-            Some(_) => ModelResult::Done,
+            Some(variable) => match variable.input().map(Input::allowed) {
+                None => ModelResult::ReadOnly,
+                Some([min, max]) if (min..=max).contains(&value) => ModelResult::Done,
+                Some(_) => ModelResult::OutOfRange,
+            },
         }
     }
 
     pub fn set(&mut self, variable: u32, value: f64) {
         if let Some(index) = Self::index(variable)
-            && let Err(error) = self.vehicle.set_force_n(index, value)
+            && let Err(error) = self.vehicle.set(index, value)
         {
             self.fail(&error.to_string());
         }

@@ -1,8 +1,10 @@
-//! Vehicle as part of another simulation: forces of the external dampers are inputs, signals are outputs.
+//! Vehicle as part of another simulation: forces of the external dampers, speed, friction and forces on bodies are
+//! inputs, signals are outputs.
 
 use std::collections::HashSet;
 use std::sync::Arc;
 
+use dashpot_core::DamperParameters;
 use dashpot_rail::contact::Tables;
 use dashpot_rail::vehicle::VehicleState;
 use serde::{Deserialize, Serialize};
@@ -10,8 +12,8 @@ use sha2::{Digest as _, Sha256};
 
 use super::contact::ContactSetup;
 use super::recorded::all_signals;
-use super::signals::{Signal, slug};
-use super::{Ending, Run, VehicleRunError, outside_index};
+use super::signals::Signal;
+use super::{Ending, Input, Run, VehicleRunError, outside_index};
 use dashpot_files::case::Case;
 
 /// Everything that defines a coupled vehicle except its contact tables; can be serialized completely.
@@ -75,7 +77,7 @@ fn outside_indices(case: &Case, names: &[String]) -> Result<Vec<usize>, VehicleR
 /// Input or output variable of a coupled vehicle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoupledVariable {
-    /// Name of the signal, which ends in the unit.
+    /// Name of the signal, which ends in the unit unless it has none.
     pub name: String,
     /// Source or destination of the value.
     role: Role,
@@ -83,24 +85,18 @@ pub struct CoupledVariable {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Role {
-    /// Force of an external damper, by its index in `Coupled::outside`.
-    Force(usize),
+    Input(Input),
     Output(Signal),
 }
 
 impl CoupledVariable {
-    /// True if this is the force of an external damper, which is an input.
-    pub fn is_force(&self) -> bool {
-        matches!(self.role, Role::Force(_))
+    /// The input that this variable is; `None` for an output.
+    pub fn input(&self) -> Option<Input> {
+        match self.role {
+            Role::Input(input) => Some(input),
+            Role::Output(_) => None,
+        }
     }
-}
-
-/// A damper whose force comes from another simulation.
-#[derive(Debug, Clone)]
-struct Outside {
-    /// Index of the damper in the vehicle.
-    index: usize,
-    force_n: f64,
 }
 
 /// Vehicle whose external dampers are computed by another simulation.
@@ -114,7 +110,6 @@ pub struct Coupled {
     /// State before the ticks of the current call of [`Coupled::step`].
     before: VehicleState,
     variables: Arc<[CoupledVariable]>,
-    outside: Vec<Outside>,
     ending: Option<Ending>,
 }
 
@@ -131,30 +126,19 @@ impl Coupled {
         let case = &coupled.case;
         let contacts = coupled.contact()?.contacts(tables)?;
         let mut run = Run::on(case, contacts, Arc::new(case.track.build()?))?;
-        let names: Vec<String> = run.vehicle().damper_names().map(str::to_owned).collect();
-        let indices = outside_indices(case, &coupled.outside)?;
-        let outside: Vec<Outside> = indices
-            .into_iter()
-            .map(|index| {
-                run.state_mut().set_outside_force_n(index, Some(0.0))?;
-                Ok(Outside {
-                    index,
-                    force_n: 0.0,
-                })
-            })
-            .collect::<Result<_, VehicleRunError>>()?;
-        let mut variables = Vec::new();
-        for (slot, damper) in outside.iter().enumerate() {
-            variables.push(CoupledVariable {
-                name: format!("{}_force_n", slug(&names[damper.index])),
-                role: Role::Force(slot),
-            });
+        let outside = outside_indices(case, &coupled.outside)?;
+        for damper in &outside {
+            run.state_mut().set_outside_force_n(*damper, Some(0.0))?;
         }
-        let is_outside = |signal: &Signal| {
-            outside
-                .iter()
-                .any(|damper| signal.is_force_of(damper.index))
-        };
+        let inputs = Input::all(run.vehicle(), &outside);
+        let mut variables: Vec<CoupledVariable> = inputs
+            .into_iter()
+            .map(|input| CoupledVariable {
+                name: input.name(run.vehicle()),
+                role: Role::Input(input),
+            })
+            .collect();
+        let is_outside = |signal: &Signal| outside.iter().any(|damper| signal.is_force_of(*damper));
         for signal in all_signals(&run, &case.vehicle) {
             let name = signal.name().to_owned();
             // The surrounding simulation supplies the time.
@@ -176,12 +160,11 @@ impl Coupled {
             start: run.clone(),
             run,
             variables: variables.into(),
-            outside,
             ending: None,
         })
     }
 
-    /// Variables: force of each external damper, then all other signals of the vehicle except the time.
+    /// Variables: all inputs, then all signals of the vehicle except the time and the forces of external dampers.
     pub fn variables(&self) -> &[CoupledVariable] {
         &self.variables
     }
@@ -196,37 +179,49 @@ impl Coupled {
         self.run.ticks() as f64 * self.step_s()
     }
 
-    /// Returns to the start of the case and sets the forces of all external dampers to zero.
+    /// Time since the start, s.
+    pub fn time_s(&self) -> f64 {
+        self.run.time_s()
+    }
+
+    /// Returns to the start of the case, with the inputs that it has there; external dampers have no force.
     pub fn reset(&mut self) {
         self.run.clone_from(&self.start);
         self.ending = None;
-        for damper in &mut self.outside {
-            damper.force_n = 0.0;
-        }
     }
 
     /// Value of the variable with index `index`; `None` if there is no such variable.
     pub fn value(&self, index: usize) -> Option<f64> {
         Some(match &self.variables.get(index)?.role {
-            Role::Force(slot) => self.outside[*slot].force_n,
+            Role::Input(input) => input.value(self.run.state()),
             Role::Output(signal) => signal.value(self.run.state(), self.run.time_s()),
         })
     }
 
-    /// Sets the force of an external damper, N, for all following ticks; `index` is that of the variable.
+    /// Sets an input for all following ticks; `index` is that of the variable. An event of the case that changes the same
+    /// quantity later replaces the value.
     ///
     /// # Errors
-    /// The variable is not the force of an external damper, or the force is not finite. On an error, nothing changes.
-    pub fn set_force_n(&mut self, index: usize, force_n: f64) -> Result<(), VehicleRunError> {
-        let role = self.variables.get(index).map(|variable| &variable.role);
-        let Some(Role::Force(slot)) = role else {
-            return Err(VehicleRunError::NotAForce { variable: index });
+    /// The variable is not an input, or the value is not allowed. On an error, nothing changes.
+    pub fn set(&mut self, index: usize, value: f64) -> Result<(), VehicleRunError> {
+        let variable = self.variables.get(index);
+        let Some(input) = variable.and_then(CoupledVariable::input) else {
+            return Err(VehicleRunError::NotAnInput { variable: index });
         };
-        let damper = &mut self.outside[*slot];
-        let state = self.run.state_mut();
-        state.set_outside_force_n(damper.index, Some(force_n))?;
-        damper.force_n = force_n;
-        Ok(())
+        input.set(self.run.state_mut(), value)
+    }
+
+    /// Replaces a damper of the vehicle from the next tick on; its force stays continuous. [`Self::reset`] and
+    /// [`Self::restore`] bring back the case's dampers.
+    ///
+    /// # Errors
+    /// No damper of this name, or parameters that cannot be built for the step of the case.
+    pub fn replace_damper(
+        &mut self,
+        name: &str,
+        parameters: &DamperParameters,
+    ) -> Result<(), VehicleRunError> {
+        self.run.replace_damper(name, parameters)
     }
 
     /// Simulates up to `ticks` ticks, fewer if the run ends, and returns their number. If the run diverges, the state
@@ -259,8 +254,7 @@ impl Coupled {
     /// # Errors
     /// None are known.
     pub fn save(&self) -> Result<Vec<u8>, postcard::Error> {
-        let outside: Vec<f64> = self.outside.iter().map(|damper| damper.force_n).collect();
-        postcard::to_stdvec(&(self.run.state(), outside, self.ending_code()))
+        postcard::to_stdvec(&(self.run.state(), self.ending_code()))
     }
 
     /// Resumes from bytes saved by a vehicle of the same case.
@@ -268,15 +262,9 @@ impl Coupled {
     /// # Errors
     /// The bytes are not a state of this vehicle. On an error, nothing changes.
     pub fn restore(&mut self, bytes: &[u8]) -> Result<(), postcard::Error> {
-        let (state, outside, ending): (VehicleState, Vec<f64>, i32) = postcard::from_bytes(bytes)?;
+        let (state, ending): (VehicleState, i32) = postcard::from_bytes(bytes)?;
         let invalid = |_| postcard::Error::DeserializeBadEncoding;
-        if outside.len() != self.outside.len() {
-            return Err(postcard::Error::DeserializeBadEncoding);
-        }
         self.run.restore(&self.start, state).map_err(invalid)?;
-        for (damper, force_n) in self.outside.iter_mut().zip(outside) {
-            damper.force_n = force_n;
-        }
         self.ending = match ending {
             0 => None,
             1 => Some(Ending::Completed),

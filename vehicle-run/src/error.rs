@@ -61,9 +61,17 @@ pub enum VehicleRunError {
         /// Version of Dashpot that wrote the case.
         version: String,
     },
-    /// A variable cannot be set, because it is not the force of an external damper.
-    #[error("variable {variable} cannot be set; allowed: the force of an external damper")]
-    NotAForce {
+    /// No damper of the vehicle has this name.
+    #[error("no damper `{name}`{near}")]
+    NoDamper {
+        /// The name.
+        name: String,
+        /// Suggestion with the nearest name, or empty.
+        near: String,
+    },
+    /// A variable cannot be set, because it is an output.
+    #[error("variable {variable} cannot be set; allowed: inputs")]
+    NotAnInput {
         /// Index of the variable.
         variable: usize,
     },

@@ -13,6 +13,7 @@ mod filtered;
 pub mod hunting;
 mod indices;
 mod influences;
+mod input;
 mod outside;
 mod overturning;
 pub mod recorded;
@@ -33,6 +34,7 @@ pub use indices::{
     BodyIndices, FILTER_HZ, Indexer, Indices, Judged, Nadal, NadalWheel, RideError, RideIndices,
     UnbalancedIndices, WINDOW_M, WheelIndices, WheelsetIndices, check_ride,
 };
+pub use input::Input;
 pub use outside::{OutsideError, outside_index};
 pub use run::Run;
 pub use tick::{TickRecord, VehicleTick};

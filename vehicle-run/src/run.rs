@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dashpot_core::Damper;
+use dashpot_core::{Damper, DamperParameters};
 use dashpot_rail::contact::Status;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::Track;
@@ -17,6 +17,7 @@ use super::overturning::Overturned;
 use super::signals::{SIDES, load_n};
 use super::validity::END_LOAD_RATIO;
 use dashpot_files::case::{Case, Fault};
+use dashpot_files::did_you_mean;
 
 /// Run of a vehicle on its track, before or between ticks.
 #[derive(Debug, Clone)]
@@ -137,6 +138,25 @@ impl Run {
         self.clone_from(start);
         self.state = state;
         Ok(())
+    }
+
+    /// Replaces a damper from the next tick on; its force stays continuous.
+    ///
+    /// # Errors
+    /// No damper of this name, or parameters that cannot be built for the step of the case.
+    pub fn replace_damper(
+        &mut self,
+        name: &str,
+        parameters: &DamperParameters,
+    ) -> Result<(), VehicleRunError> {
+        let index = self.vehicle.damper_names().position(|other| other == name);
+        match index {
+            Some(index) => Ok(self.vehicle.set_damper(index, parameters)?),
+            None => Err(VehicleRunError::NoDamper {
+                name: name.to_owned(),
+                near: did_you_mean(name, self.vehicle.damper_names()),
+            }),
+        }
     }
 
     /// True if all ticks have been simulated.

@@ -116,13 +116,13 @@ fn variables(prefix: &str, clearance_m: f64) -> [Variable; 6] {
             name: prefixed("displacement_m"),
             unit: "m",
             description: "Displacement of the damper's ends at the communication point, positive in extension",
-            kind: Kind::Input,
+            kind: Kind::Input { start: 0.0 },
         },
         Variable {
             name: prefixed("velocity_m_per_s"),
             unit: "m/s",
             description: "Rate of displacement over the next communication step; with it the force has no delay",
-            kind: Kind::Input,
+            kind: Kind::Input { start: 0.0 },
         },
         Variable {
             name: prefixed("force_n"),

@@ -167,13 +167,14 @@ impl Fmu {
         let reference = reference.to_string();
         let name = variable.map_or("time", |variable| &variable.name);
         let mut head = vec![("name", name), ("valueReference", &reference)];
-        let mut own = Vec::new();
-        let (start, max);
+        let mut own: Vec<(&str, &str)> = Vec::new();
+        let (start, max): (String, String);
         match variable.map(|variable| variable.kind) {
             None => head.extend([("causality", "independent"), ("variability", "continuous")]),
-            Some(Kind::Input) => {
+            Some(Kind::Input { start: value }) => {
                 head.extend([("causality", "input"), ("variability", "continuous")]);
-                own.push(("start", "0"));
+                start = value.to_string();
+                own.push(("start", &start));
             }
             Some(Kind::Output) => head.extend([
                 ("causality", "output"),

@@ -12,17 +12,18 @@ pub(super) struct Variable {
 /// Causality and variability of a variable, with its start value.
 #[derive(Clone, Copy)]
 pub(super) enum Kind {
-    Input,
+    Input { start: f64 },
     Output,
     Tunable { start: f64, max: f64 },
     Counter,
 }
 
 /// Units with their SI base units.
-pub(super) const UNITS: [(&str, &str); 5] = [
+pub(super) const UNITS: [(&str, &str); 6] = [
     ("m", r#"m="1""#),
     ("m/s", r#"m="1" s="-1""#),
     ("m/s2", r#"m="1" s="-2""#),
     ("rad", r#"rad="1""#),
     ("N", r#"kg="1" m="1" s="-2""#),
+    ("N.m", r#"kg="1" m="2" s="-2""#),
 ];

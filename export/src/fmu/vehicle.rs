@@ -10,10 +10,11 @@ use super::variable::{Kind, Variable};
 use super::{Fmu, Interface, check, token_of};
 use crate::ExportError;
 use dashpot_files::nearest_nanosecond;
-use dashpot_vehicle_run::{Coupled, CoupledCase, CoupledVariable};
+use dashpot_vehicle_run::{Coupled, CoupledCase, CoupledVariable, Input};
 
 /// Units by the suffix of a variable's name, longest first.
-const UNITS: [(&str, &str); 5] = [
+const UNITS: [(&str, &str); 6] = [
+    ("_n_m", "N.m"),
     ("_m_per_s2", "m/s2"),
     ("_m_per_s", "m/s"),
     ("_rad", "rad"),
@@ -52,7 +53,12 @@ impl Fmu {
             "constants.c",
             constants(step_s, &token, &CoupledCase::digest(&json)),
         ));
-        let mut variables: Vec<Variable> = coupled.variables().iter().map(variable).collect();
+        let mut variables: Vec<Variable> = coupled
+            .variables()
+            .iter()
+            .enumerate()
+            .map(|(index, one)| variable(one, coupled.value(index).unwrap_or_default()))
+            .collect();
         variables.push(Variable {
             name: "ending".into(),
             unit: "",
@@ -84,20 +90,17 @@ impl Fmu {
     }
 }
 
-fn variable(variable: &CoupledVariable) -> Variable {
+fn variable(variable: &CoupledVariable, start: f64) -> Variable {
     let unit = UNITS
         .iter()
         .find(|(suffix, _)| variable.name.ends_with(suffix));
     Variable {
         name: variable.name.clone(),
         unit: unit.map_or("", |(_, unit)| unit),
-        description: match variable.is_force() {
-            true => "Force of the external damper, positive when it resists extension",
-            false => "",
-        },
-        kind: match variable.is_force() {
-            true => Kind::Input,
-            false => Kind::Output,
+        description: variable.input().map_or("", Input::description),
+        kind: match variable.input() {
+            Some(_) => Kind::Input { start },
+            None => Kind::Output,
         },
     }
 }
@@ -115,12 +118,12 @@ fn about(case: &CoupledCase) -> Markup {
     html! {
         p {
             "The vehicle of the case " (case.case.name) " on its track. The force of " (case.outside.join(", "))
-            " is an input. Outputs are the signals of a Dashpot vehicle history, and the rate of each external damper \
+            " is an input, and so are the speed, a factor on the friction, and forces and moments on each body. Outputs are the signals of a Dashpot vehicle history, and the rate of each external damper \
              over the last internal step."
         }
         p {
-            "A force that is set at time t acts at the end of the internal step that starts at t, and stays until \
-             another is set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond \
+            "A damper force that is set at time t acts at the end of the internal step that starts at t; other inputs \
+             act during it. A value stays until another is set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond \
              the model; "
             code { "ending" }
             " gives the reason."

@@ -40,7 +40,7 @@ fn rows(vehicle: &mut Coupled, ticks: std::ops::Range<u64>) -> Vec<Vec<u64>> {
     ticks
         .map(|tick| {
             vehicle
-                .set_force_n(0, 8e3 * (0.05 * tick as f64).sin())
+                .set(0, 8e3 * (0.05 * tick as f64).sin())
                 .unwrap();
             assert_eq!(vehicle.step(1).unwrap(), 1);
             bits(vehicle)
@@ -131,7 +131,7 @@ fn forces_of_its_own_damper_reproduce_its_own_run() {
         own.step().unwrap();
         // The force of a damper that follows the vehicle without delay.
         vehicle
-            .set_force_n(0, own.state().damper_forces_n()[number])
+            .set(0, own.state().damper_forces_n()[number])
             .unwrap();
         assert_eq!(vehicle.step(1).unwrap(), 1);
         let x = own.state().damper_displacements_m()[number];
@@ -149,7 +149,7 @@ fn a_vehicle_that_diverges_stays_where_it_was() {
     let mut vehicle = coupled(&definition);
     rows(&mut vehicle, 0..10);
     let before = bits(&vehicle);
-    vehicle.set_force_n(0, 1e300).unwrap();
+    vehicle.set(0, 1e300).unwrap();
     assert_eq!(vehicle.step(5).unwrap(), 0);
     assert_eq!(vehicle.ending_code(), 4);
     assert!(

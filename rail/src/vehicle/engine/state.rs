@@ -199,6 +199,11 @@ impl VehicleState {
         Ok(())
     }
 
+    /// Returns the external force of a damper, N; `None` if its own model gives the force or there is no such damper.
+    pub fn outside_force_n(&self, damper: usize) -> Option<f64> {
+        self.outside_forces_n.get(damper).copied().flatten()
+    }
+
     /// Returns the worst status of all wheels.
     pub fn status(&self) -> Status {
         let statuses = self.contacts.iter().map(|contact| contact.status);
