@@ -1,46 +1,33 @@
 //! Time of a millisecond tick of the six-axle locomotive, and of its parts in the same run.
 //!
 //! An element is a tick. `contact` is the contact of six wheelsets in each of the four steps of a tick, with two loaded
-//! patches each; `dampers` is the step of the twelve dampers; the rest of a tick is springs, track, factors and
+//! patches each; `dampers` is the step of the twenty dampers; the rest of a tick is springs, track, rails, factors and
 //! solution.
 #![allow(missing_docs)] // criterion's macros
 
 use std::hint::black_box;
-use std::sync::Arc;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::step_bank;
 use dashpot_files::case::{Case, CaseOptions};
-use dashpot_rail::contact::{
-    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
-    WheelsetForces,
-};
-use dashpot_rail::creep::{Friction, KalkerBook};
+use dashpot_rail::contact::{Motion, RailDisplacement, WheelsetForces};
 use dashpot_rail::vehicle::{Law, Vehicle, VehicleParameters};
+use dashpot_vehicle_run::contact::{Contact, ContactSetup};
 
 const STEP_S: f64 = 1e-3;
 /// Number of ticks in one sample; each sample starts from the same state.
 const TICKS: usize = 200;
 const STEPS_A_TICK: usize = 4;
 const WHEELSETS: usize = 6;
-const DAMPERS: usize = 12;
-/// Dampers are stepped in groups of eight, so twelve take sixteen lanes.
-const LANES: usize = 16;
-
-type Contact = Arc<WheelsetContact<KalkerBook>>;
-
-fn contact(tables: &Arc<Tables>, case: &Case) -> Contact {
-    let friction = Friction::constant(case.friction);
-    let contact = WheelsetContact::new(Arc::clone(tables), KalkerBook::new(), friction)
-        .and_then(|contact| contact.with_normal_damping(case.normal_damping_s_per_m))
-        .expect("a shipped case is valid");
-    Arc::new(contact)
-}
+const DAMPERS: usize = 20;
+/// Dampers are stepped in groups of eight, so twenty take twenty-four lanes.
+const LANES: usize = 24;
 
 /// Starts from the state of the case after `seconds`.
-fn ticks(criterion: &mut Criterion, tables: &Arc<Tables>, name: &str, case: &Case, seconds: f64) {
-    let contact = contact(tables, case);
-    let vehicle = Vehicle::new(&case.vehicle, contact, STEP_S).expect("a shipped vehicle is valid");
+fn ticks(criterion: &mut Criterion, name: &str, case: &Case, seconds: f64) {
+    let contacts = contacts_of(case);
+    let vehicle = Vehicle::with_contacts(&case.vehicle, contacts, STEP_S, case.rails)
+        .expect("a shipped vehicle is valid");
     let track = case.track.build().expect("a shipped track is valid");
     let mut start = vehicle
         .at_rest(&track, case.start_m, case.speed_m_per_s)
@@ -65,8 +52,14 @@ fn ticks(criterion: &mut Criterion, tables: &Arc<Tables>, name: &str, case: &Cas
     group.finish();
 }
 
-fn contacts(criterion: &mut Criterion, tables: &Arc<Tables>, case: &Case) {
-    let contact = contact(tables, case);
+/// Contact of each wheelset of a case.
+fn contacts_of(case: &Case) -> Vec<Contact> {
+    let setup = ContactSetup::of_case(case).expect("a shipped vehicle is valid");
+    setup.tabulated().expect("a shipped contact is valid")
+}
+
+fn contacts(criterion: &mut Criterion, case: &Case) {
+    let contact = &contacts_of(case)[0];
     let rails = [RailDisplacement::default(); 2];
     let motion = Motion {
         speed_m_per_s: 50.0,
@@ -124,31 +117,18 @@ fn dampers(criterion: &mut Criterion, vehicle: &VehicleParameters) {
 }
 
 fn vehicle(criterion: &mut Criterion) {
-    let installation = Installation::default().with_wheel_radius_m(0.625);
-    let pair = Pair::standard(installation).expect("the standard pair is valid");
-    let geometry =
-        ContactGeometry::new(pair, Steel::default()).expect("the default steel is valid");
-    let tables = Tables::new(geometry);
-    let tables = Arc::new(tables);
     let ideal = CaseOptions::new("locomotive", "ideal", 180.0).case();
     let ideal = ideal.expect("vehicle and track ship");
     let shipped = |name| Case::load(name).expect("the case ships");
-    ticks(criterion, &tables, "ideal straight", &ideal, 1.0);
+    ticks(criterion, "ideal straight", &ideal, 1.0);
     ticks(
         criterion,
-        &tables,
         "straight of class 6",
         &shipped("straight-180"),
         2.0,
     );
-    ticks(
-        criterion,
-        &tables,
-        "curve of 300 m",
-        &shipped("curve-r300"),
-        8.0,
-    );
-    contacts(criterion, &tables, &ideal);
+    ticks(criterion, "curve of 300 m", &shipped("curve-r300"), 8.0);
+    contacts(criterion, &ideal);
     dampers(criterion, &ideal.vehicle);
 }
 

@@ -274,7 +274,7 @@ impl Coupled {
         Ok(())
     }
 
-    /// Ending as a number: 0 not ended, 1 case completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5
+    /// Ending as a number: 0 not ended, 1 case completed, 2 a wheel climbed the rail, 3 outside the contact tables, 4 diverged, 5
     /// beyond the model, 6 overturned.
     pub fn ending_code(&self) -> i32 {
         match &self.ending {

@@ -62,7 +62,7 @@ impl Fmu {
         variables.push(Variable {
             name: "ending".into(),
             unit: "",
-            description: "0 running, 1 completed, 2 derailed, 3 outside the contact tables, 4 diverged, 5 beyond the \
+            description: "0 running, 1 completed, 2 a wheel climbed the rail, 3 outside the contact tables, 4 diverged, 5 beyond the \
                           model, 6 overturned",
             kind: Kind::Counter,
         });

@@ -178,6 +178,7 @@ fn file_names_are_relative_to_the_case_file() {
 fn errors_have_file_line_and_name() {
     let with = |lines: &str| format!("{CASE}{lines}\n");
     let fault = |lines: &str| with(&format!("\n[[fault]]\n{lines}"));
+    let event = |lines: &str| with(&format!("\n[[event]]\n{lines}"));
     let cases = [
         (with("speed = 3"), "line 5, column 1"),
         (with("speed = 3"), "did you mean `speed_km_h`?"),
@@ -253,6 +254,38 @@ fn errors_have_file_line_and_name() {
         (
             fault("time_s = 1\ndamper = \"vertical\""),
             "case.toml:6: fault 1: no effect without `damper_file` or `set`",
+        ),
+        (
+            event("time_s = 1\nspeed_km_h = 100"),
+            "case.toml:6: event 1: ramp_s 0, allowed: at least",
+        ),
+        (
+            event("time_s = 1\nramp_s = 99\nspeed_km_h = 1000"),
+            "case.toml:6: event 1: speed_km_h 1000, allowed: 3.6 to 540",
+        ),
+        (
+            event("time_s = -1\nfriction_factor = 1"),
+            "case.toml:6: event 1: time_s -1, allowed: 0 to 10",
+        ),
+        (
+            event("time_s = 1\nfriction_factor = nan"),
+            "case.toml:6: event 1: friction_factor NaN, allowed: 0 to 5",
+        ),
+        (
+            event("time_s = 1\nfriction_factor = 0.5\nforce_on = \"body\""),
+            "case.toml:6: event 1: allowed: one of `speed_km_h`, `friction_factor`, or `force_on` with `force_at_m`",
+        ),
+        (
+            event("time_s = 1\nforce_on = \"roof\"\nforce_at_m = [0, 0, 4]\nforce_n = [1, 0]"),
+            "case.toml:6: event 1: force_on `roof`, allowed: body, front bogie, rear bogie",
+        ),
+        (
+            event("time_s = 1\nforce_on = \"body\"\nforce_at_m = [0, 0, 400]\nforce_n = [1, 0]"),
+            "case.toml:6: event 1: force_at_m 400, allowed: -50 to 50",
+        ),
+        (
+            event("time_s = 1\nforce_on = \"body\"\nforce_at_m = [0, 0, 4]\nforce_n = [1, 2e6]"),
+            "case.toml:6: event 1: force_n 2000000, allowed: -1000000 to 1000000",
         ),
     ];
     for (text, expected) in cases {

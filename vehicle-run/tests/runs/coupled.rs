@@ -39,9 +39,7 @@ fn bits(vehicle: &Coupled) -> Vec<u64> {
 fn rows(vehicle: &mut Coupled, ticks: std::ops::Range<u64>) -> Vec<Vec<u64>> {
     ticks
         .map(|tick| {
-            vehicle
-                .set(0, 8e3 * (0.05 * tick as f64).sin())
-                .unwrap();
+            vehicle.set(0, 8e3 * (0.05 * tick as f64).sin()).unwrap();
             assert_eq!(vehicle.step(1).unwrap(), 1);
             bits(vehicle)
         })

@@ -214,7 +214,9 @@ fn damping_influence(case: &Case, run: &Run, report: &Report) -> Outcome<Option<
     let Some((load_n, static_n)) = greatest else {
         return Ok(None);
     };
-    DampingInfluence::of(case, run, load_n, load_n / static_n)
+    let _ends_gently = interruption::end_gently();
+    let is_cancelled = &interruption::is_wanted;
+    DampingInfluence::of(case, run, load_n, load_n / static_n, is_cancelled)
         .map_err(|error| options::refused(case, &error))
 }
 
