@@ -14,3 +14,23 @@ pub struct Stop {
     /// Limit for the duration (ns).
     pub limit_ns: u64,
 }
+
+impl Stop {
+    /// Returns a stop if the work of `tick` took longer than the limit; `None` without a limit.
+    ///
+    /// ```
+    /// use dashpot_realtime::stop::Stop;
+    /// let stop = Stop::if_above(7, 1e-3, 50_000.0, Some(40_000)).unwrap();
+    /// assert_eq!((stop.tick, stop.time_s, stop.work_ns), (7, 7e-3, 50_000.0));
+    /// assert_eq!(Stop::if_above(7, 1e-3, 40_000.0, Some(40_000)), None);
+    /// ```
+    pub fn if_above(tick: u64, step_s: f64, work_ns: f64, limit_ns: Option<u64>) -> Option<Self> {
+        let limit_ns = limit_ns.filter(|limit| work_ns > *limit as f64)?;
+        Some(Self {
+            tick,
+            time_s: tick as f64 * step_s,
+            work_ns,
+            limit_ns,
+        })
+    }
+}

@@ -279,7 +279,12 @@ impl Coupled {
     pub fn ending_code(&self) -> i32 {
         match &self.ending {
             None => 0,
-            Some(Ending::Completed | Ending::Interrupted { .. } | Ending::OutsideLost { .. }) => 1,
+            Some(
+                Ending::Completed
+                | Ending::Interrupted { .. }
+                | Ending::OutsideLost { .. }
+                | Ending::SlowTick { .. },
+            ) => 1,
             Some(Ending::Climbed { .. }) => 2,
             Some(Ending::OutsideTables { .. }) => 3,
             Some(Ending::Diverged { .. } | Ending::Numerical { .. }) => 4,

@@ -110,6 +110,18 @@ pub enum Ending {
         #[serde(flatten)]
         place: Place,
     },
+    /// The work of a tick took longer than allowed in real time.
+    SlowTick {
+        /// Number of the tick, from 0.
+        tick: u64,
+        /// Duration of its work, ns.
+        work_ns: f64,
+        /// Limit for the duration, ns.
+        limit_ns: u64,
+        /// Time and place.
+        #[serde(flatten)]
+        place: Place,
+    },
     /// Interrupted by the user.
     Interrupted {
         /// Time and place.
@@ -124,7 +136,10 @@ impl Ending {
     pub fn has_indices(&self) -> bool {
         matches!(
             self,
-            Self::Completed | Self::Interrupted { .. } | Self::OutsideLost { .. }
+            Self::Completed
+                | Self::Interrupted { .. }
+                | Self::OutsideLost { .. }
+                | Self::SlowTick { .. }
         )
     }
 
@@ -139,6 +154,7 @@ impl Ending {
             | Self::BeyondModel { place, .. }
             | Self::Diverged { place, .. }
             | Self::OutsideLost { place, .. }
+            | Self::SlowTick { place, .. }
             | Self::Interrupted { place } => Some(*place),
         }
     }
@@ -236,6 +252,17 @@ impl fmt::Display for Ending {
             Self::OutsideLost { message, place } => {
                 write!(f, "an external damper was lost {place}: {message}")
             }
+            Self::SlowTick {
+                tick,
+                work_ns,
+                limit_ns,
+                place,
+            } => write!(
+                f,
+                "stopped {place}: the work of tick {tick} took {:.1} us; allowed: {:.1} us",
+                1e-3 * work_ns,
+                1e-3 * *limit_ns as f64
+            ),
             Self::Interrupted { place } => write!(f, "interrupted {place}"),
         }
     }

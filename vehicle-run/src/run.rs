@@ -194,6 +194,16 @@ impl Run {
         }
     }
 
+    /// Ending of a run in real time that stops after `tick`, whose work took `work_ns`; allowed: `limit_ns`.
+    pub fn slow_tick(&self, tick: u64, work_ns: f64, limit_ns: u64) -> Ending {
+        Ending::SlowTick {
+            tick,
+            work_ns,
+            limit_ns,
+            place: self.place(),
+        }
+    }
+
     /// Ending of a run whose external damper has stopped delivering forces.
     pub fn outside_lost(&self, message: String) -> Ending {
         Ending::OutsideLost {

@@ -98,3 +98,42 @@ impl RealtimeArguments {
         Ok(options)
     }
 }
+
+/// Limits on the times of ticks.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::Args)]
+pub struct TickLimitArguments {
+    /// Stop with exit code 1 at the first tick that takes longer than this, ns.
+    #[arg(long, value_name = "NS", value_parser = clap::value_parser!(u64).range(1..))]
+    pub stop_above_ns: Option<u64>,
+    /// Exit with code 1 if a deadline was missed.
+    #[arg(long)]
+    pub fail_on_miss: bool,
+}
+
+impl TickLimitArguments {
+    /// Returns the limits, which require `option`.
+    ///
+    /// # Errors
+    /// Limits are set although `option` is not `given`.
+    pub fn limits_under(&self, option: &str, given: bool) -> Outcome<Self> {
+        if !given && *self != Self::default() {
+            return Err(Failure::wrong_use(format!(
+                "--stop-above-ns and --fail-on-miss require {option}"
+            )));
+        }
+        Ok(*self)
+    }
+
+    /// Checks that the run has deadlines, which `option` gives it, if none may be missed.
+    ///
+    /// # Errors
+    /// `--fail-on-miss` is set although `option` is not `given`.
+    pub fn require_deadlines(&self, option: &str, given: bool) -> Outcome<()> {
+        if self.fail_on_miss && !given {
+            return Err(Failure::wrong_use(format!(
+                "--fail-on-miss requires {option}: a free run has no deadlines"
+            )));
+        }
+        Ok(())
+    }
+}

@@ -34,11 +34,12 @@ pub mod shims;
 pub mod step_size;
 mod streams;
 pub mod sweep;
+mod tick_times;
 pub mod vehicle;
 pub mod verify;
 mod wheel_rail;
 
-use arguments::{DamperArguments, Format, RealtimeArguments};
+use arguments::{DamperArguments, Format, RealtimeArguments, TickLimitArguments};
 use failure::Outcome;
 use print::{counted, nearest_nanosecond, print_report, print_report_beside};
 

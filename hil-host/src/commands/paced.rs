@@ -5,6 +5,8 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::counted;
+use super::tick_times::TickTimes;
+use dashpot_realtime::budget::Run;
 use dashpot_realtime::limits::TICKS_PER_ALLOWED_MISS;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::{Figures, optional_span, span};
@@ -21,6 +23,9 @@ pub(super) struct Paced {
     /// Number of ticks that waited for the writing thread.
     #[serde(skip_serializing_if = "Option::is_none")]
     waits_for_writing: Option<u64>,
+    /// Times of the ticks, as `dashpot budget` reports them.
+    #[serde(flatten)]
+    times: Option<TickTimes>,
 }
 
 impl From<&PacingReport> for Paced {
@@ -32,20 +37,23 @@ impl From<&PacingReport> for Paced {
             lateness: report.lateness.figures(),
             work: report.work.figures(),
             waits_for_writing: None,
+            times: None,
         }
     }
 }
 
 impl Paced {
-    /// Creates the report of a run whose results another thread writes; `waits` ticks waited for that thread.
-    pub(super) fn with_waits(report: &PacingReport, waits: u64) -> Self {
+    /// Creates the report of a run with the times of its ticks of `step_s` (s). Another thread writes its results, for
+    /// which `waits` ticks waited.
+    pub(super) fn with_times(report: &PacingReport, step_s: f64, waits: u64) -> Self {
         Self {
             waits_for_writing: Some(waits),
+            times: Some(TickTimes::new(&Run::from(report.clone()), step_s)),
             ..Self::from(report)
         }
     }
 
-    /// Prints one line of text; `work` describes the work of a tick.
+    /// Prints one line of text, and the times if there are any; `work` describes the work of a tick.
     pub(super) fn write(&self, out: &mut dyn Write, work: &str) -> io::Result<()> {
         writeln!(
             out,
@@ -59,13 +67,16 @@ impl Paced {
             span(self.work.worst_ns),
             self.work.worst_index
         )?;
-        match self.waits_for_writing {
-            Some(waits) if waits > 0 => writeln!(
+        if let Some(waits) = self.waits_for_writing.filter(|waits| *waits > 0) {
+            writeln!(
                 out,
                 "warning: {} waited for the thread that writes the history",
                 counted(waits, "tick")
-            ),
-            _ => Ok(()),
+            )?;
+        }
+        match &self.times {
+            Some(times) => times.print(out),
+            None => Ok(()),
         }
     }
 }

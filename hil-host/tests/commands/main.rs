@@ -46,6 +46,7 @@ mod step_size;
 mod sweep;
 mod vehicle;
 mod vehicle_contact;
+mod vehicle_realtime;
 mod verify;
 mod verify_probed;
 mod wheel_load_beyond_the_model;

@@ -1,7 +1,8 @@
 //! Timing of a free run: each tick starts when the previous one ends.
 
-use super::{Length, Run, Series, stop};
+use super::{Length, Run, Series};
 use crate::pacing::{Clock, FIRST_TICKS};
+use crate::stop::Stop;
 use crate::timing::Distribution;
 
 /// Number of ticks per batch, so that each tick carries only a hundredth of the cost of reading the clock.
@@ -30,7 +31,7 @@ pub fn free(
         if first_ticks_ns.len() < FIRST_TICKS {
             first_ticks_ns.push(elapsed_ns);
         }
-        stopped = stop(number, step_s, work_ns, stop_above_ns);
+        stopped = Stop::if_above(number, step_s, work_ns, stop_above_ns);
     }
     let mut pass = Pass::new(clock, length);
     while stopped.is_none() && pass.has_ticks_left() {

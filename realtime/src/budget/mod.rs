@@ -7,6 +7,7 @@ pub use free::free;
 pub use paced::paced;
 
 use crate::RealtimeError;
+use crate::pacing::PacingReport;
 use crate::stop::Stop;
 use crate::timing::Distribution;
 
@@ -45,15 +46,29 @@ pub struct Run {
     pub series: Vec<Series>,
 }
 
-/// Returns a stop if the work of a tick took longer than the limit.
-fn stop(tick: u64, step_s: f64, work_ns: f64, limit_ns: Option<u64>) -> Option<Stop> {
-    let limit_ns = limit_ns.filter(|limit| work_ns > *limit as f64)?;
-    Some(Stop {
-        tick,
-        time_s: tick as f64 * step_s,
-        work_ns,
-        limit_ns,
-    })
+/// The result of a paced run, from the statistics of its pacer.
+impl From<PacingReport> for Run {
+    fn from(report: PacingReport) -> Self {
+        let series = [
+            ("work", report.work),
+            ("lateness", report.lateness),
+            ("response", report.response),
+        ];
+        Self {
+            ticks: report.ticks,
+            missed_deadlines: Some(report.missed_deadlines),
+            stopped: report.stopped,
+            first_ticks_ns: report.first_work_ns,
+            series: series
+                .into_iter()
+                .map(|(name, spans)| Series {
+                    name,
+                    ticks_per_span: 1,
+                    spans,
+                })
+                .collect(),
+        }
+    }
 }
 
 impl Run {

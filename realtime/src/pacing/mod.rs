@@ -5,9 +5,12 @@ mod clock;
 
 pub use clock::{Clock, MonotonicClock, overhead_ns};
 
+use std::time::Duration;
+
 use crate::RealtimeError;
 use crate::limits::{RATE_RANGE_HZ, TICKS_PER_ALLOWED_MISS};
 use crate::options::RealtimeOptions;
+use crate::stop::Stop;
 use crate::timing::Distribution;
 
 /// Number of first ticks that are reported one by one.
@@ -37,6 +40,8 @@ pub struct Pacer<C: Clock = MonotonicClock> {
     origin_ns: Option<f64>,
     /// Tick that [`Self::release`] has started.
     open: Option<TickTiming>,
+    /// Longest allowed work of a tick (ns).
+    stop_above_ns: Option<u64>,
     report: PacingReport,
 }
 
@@ -50,6 +55,15 @@ pub struct TickTiming {
     pub due_ns: u64,
     /// Delay from the due time to the start of the work (ns).
     pub late_ns: u64,
+}
+
+impl TickTiming {
+    /// Duration of work that ended at `ended_ns` (ns).
+    fn work_ns(&self, ended_ns: u64) -> u64 {
+        ended_ns
+            .saturating_sub(self.due_ns)
+            .saturating_sub(self.late_ns)
+    }
 }
 
 /// Result of a tick after its work.
@@ -68,6 +82,8 @@ pub struct PacingReport {
     pub ticks: u64,
     /// Number of ticks whose work ended after the next tick was due.
     pub missed_deadlines: u64,
+    /// First tick whose work took longer than the limit of [`Pacer::stopping_above_ns`].
+    pub stopped: Option<Stop>,
     /// Time from the due time of a tick to the start of its work (ns).
     pub lateness: Distribution,
     /// Duration of the work, including one clock reading (ns).
@@ -130,15 +146,45 @@ impl<C: Clock> Pacer<C> {
             step_ns: step_s * 1e9,
             origin_ns: None,
             open: None,
+            stop_above_ns: None,
             report: PacingReport {
                 ticks: 0,
                 missed_deadlines: 0,
+                stopped: None,
                 lateness: Distribution::new(),
                 work: Distribution::new(),
                 response: Distribution::new(),
                 first_work_ns: Vec::with_capacity(FIRST_TICKS),
             },
         })
+    }
+
+    /// Sets the longest allowed work of a tick (ns); `None`, the default, allows any. The first tick that takes longer
+    /// is [`PacingReport::stopped`]; the caller then ends the run.
+    #[must_use]
+    pub fn stopping_above_ns(mut self, limit_ns: Option<u64>) -> Self {
+        self.stop_above_ns = limit_ns;
+        self
+    }
+
+    /// Time until the deadline of the tick that [`Self::release`] started; zero after the deadline or without a tick.
+    ///
+    /// ```
+    /// use dashpot_realtime::pacing::Pacer;
+    /// use dashpot_realtime::options::RealtimeOptions;
+    /// use std::time::Duration;
+    /// let mut pacer = Pacer::new(1e-3, &RealtimeOptions::default())?;
+    /// assert_eq!(pacer.time_left(), Duration::ZERO);
+    /// pacer.release(0);
+    /// assert!(pacer.time_left() < Duration::from_millis(1));
+    /// # Ok::<(), dashpot_realtime::RealtimeError>(())
+    /// ```
+    pub fn time_left(&self) -> Duration {
+        let Some(open) = self.open else {
+            return Duration::ZERO;
+        };
+        let deadline_ns = open.due_ns + self.step_ns.round() as u64;
+        Duration::from_nanos(deadline_ns.saturating_sub(self.clock.now_ns()))
     }
 
     /// Sleeps until `tick` is due. The first call starts the schedule: its tick is due one step later.
@@ -166,7 +212,8 @@ impl<C: Clock> Pacer<C> {
 
     /// Ends the work of the previous tick and sleeps until `tick` is due. With this method, the work of a tick is
     /// everything between two releases, including the statistics. Use this instead of [`Self::wait`] and
-    /// [`Self::finish`], and call [`Self::end`] after the last tick.
+    /// [`Self::finish`], and call [`Self::end`] after the last tick. If the work of the previous tick took longer than
+    /// the limit, this neither sleeps nor starts `tick`: check [`PacingReport::stopped`].
     ///
     /// ```
     /// use dashpot_realtime::pacing::Pacer;
@@ -183,6 +230,10 @@ impl<C: Clock> Pacer<C> {
     pub fn release(&mut self, tick: u64) {
         let now_ns = self.clock.now_ns();
         let before = self.open.take();
+        if let Some(slow) = before.filter(|timing| self.is_too_slow(*timing, now_ns)) {
+            self.record(slow, now_ns);
+            return;
+        }
         let timing = self.wait_from(tick, now_ns);
         self.open = Some(timing);
         if let Some(before) = before {
@@ -204,10 +255,22 @@ impl<C: Clock> Pacer<C> {
         self.record(timing, now_ns)
     }
 
+    /// True if the work of a tick that ends at `ended_ns` took longer than the limit.
+    fn is_too_slow(&self, timing: TickTiming, ended_ns: u64) -> bool {
+        let work_ns = timing.work_ns(ended_ns);
+        self.stop_above_ns
+            .is_some_and(|limit_ns| work_ns > limit_ns)
+    }
+
     fn record(&mut self, timing: TickTiming, ended_ns: u64) -> FinishedTick {
         let response_ns = ended_ns.saturating_sub(timing.due_ns);
-        let work_ns = response_ns.saturating_sub(timing.late_ns);
+        let work_ns = timing.work_ns(ended_ns);
+        let step_s = self.step_s();
         let report = &mut self.report;
+        if report.stopped.is_none() {
+            report.stopped =
+                Stop::if_above(timing.tick, step_s, work_ns as f64, self.stop_above_ns);
+        }
         if report.first_work_ns.len() < FIRST_TICKS {
             report.first_work_ns.push(work_ns);
         }

@@ -1,7 +1,10 @@
 //! The pacer on a simulated clock.
 
 use std::cell::Cell;
+use std::time::Duration;
 
+use dashpot_realtime::RealtimeError;
+use dashpot_realtime::budget::Run;
 use dashpot_realtime::pacing::{Clock, Pacer};
 
 /// A clock that the tests advance. Each sleep is 5 us too long.
@@ -96,4 +99,62 @@ fn rates_out_of_range_are_rejected() {
             .unwrap();
         assert!(error.to_string().contains("100 to 1000 us"), "{error}");
     }
+}
+
+/// The run ends at once: no sleep and no further tick after the slow one.
+#[test]
+fn the_first_tick_above_the_limit_is_reported_and_none_follows() {
+    let pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
+    let mut pacer = pacer.stopping_above_ns(Some(100_000));
+    let mut released = 0;
+    for tick in 0..6 {
+        pacer.release(tick);
+        if pacer.report().stopped.is_some() {
+            break;
+        }
+        released += 1;
+        // The work of tick 2 takes 2.5 ms; that of the others, 100 us, is exactly the limit.
+        let work = if tick == 2 { 2_500_000 } else { 100_000 };
+        pacer.clock().0.set(pacer.clock().now_ns() + work);
+    }
+    // Tick 2 was due at 3 ms and 700 ns and started 5 us late.
+    let ended_ns = 3_000_700 + 5_000 + 2_500_000;
+    assert_eq!(pacer.clock().now_ns(), ended_ns);
+    pacer.end();
+    let report = pacer.into_report();
+    assert_eq!((released, report.ticks), (3, 3));
+    let stop = report.stopped.unwrap();
+    assert_eq!(
+        (stop.tick, stop.work_ns, stop.limit_ns),
+        (2, 2.5e6, 100_000)
+    );
+    assert!((stop.time_s - 2e-3).abs() < 1e-15);
+    let run = Run::from(report);
+    assert_eq!((run.ticks, run.missed_deadlines), (3, Some(1)));
+    assert!(matches!(run.verdict(false), Err(RealtimeError::Stopped(_))));
+}
+
+#[test]
+fn a_slow_last_tick_is_reported_too() {
+    let pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
+    let mut pacer = pacer.stopping_above_ns(Some(100_000));
+    pacer.release(0);
+    pacer.clock().0.set(pacer.clock().now_ns() + 100_001);
+    pacer.end();
+    assert_eq!(pacer.report().stopped.unwrap().tick, 0);
+}
+
+#[test]
+fn the_time_left_ends_when_the_next_tick_is_due() {
+    let mut pacer = Pacer::with_clock(1e-3, SimulatedClock(Cell::new(700))).unwrap();
+    assert_eq!(pacer.time_left(), Duration::ZERO);
+    pacer.release(0);
+    // Each sleep is 5 us too long.
+    assert_eq!(pacer.time_left(), Duration::from_micros(995));
+    pacer.clock().0.set(pacer.clock().now_ns() + 900_000);
+    assert_eq!(pacer.time_left(), Duration::from_micros(95));
+    pacer.clock().0.set(pacer.clock().now_ns() + 900_000);
+    assert_eq!(pacer.time_left(), Duration::ZERO);
+    pacer.end();
+    assert_eq!(pacer.time_left(), Duration::ZERO);
 }

@@ -13,7 +13,8 @@ use dashpot_testbench::compiled::Compiled;
 use report::{Report, Setting, print};
 
 use super::named_values;
-use super::{DamperArguments, Format, RealtimeArguments, print_report};
+use super::tick_times::histogram_help;
+use super::{DamperArguments, Format, RealtimeArguments, TickLimitArguments, print_report};
 use crate::commands::failure::Outcome;
 use dashpot_files::Scalar;
 use dashpot_realtime::budget::{Length, free, paced};
@@ -25,15 +26,12 @@ use dashpot_realtime::timing::Machine;
 ///
 /// The dampers follow a synthetic motion that repeats: a random ride, a decay, then rest.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
+#[command(after_help = concat!("Examples:
   dashpot budget --damper paper --steps 1000000
   dashpot budget --rate-hz 10000 --duration-s 60 --fifo 80 --lock-memory --core 1 --fail-on-miss
   dashpot budget --rate-hz 1000 --stop-above-ns 100000 --format json
 
-Histogram bins are the same in every run, with edges at 1, 1.25, 1.6, 2, 2.5, 3.15, 4, 5, 6.3 and 8 times powers of ten
-from 1 ns to 10 s (R10 of ISO 3). A value on an edge belongs to the bin above. Empty bins are omitted.
-A percentile is printed only if at least ten values are expected beyond it: p50 needs 20 values, p90 100, p99 1000,
-p99.9 10000 and p99.99 100000. Otherwise it is - in text and null in JSON.")]
+", histogram_help!()))]
 pub struct BudgetArguments {
     #[command(flatten)]
     damper: DamperArguments,
@@ -54,12 +52,8 @@ pub struct BudgetArguments {
     /// Run in real time at this rate, Hz [default: free-running, with dampers built for 1000 Hz].
     #[arg(long, value_parser = clap::value_parser!(u32).range(rates_hz()))]
     rate_hz: Option<u32>,
-    /// Stop with exit code 1 at the first tick that takes longer than this, ns.
-    #[arg(long, value_name = "NS", value_parser = clap::value_parser!(u64).range(1..))]
-    stop_above_ns: Option<u64>,
-    /// Exit with code 1 if a deadline was missed.
-    #[arg(long, requires = "rate_hz")]
-    fail_on_miss: bool,
+    #[command(flatten)]
+    limits: TickLimitArguments,
     #[command(flatten)]
     realtime: RealtimeArguments,
     /// Output format of the results.
@@ -89,6 +83,9 @@ impl BudgetArguments {
 /// The damper is invalid, the system refuses a real-time option, a tick took longer than `--stop-above-ns`, or a
 /// deadline was missed with `--fail-on-miss`.
 pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
+    arguments
+        .limits
+        .require_deadlines("--rate-hz", arguments.rate_hz.is_some())?;
     match arguments.scalar {
         Scalar::F32 => measure::<f32>(arguments),
         Scalar::F64 => measure::<f64>(arguments),
@@ -104,7 +101,7 @@ fn measure<T: Compiled>(arguments: &BudgetArguments) -> Outcome<()> {
     let machine = Machine::read(Path::new("/"), options.core, SystemTime::now());
     let clock = MonotonicClock::default();
     let clock_overhead_ns = overhead_ns(&clock);
-    let limit_ns = arguments.stop_above_ns;
+    let limit_ns = arguments.limits.stop_above_ns;
     let (mode, run) = if let Some(rate) = arguments.rate_hz {
         let length = arguments.length(5 * u64::from(rate));
         let pacer = Pacer::new(step_s, &options)?;
@@ -128,5 +125,5 @@ fn measure<T: Compiled>(arguments: &BudgetArguments) -> Outcome<()> {
         machine,
     };
     print_report(arguments.format, &Report::new(setting, &run), print)?;
-    Ok(run.verdict(arguments.fail_on_miss)?)
+    Ok(run.verdict(arguments.limits.fail_on_miss)?)
 }

@@ -40,7 +40,8 @@ pub struct Driven {
     pub waits: u64,
 }
 
-/// Steps `run` to its end, paced if there is a `pacer`, and sends a record of each tick to another thread.
+/// Steps `run` to its end, paced if there is a `pacer`, and sends a record of each tick to another thread. The run ends
+/// early after a tick whose work took longer than the limit of the pacer.
 ///
 /// A tick allocates nothing and makes no system calls except those of `exchange` and the clocks. The pacer times all of
 /// this as the work of the tick.
@@ -63,6 +64,10 @@ pub fn drive<C: Clock>(
     while !run.is_over() {
         if let Some(pacer) = &mut pacer {
             pacer.release(driven.ticks);
+            if let Some(stop) = pacer.report().stopped {
+                driven.ending = run.slow_tick(stop.tick, stop.work_ns, stop.limit_ns);
+                break;
+            }
         }
         exchange.before(run)?;
         let started = Instant::now();

@@ -22,10 +22,12 @@ use options::CaseArguments;
 use outside::{Lines, Outside, OutsideArguments};
 use report::Report;
 
-use super::{Format, RealtimeArguments, interruption, print_report, progress};
+use super::tick_times::histogram_help;
+use super::{Format, RealtimeArguments, TickLimitArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::case::Case;
 use dashpot_files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
+use dashpot_realtime::budget as timing;
 use dashpot_realtime::handover::{Sender, handover};
 use dashpot_realtime::options::RealtimeOptions;
 use dashpot_realtime::pacing::{Pacer, PacingReport};
@@ -42,7 +44,7 @@ use dashpot_vehicle_run::{
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
-    after_help = "Examples:
+    after_help = concat!("Examples:
   dashpot vehicle --case straight-180
   dashpot vehicle --case curve-r600 --damper vertical=in-service --output worn
   dashpot vehicle --vehicle coach --track straight --speed-km-h 160 --duration-s 20
@@ -62,11 +64,12 @@ the results up to then are kept. A wheel load above 10 times the static load and
 are reported as warnings with time and position.
 
 --realtime steps on one thread and writes on another; all work of a tick is timed. The exit code is 1 if more than one
-deadline in a thousand is missed.
+deadline in a thousand is missed, or any with --fail-on-miss. The times of the ticks are printed as by dashpot budget.
+", histogram_help!(), "
 
 --outside sends a damper's displacement at the end of a tick; the returned force acts at the end of the next tick, one
 tick late. The run is then repeated with all dampers simulated internally, and the difference is reported. A recorded
-force is applied without this delay; the recording must cover the whole run."
+force is applied without this delay; the recording must cover the whole run.")
 )]
 pub struct VehicleArguments {
     #[command(flatten)]
@@ -92,6 +95,8 @@ pub struct VehicleArguments {
     #[arg(long)]
     realtime: bool,
     #[command(flatten)]
+    limits: TickLimitArguments,
+    #[command(flatten)]
     options: RealtimeArguments,
     #[command(flatten)]
     outside: OutsideArguments,
@@ -112,6 +117,9 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let options = arguments
         .options
         .options_under("--realtime", arguments.realtime)?;
+    let limits = arguments
+        .limits
+        .limits_under("--realtime", arguments.realtime)?;
     if arguments.parquet && !cfg!(feature = "parquet") {
         return Err(Failure::wrong_use(
             "--parquet is not available in this build; build dashpot-hil with the feature `parquet`",
@@ -127,9 +135,12 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     if let Some(outside) = &mut outside {
         arguments.outside.connect(outside, &case, &mut run)?;
     }
-    let realtime = arguments.realtime.then_some(options);
-    if let Some(options) = realtime {
-        check_realtime(case.step_s, options)?;
+    let realtime = arguments.realtime.then_some(Realtime {
+        options,
+        stop_above_ns: limits.stop_above_ns,
+    });
+    if let Some(realtime) = &realtime {
+        check_realtime(case.step_s, realtime.options)?;
     }
     let folder = &arguments.output;
     create_folder(folder)?;
@@ -188,12 +199,20 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     write_bytes(&path, (text + "\n").as_bytes())?;
     print_report(arguments.format, &report, report::print)?;
     match &report.ending {
-        Ending::Completed => Ok(report
-            .pacing
-            .as_ref()
-            .map_or(Ok(()), PacingReport::verdict)?),
+        Ending::Completed | Ending::SlowTick { .. } => verdict(report.pacing, limits),
         ending => Err(Failure::new(ending.to_string())),
     }
+}
+
+/// Checks the deadlines and the durations of the ticks of a real-time run.
+///
+/// # Errors
+/// A tick took longer than `--stop-above-ns`, or too many deadlines were missed: any with `--fail-on-miss`.
+fn verdict(pacing: Option<PacingReport>, limits: TickLimitArguments) -> Outcome<()> {
+    let Some(pacing) = pacing else { return Ok(()) };
+    let allowed = pacing.verdict();
+    timing::Run::from(pacing).verdict(limits.fail_on_miss)?;
+    Ok(allowed?)
 }
 
 /// Examines how far the greatest wheel load of a completed run without external dampers depends on the normal damping.
@@ -238,6 +257,14 @@ fn note_missing_ride(case: &Case) {
 /// Capacity of the buffer between stepping and writing, in ticks: 2 s at 1 ms, about 20 MB for a locomotive.
 const RECORDS: usize = 2048;
 
+/// How a real-time run is paced.
+#[derive(Debug, Clone, Copy)]
+struct Realtime {
+    options: RealtimeOptions,
+    /// Longest allowed work of a tick, ns.
+    stop_above_ns: Option<u64>,
+}
+
 /// Checks that the real-time options can be applied, on a short-lived thread.
 ///
 /// # Errors
@@ -256,7 +283,7 @@ fn follow(
     case: &Case,
     run: &mut Run,
     outside: Option<&mut Outside>,
-    realtime: Option<RealtimeOptions>,
+    realtime: Option<Realtime>,
     path: &Path,
     wear: &mut RunWear,
 ) -> Outcome<(History, Report)> {
@@ -327,11 +354,14 @@ fn step_through(
     case: &Case,
     run: &mut Run,
     exchange: Option<&mut Lines>,
-    realtime: Option<RealtimeOptions>,
+    realtime: Option<Realtime>,
     records: Sender<TickRecord>,
 ) -> Outcome<(Driven, Option<PacingReport>)> {
     let mut pacer = match realtime {
-        Some(options) => Some(Pacer::new(case.step_s, &options)?),
+        Some(realtime) => {
+            let pacer = Pacer::new(case.step_s, &realtime.options)?;
+            Some(pacer.stopping_above_ns(realtime.stop_above_ns))
+        }
         None => None,
     };
     let pacing = pacer.as_mut();

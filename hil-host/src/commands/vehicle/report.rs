@@ -83,7 +83,7 @@ impl Report {
             message: warning.to_string(),
             warning,
         };
-        let paced = |pacing| Paced::with_waits(pacing, driven.waits);
+        let paced = |pacing| Paced::with_times(pacing, case.step_s, driven.waits);
         Self {
             case: case.name.clone(),
             vehicle: case.vehicle.name.clone(),
@@ -222,6 +222,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         wear::print(out, found)?;
     }
     if let Some(realtime) = &report.realtime {
+        writeln!(out)?;
         realtime.write(out, "all work of a tick")?;
     }
     if let Some(found) = &report.outside {
