@@ -1,10 +1,15 @@
 //! A bank of dampers that returns its forces at each tick, for example to a simulated vehicle.
 
+use std::time::Duration;
+
 use dashpot_core::Damper;
 
 use super::host_replica::HostReplica;
 use super::report::Measured;
-use super::{Link, Pace, Report, Session, SessionError};
+use super::{Hold, Link, LinkError, MissingAnswers, Pace, Report, Session, SessionError};
+
+/// Longest wait for the answer to a step.
+const MAX_WAIT: Duration = Duration::from_secs(3600);
 
 /// Dampers of a target, stepped tick by tick. The host steps a replica, so that a target can continue after a reset.
 pub struct Bank<L> {
@@ -14,6 +19,7 @@ pub struct Bank<L> {
     measured: Measured,
     displacements_m: Vec<f32>,
     forces_n: Vec<f32>,
+    missing: MissingAnswers,
 }
 
 impl<L: Link> Bank<L> {
@@ -45,6 +51,7 @@ impl<L: Link> Bank<L> {
             measured,
             displacements_m: vec![0.0; slots],
             forces_n: vec![0.0; slots],
+            missing: MissingAnswers::default(),
         })
     }
 
@@ -64,24 +71,96 @@ impl<L: Link> Bank<L> {
             &mut self.pace,
             &mut self.measured,
             &mut |record| {
-                forces_n.copy_from_slice(record.target_forces_n);
-                let invalid = forces_n.iter().find(|force_n| !force_n.is_finite());
-                invalid.map_or(Ok(()), |force_n| {
-                    Err(SessionError::Force {
+                let found_n = record.target_forces_n;
+                if let Some(invalid_n) = found_n.iter().find(|force_n| !force_n.is_finite()) {
+                    return Err(SessionError::Force {
                         tick: record.tick,
-                        force_n: *force_n,
-                    })
-                })
+                        force_n: *invalid_n,
+                    });
+                }
+                forces_n.copy_from_slice(found_n);
+                Ok(())
             },
         )?;
+        self.missing.answered();
         Ok(&self.forces_n)
+    }
+
+    /// Like [`Self::step`], but in real time: returns the last forces if the answer does not come in time, and steps
+    /// the replica alone. The forces are 0 before the first answer. `time_left` is the time until the deadline of this
+    /// tick.
+    ///
+    /// The tick waits for [`Hold::answer_wait`] if the last step was answered, and for `time_left` otherwise. A target
+    /// that answers again, even after a reset, continues with the state of the replica. To restore it may take longer
+    /// than a tick.
+    ///
+    /// # Errors
+    /// More answers in a row are missing than `hold` allows, the link is broken, the target is lost and does not
+    /// recover, or a force is not finite.
+    ///
+    /// ```
+    /// use std::time::Duration;
+    /// use dashpot_core::Damper;
+    /// use dashpot_core::parameters::{DamperParameters, Mount};
+    /// use dashpot_host_link::{Bank, Client, Desk, Hold, RetryLimits, Session};
+    ///
+    /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
+    /// let damper: Damper<f32> = parameters.build(1e-3)?;
+    /// let client = Client::new(Desk::new([damper; 3])?, RetryLimits::default(), 7);
+    /// let mut bank = Bank::start(Session::open(client)?, &[damper])?;
+    /// let (step, hold) = (Duration::from_millis(1), Hold::new(Duration::from_millis(1), 100));
+    /// let force_n = bank.step_or_hold(&[1e-4], step, &hold)?[0];
+    /// assert_eq!(force_n, damper.step(&mut damper.at_rest(0.0), 1e-4));
+    /// assert_eq!(bank.missing_answers().missing_answers, 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn step_or_hold(
+        &mut self,
+        displacements_m: &[f32],
+        time_left: Duration,
+        hold: &Hold,
+    ) -> Result<&[f32], SessionError> {
+        let wait = match self.missing.in_a_row {
+            0 => hold.answer_wait,
+            _ => time_left,
+        };
+        let end = self.session.link().now() + wait.min(MAX_WAIT);
+        self.session.wait_until(Some(end));
+        let stepped = self.step(displacements_m).map(drop);
+        self.session.wait_until(None);
+        match stepped {
+            Err(SessionError::After {
+                source: LinkError::Silent { .. },
+                ..
+            }) => {
+                self.host.step_alone(&self.displacements_m);
+                self.missing.missed(self.host.tick, hold)?;
+            }
+            done => done?,
+        }
+        Ok(&self.forces_n)
+    }
+
+    /// Forces of the last answer of all slots (N); 0 before the first one.
+    pub fn forces_n(&self) -> &[f32] {
+        &self.forces_n
+    }
+
+    /// Answers that did not come in time.
+    pub fn missing_answers(&self) -> MissingAnswers {
+        self.missing
     }
 
     /// Compares the states of target and host, and returns the report.
     ///
     /// # Errors
     /// The target is lost and does not recover.
-    pub fn finish(mut self) -> Result<Report, SessionError> {
-        self.session.report(&self.host, self.measured, &self.pace)
+    pub fn finish(&mut self) -> Result<Report, SessionError> {
+        if self.missing.in_a_row > 0 {
+            // The target may not have made the last steps.
+            self.session.recover(&self.host, &mut self.measured)?;
+        }
+        self.session
+            .report(&self.host, &mut self.measured, &self.pace)
     }
 }

@@ -1,6 +1,6 @@
 //! Host end of the link: sends one request at a time and repeats it until it is answered.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use dashpot_core::Damper;
 use dashpot_core::link::{
@@ -38,10 +38,22 @@ pub struct LinkFaults {
     pub lost_sessions: u64,
 }
 
+/// How long a request waits for its answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Patience {
+    /// Until the tries of the retry limits are used up.
+    Tries,
+    /// For the first wait of the retry limits.
+    FirstWait,
+    /// Until this time of the link.
+    Until(Instant),
+}
+
 /// Sends requests to a target over a link.
 pub struct Client<L> {
     link: L,
     retry_limits: RetryLimits,
+    patience: Patience,
     header: Header,
     faults: LinkFaults,
     reader: FrameReader<RESPONSE_BYTES>,
@@ -70,6 +82,7 @@ impl<L: Link> Client<L> {
         Self {
             link,
             retry_limits,
+            patience: Patience::Tries,
             header: Header {
                 session,
                 sequence: 0,
@@ -91,6 +104,16 @@ impl<L: Link> Client<L> {
     /// Returns the link.
     pub fn link(&mut self) -> &mut L {
         &mut self.link
+    }
+
+    /// How long requests wait for their answers.
+    pub(super) fn patience(&self) -> Patience {
+        self.patience
+    }
+
+    /// Sets how long requests wait for their answers. Only [`Patience::Tries`] repeats a request without an answer.
+    pub(super) fn set_patience(&mut self, patience: Patience) {
+        self.patience = patience;
     }
 
     /// Opens a new session.
@@ -140,15 +163,21 @@ impl<L: Link> Client<L> {
         let wait = self.retry_limits.for_frame(frame.len());
         let start = self.link.now();
         let mut corrupted = 0;
+        let mut limits = self.retry_limits;
         for repeat in 0..self.retry_limits.tries.max(1) {
             self.faults.repeated_requests += u64::from(repeat > 0);
             let sent = self.link.now();
             self.link.send(frame)?;
             let grown = wait.saturating_mul(self.back_off).min(MAX_GROWN_WAIT);
-            match self.wait(grown.max(wait))? {
+            let time = match self.patience {
+                Patience::Tries => grown.max(wait),
+                Patience::FirstWait => wait,
+                Patience::Until(end) => end.saturating_duration_since(self.link.now()),
+            };
+            match self.wait(time)? {
                 WaitResult::Answered => {
                     // After a repeat, it is unknown which try was answered and therefore how long the answer took.
-                    if repeat == 0 {
+                    if repeat == 0 && self.patience == Patience::Tries {
                         let took = self.link.now().saturating_duration_since(sent);
                         self.shorten_wait(took, wait);
                     }
@@ -163,12 +192,16 @@ impl<L: Link> Client<L> {
                     };
                 }
                 WaitResult::Corrupted => corrupted += 1,
+                WaitResult::TimedOut if self.patience != Patience::Tries => {
+                    limits.tries = repeat + 1;
+                    break;
+                }
                 WaitResult::TimedOut => self.back_off = (2 * self.back_off).min(MAX_BACK_OFF),
             }
         }
-        self.late_repeats = self.retry_limits.tries.max(1) - corrupted;
+        self.late_repeats = limits.tries.max(1) - corrupted;
         Err(LinkError::Silent {
-            limits: self.retry_limits,
+            limits,
             waited: self.link.now().saturating_duration_since(start),
         })
     }

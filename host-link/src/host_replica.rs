@@ -6,7 +6,7 @@ use dashpot_core::{Damper, DamperState};
 use super::SessionError;
 use super::report::{Measured, Mismatch, Target};
 
-/// Replica of the dampers of a target, at the last tick that both sides confirmed.
+/// Replica of the dampers of a target, at the last tick that both sides confirmed or that the target did not answer.
 pub(super) struct HostReplica {
     /// One damper per slot.
     pub(super) dampers: Vec<Damper<f32>>,
@@ -57,6 +57,14 @@ impl HostReplica {
     /// Forces of the last tick (N).
     pub(super) fn forces_n(&self) -> &[f32] {
         &self.forces_n
+    }
+
+    /// Steps the replica by one tick that the target has not answered.
+    pub(super) fn step_alone(&mut self, displacements_m: &[f32]) {
+        self.tick = self.tick.wrapping_add(1);
+        for (slot, state) in self.states.iter_mut().enumerate() {
+            self.forces_n[slot] = self.dampers[slot].step(state, displacements_m[slot]);
+        }
     }
 
     /// Steps the replica to the tick of `forces` and compares its forces and status words with those of the target.

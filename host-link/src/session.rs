@@ -1,10 +1,12 @@
 //! A run: target and host step the same motion, tick by tick.
 
 use std::collections::VecDeque;
+use std::time::Instant;
 
 use dashpot_core::link::{Counters, Refusal, Request, Response};
 use dashpot_core::{Damper, DamperState};
 
+use super::client::Patience;
 use super::host_replica::HostReplica;
 use super::report::Measured;
 use super::{Client, Event, Link, LinkError, Pace, Report, SessionError, Target, TickRecord};
@@ -73,17 +75,17 @@ impl<L: Link> Session<L> {
             self.tick(&mut host, all, pace, &mut measured, &mut sink)?;
             next = motion()?;
         }
-        Ok(self.report(&host, measured, pace)?)
+        Ok(self.report(&host, &mut measured, pace)?)
     }
 
     /// Compares the states of target and host, and returns the report up to this tick.
     pub(super) fn report<C: Clock>(
         &mut self,
         host: &HostReplica,
-        mut measured: Measured,
+        measured: &mut Measured,
         pace: &Pace<C>,
     ) -> Result<Report, SessionError> {
-        let state_mismatches = self.compare_states(host, &mut measured)?;
+        let state_mismatches = self.compare_states(host, measured)?;
         let target_counters = self.counters()?;
         let clock_ticks = measured.cost();
         let per_tick = self.client.link().instructions_per_s();
@@ -167,6 +169,12 @@ impl<L: Link> Session<L> {
         ]
     }
 
+    /// Ends the wait for the answers to steps at `end`, a time of the link; `None` leaves it to the retry limits.
+    pub(super) fn wait_until(&mut self, end: Option<Instant>) {
+        self.client
+            .set_patience(end.map_or(Patience::Tries, Patience::Until));
+    }
+
     /// Repeats a request until it succeeds. A lost target is first restored to the last state of the host.
     fn retry<R>(
         &mut self,
@@ -189,12 +197,23 @@ impl<L: Link> Session<L> {
         })
     }
 
-    /// Sends the dampers, states and tick of the host to the target.
+    /// Sends the dampers, states and tick of the host to the target. While steps may wait only until a given time, each
+    /// request of the recovery waits once: the target has just answered.
     pub(super) fn recover(
         &mut self,
         host: &HostReplica,
         measured: &mut Measured,
     ) -> Result<(), SessionError> {
+        let patience = self.client.patience();
+        if patience != Patience::Tries {
+            self.client.set_patience(Patience::FirstWait);
+        }
+        let recovered = self.restore(host, measured);
+        self.client.set_patience(patience);
+        recovered
+    }
+
+    fn restore(&mut self, host: &HostReplica, measured: &mut Measured) -> Result<(), SessionError> {
         measured.recoveries += 1;
         for _ in 0..MAX_RECOVERIES {
             match restore(&mut self.client, &self.target, host) {

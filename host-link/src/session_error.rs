@@ -27,6 +27,18 @@ pub enum SessionError {
         /// When it was lost, as the end of the message.
         when: &'static str,
     },
+    /// The target did not answer in time while the run went on with its last forces.
+    #[error(
+        "after tick {tick}: {missing} answers in a row are missing from the target; allowed: {allowed}"
+    )]
+    Unanswered {
+        /// The last tick that the target answered.
+        tick: u64,
+        /// Number of missing answers in a row.
+        missing: u64,
+        /// Allowed number.
+        allowed: u64,
+    },
     /// The target runs another version of the core.
     #[error(
         "the target runs dashpot-core {target}, this host {}; results are bit-identical only between equal versions",

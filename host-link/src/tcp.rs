@@ -8,6 +8,13 @@ use super::{Link, LinkError};
 
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(5);
 
+/// Longest wait until the connection takes bytes. A target that stops reading would otherwise block the host for ever.
+const SEND_TIMEOUT: Duration = Duration::from_secs(5);
+
+/// Waits below this are precise; the read timeout of a socket may be several milliseconds too long.
+#[cfg(target_os = "linux")]
+const PRECISE_BELOW: Duration = Duration::from_millis(20);
+
 /// A TCP connection.
 #[derive(Debug)]
 pub struct Tcp {
@@ -40,10 +47,11 @@ impl Tcp {
     /// Creates a link over an open connection; error messages refer to it as `name`.
     ///
     /// # Errors
-    /// Immediate sending (`TCP_NODELAY`) cannot be enabled.
+    /// Immediate sending (`TCP_NODELAY`) or the limit on the duration of sending cannot be set.
     pub fn over(stream: TcpStream, name: String) -> Result<Self, LinkError> {
         stream
             .set_nodelay(true)
+            .and_then(|()| stream.set_write_timeout(Some(SEND_TIMEOUT)))
             .map_err(|error| LinkError::line(&name, "", error))?;
         Ok(Self {
             stream,
@@ -67,6 +75,31 @@ impl Tcp {
         Ok(())
     }
 
+    /// Waits precisely for bytes, at most `timeout`. Returns false if none arrived.
+    #[cfg(target_os = "linux")]
+    fn is_ready_within(&self, timeout: Duration) -> Result<bool, LinkError> {
+        use rustix::event::{PollFd, PollFlags, Timespec, poll};
+        if timeout >= PRECISE_BELOW {
+            return Ok(true);
+        }
+        let timeout = Timespec {
+            tv_sec: 0,
+            tv_nsec: timeout.subsec_nanos().into(),
+        };
+        let mut streams = [PollFd::new(&self.stream, PollFlags::IN)];
+        match poll(&mut streams, Some(&timeout)) {
+            Ok(ready) => Ok(ready > 0),
+            Err(rustix::io::Errno::INTR) => Ok(false),
+            Err(error) => Err(self.error("cannot receive: ", error.into())),
+        }
+    }
+
+    /// Leaves all waits to the read timeout of the socket on this system.
+    #[cfg(not(target_os = "linux"))]
+    fn is_ready_within(&self, _: Duration) -> Result<bool, LinkError> {
+        Ok(true)
+    }
+
     fn error(&self, action: &str, source: io::Error) -> LinkError {
         LinkError::line(&self.name, action, source)
     }
@@ -80,6 +113,9 @@ impl Link for Tcp {
     }
 
     fn receive(&mut self, buffer: &mut [u8], timeout: Duration) -> Result<usize, LinkError> {
+        if !self.is_ready_within(timeout)? {
+            return Ok(0);
+        }
         // Zero would mean no timeout. Rounding to whole milliseconds avoids changing the setting often.
         let timeout = Duration::from_millis(timeout.as_millis().max(1) as u64);
         if self.timeout != Some(timeout) {

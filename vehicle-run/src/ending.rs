@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::outside_loss::OutsideLoss;
 use super::validity::END_LOAD_RATIO;
 
 /// Time and place at which a run ended.
@@ -104,8 +105,9 @@ pub enum Ending {
     },
     /// An external damper stopped delivering forces.
     OutsideLost {
-        /// The link to the damper, and why it was lost.
-        message: String,
+        /// Which dampers, why, since when, and the forces used meanwhile.
+        #[serde(flatten)]
+        loss: OutsideLoss,
         /// Time and place.
         #[serde(flatten)]
         place: Place,
@@ -249,8 +251,8 @@ impl fmt::Display for Ending {
                  like this: {apparent}",
                 1e6 * shorter_step_s
             ),
-            Self::OutsideLost { message, place } => {
-                write!(f, "an external damper was lost {place}: {message}")
+            Self::OutsideLost { loss, place } => {
+                write!(f, "an external damper was lost {place}: {loss}")
             }
             Self::SlowTick {
                 tick,

@@ -15,6 +15,7 @@ mod indices;
 mod influences;
 mod input;
 mod outside;
+mod outside_loss;
 mod overturning;
 pub mod recorded;
 mod run;
@@ -36,6 +37,7 @@ pub use indices::{
 };
 pub use input::Input;
 pub use outside::{OutsideError, outside_index};
+pub use outside_loss::{LostDamper, OutsideLoss};
 pub use run::Run;
 pub use tick::{TickRecord, VehicleTick};
 pub use validity::{ValidityWatch, Warning};

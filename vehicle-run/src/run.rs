@@ -13,6 +13,7 @@ use super::contact::{Contact, ContactSetup};
 use super::ending::{Ending, Place};
 use super::hunting::push_aside;
 use super::influences::Influences;
+use super::outside_loss::OutsideLoss;
 use super::overturning::Overturned;
 use super::signals::{SIDES, load_n};
 use super::validity::END_LOAD_RATIO;
@@ -205,9 +206,9 @@ impl Run {
     }
 
     /// Ending of a run whose external damper has stopped delivering forces.
-    pub fn outside_lost(&self, message: String) -> Ending {
+    pub fn outside_lost(&self, loss: OutsideLoss) -> Ending {
         Ending::OutsideLost {
-            message,
+            loss,
             place: self.place(),
         }
     }

@@ -18,15 +18,14 @@ pub struct LineArguments {
 /// Link options that apply to all kinds of links.
 #[derive(Debug, Clone, PartialEq, Eq, clap::Args)]
 pub struct LineOptions {
-    /// First timeout for a response, ms. It doubles after each timeout, but does not grow beyond eight times the first
-    /// or beyond 12 s.
+    /// First timeout for a response, ms [default: 200]. It doubles after each timeout, but does not grow beyond eight
+    /// times the first or beyond 12 s.
     #[arg(
         long,
-        default_value_t = TIMEOUT_MS,
         value_parser = clap::value_parser!(u64).range(1..=60_000),
         value_name = "MS"
     )]
-    timeout_ms: u64,
+    timeout_ms: Option<u64>,
     /// Number of attempts before the target is reported as silent.
     #[arg(long, default_value_t = TRIES, value_parser = clap::value_parser!(u32).range(1..=1000))]
     tries: u32,
@@ -35,7 +34,8 @@ pub struct LineOptions {
     baud: u32,
 }
 
-const TIMEOUT_MS: u64 = 200;
+/// The first timeout, which the help of `--timeout-ms` states.
+const TIMEOUT: Duration = Duration::from_millis(200);
 const TRIES: u32 = 8;
 const BAUD: u32 = 1_000_000;
 
@@ -57,7 +57,7 @@ impl LineArguments {
 impl Default for LineOptions {
     fn default() -> Self {
         Self {
-            timeout_ms: TIMEOUT_MS,
+            timeout_ms: None,
             tries: TRIES,
             baud: BAUD,
         }
@@ -73,10 +73,15 @@ impl LineOptions {
         link.open(self.baud)
     }
 
+    /// Returns the first timeout, if it is given.
+    pub fn timeout(&self) -> Option<Duration> {
+        self.timeout_ms.map(Duration::from_millis)
+    }
+
     /// Returns the timeout and the number of attempts.
     pub fn retry_limits(&self) -> RetryLimits {
         RetryLimits {
-            timeout: Duration::from_millis(self.timeout_ms),
+            timeout: self.timeout().unwrap_or(TIMEOUT),
             tries: self.tries,
         }
     }

@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 use std::path::Path;
+use std::time::Duration;
 
 use assert_cmd::assert::Assert;
 use dashpot_files::case::Case;
@@ -140,7 +141,7 @@ impl Exchange for Work<'_> {
     fn before(&mut self, _: &mut Run) -> Result<(), VehicleRunError> {
         Ok(())
     }
-    fn after(&mut self, _: &mut Run) -> Option<Ending> {
+    fn after(&mut self, _: &mut Run, _: impl Fn() -> Duration) -> Option<Ending> {
         let work_ns = match self.1 {
             7 => 300_000,
             12 => 2_500_000,

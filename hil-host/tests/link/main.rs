@@ -19,4 +19,5 @@ mod pil_pacing;
 mod pil_repeats_pile_up;
 mod pil_run;
 mod pil_tcp;
+mod silence;
 mod vehicle_outside;

@@ -14,7 +14,8 @@ pub trait Exchange {
     /// A force is not finite.
     fn before(&mut self, run: &mut Run) -> Result<(), VehicleRunError>;
     /// Sends the displacements of the tick and sets the returned forces. Returns an ending if a damper is lost.
-    fn after(&mut self, run: &mut Run) -> Option<Ending>;
+    /// `time_left` returns the time until the deadline of the tick; it is zero if the run is not paced.
+    fn after(&mut self, run: &mut Run, time_left: impl Fn() -> Duration) -> Option<Ending>;
 }
 
 /// No external dampers.
@@ -22,7 +23,7 @@ impl Exchange for () {
     fn before(&mut self, _: &mut Run) -> Result<(), VehicleRunError> {
         Ok(())
     }
-    fn after(&mut self, _: &mut Run) -> Option<Ending> {
+    fn after(&mut self, _: &mut Run, _: impl Fn() -> Duration) -> Option<Ending> {
         None
     }
 }
@@ -74,7 +75,8 @@ pub fn drive<C: Clock>(
         let stepped = run.step()?;
         driven.stepping += started.elapsed();
         driven.ticks += 1;
-        let ended = stepped.or_else(|| exchange.after(run));
+        let time_left = || pacer.as_deref().map_or(Duration::ZERO, Pacer::time_left);
+        let ended = stepped.or_else(|| exchange.after(run, time_left));
         // If the reading thread has ended, it reports its own error.
         let is_read = records
             .send(|record| record.copy(run.time_s(), run.state()))

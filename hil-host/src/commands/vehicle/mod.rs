@@ -7,7 +7,7 @@ pub mod drive;
 mod figures;
 mod history;
 mod options;
-mod outside;
+pub mod outside;
 mod page;
 mod report;
 mod spectra;
@@ -19,7 +19,8 @@ use std::path::{Path, PathBuf};
 use drive::{Driven, drive};
 use history::History;
 use options::CaseArguments;
-use outside::{Lines, Outside, OutsideArguments};
+use outside::lines::Lines;
+use outside::{Outside, OutsideArguments};
 use report::Report;
 
 use super::tick_times::histogram_help;
@@ -69,7 +70,11 @@ deadline in a thousand is missed, or any with --fail-on-miss. The times of the t
 
 --outside sends a damper's displacement at the end of a tick; the returned force acts at the end of the next tick, one
 tick late. The run is then repeated with all dampers simulated internally, and the difference is reported. A recorded
-force is applied without this delay; the recording must cover the whole run.")
+force is applied without this delay; the recording must cover the whole run.
+
+If a target does not answer in time, the vehicle goes on with the last force in real time, for at most --hold-ticks
+ticks in a row; without --realtime it waits. Then the run ends. The error names the damper, the time of the first
+missing answer, how many are missing, and the force that was held.")
 )]
 pub struct VehicleArguments {
     #[command(flatten)]
@@ -130,7 +135,7 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         return check::run(&case, arguments.format);
     }
     note_missing_ride(&case);
-    let mut outside = arguments.outside.read(&case)?;
+    let mut outside = arguments.outside.read(&case, arguments.realtime)?;
     let mut run = Run::new(&case).map_err(|error| options::refused(&case, &error))?;
     if let Some(outside) = &mut outside {
         arguments.outside.connect(outside, &case, &mut run)?;

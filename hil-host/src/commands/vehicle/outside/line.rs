@@ -1,18 +1,22 @@
 //! External dampers behind one link.
 
+use std::time::Duration;
+
 use dashpot_core::Damper;
 use dashpot_core::link::MAX_DAMPERS;
 
 use super::choice::{Choice, Source};
+use super::lines::set_force_n;
 use super::report::Target;
+use super::silence::Silence;
 use crate::commands::failure::{Failure, Outcome, remedy};
 use crate::commands::line::LineOptions;
 use crate::commands::step_size::StepSize;
 use dashpot_files::case::Case;
 use dashpot_host_link::{
-    Bank, Client, Desk, EmulatorError, Link, LinkError, Session, SessionError,
+    Bank, Client, Desk, EmulatorError, Hold, Link, LinkError, RetryLimits, Session, SessionError,
 };
-use dashpot_vehicle_run::Run;
+use dashpot_vehicle_run::{LostDamper, OutsideLoss, Run};
 
 /// Number of slots of the in-process target: as many as a target may have.
 const DESK_SLOTS: usize = MAX_DAMPERS;
@@ -21,11 +25,27 @@ const DESK_SLOTS: usize = MAX_DAMPERS;
 /// because a target reports its step in single precision.
 const SAME_STEP: f64 = 1e-6;
 
+/// How long a line waits for the answers of its target.
+#[derive(Debug, Clone, Copy)]
+pub struct Waits {
+    /// Waits and tries outside the ticks and, without `hold`, in the ticks.
+    pub retry_limits: RetryLimits,
+    /// In real time: longest wait in a tick, and largest number of ticks in a row without an answer.
+    pub hold: Option<(Duration, u64)>,
+}
+
 /// A target and its dampers.
-pub(super) struct Line {
+pub struct Line {
     name: String,
     bank: Bank<Box<dyn Link + Send>>,
+    hold: Option<Hold>,
+    silence: Silence,
+    is_lost: bool,
+    /// True in a tick that follows one without an answer.
+    comes_last: bool,
     dampers: Vec<usize>,
+    /// Names of the dampers.
+    names: Vec<String>,
     /// Number of steps of the target per tick of the case.
     steps: u32,
     /// Last displacements sent, m.
@@ -37,20 +57,37 @@ impl Line {
     /// Opens the link given by `choice` and loads `dampers` of the vehicle.
     ///
     /// # Errors
-    /// The link cannot be opened, the target has too few slots, or its step does not divide that of the case.
+    /// The link cannot be opened, or see [`Self::start`].
     pub(super) fn open(
         choice: &Choice,
         dampers: Vec<usize>,
         case: &Case,
         options: &LineOptions,
+        waits: Waits,
     ) -> Outcome<Self> {
         let name = &choice.name;
-        let failed = |error: SessionError| refused(name, &error);
         let link = match &choice.source {
-            Source::Link(link) => options.open(link).map_err(|error| failed(error.into()))?,
+            Source::Link(link) => options
+                .open(link)
+                .map_err(|error| refused(name, &error.into()))?,
             Source::Desk | Source::File(_) => desk(case, &dampers)?,
         };
-        let client = Client::new(link, options.retry_limits(), fastrand::u16(..));
+        Self::start(name, link, dampers, case, waits)
+    }
+
+    /// Loads `dampers` of the vehicle into the target behind `link`, which messages call `name`.
+    ///
+    /// # Errors
+    /// The target does not answer, has too few slots, or its step does not divide that of the case.
+    pub fn start(
+        name: &str,
+        link: Box<dyn Link + Send>,
+        dampers: Vec<usize>,
+        case: &Case,
+        waits: Waits,
+    ) -> Outcome<Self> {
+        let failed = |error: SessionError| refused(name, &error);
+        let client = Client::new(link, waits.retry_limits, fastrand::u16(..));
         let session = Session::open(client).map_err(failed)?;
         let step = StepSize::of_target(session.target().step_s)?;
         let steps = (case.step_s / step.step_s()).round();
@@ -65,9 +102,19 @@ impl Line {
             .iter()
             .map(|damper| build(case, *damper, step.step_s()))
             .collect::<Outcome<_>>()?;
+        let all: Vec<&str> = case.vehicle.dampers().map(|e| e.name.as_str()).collect();
+        let hold = |(wait, ticks): (Duration, u64)| Hold::new(wait, ticks * steps as u64);
         Ok(Self {
-            name: name.clone(),
+            name: name.to_owned(),
             bank: Bank::start(session, &built).map_err(failed)?,
+            hold: waits.hold.map(hold),
+            silence: Silence::default(),
+            is_lost: false,
+            comes_last: false,
+            names: dampers
+                .iter()
+                .map(|damper| all[*damper].to_owned())
+                .collect(),
             steps: steps as u32,
             sent_m: vec![0.0; dampers.len()],
             displacements_m: vec![0.0; dampers.len()],
@@ -75,13 +122,61 @@ impl Line {
         })
     }
 
-    /// Sends the displacements and applies the returned forces from the next tick on.
+    /// Indices of the dampers in the vehicle.
+    pub(super) fn dampers(&self) -> &[usize] {
+        &self.dampers
+    }
+
+    /// Answers that the target did not give.
+    pub fn silence(&self) -> Silence {
+        self.silence
+    }
+
+    /// Decides whether other targets come before this one in the coming exchange.
+    pub(super) fn begin_tick(&mut self) {
+        self.comes_last = self.bank.missing_answers().in_a_row > 0;
+    }
+
+    /// True if other targets come before this one.
+    pub(super) fn comes_last(&self) -> bool {
+        self.comes_last
+    }
+
+    /// True if [`Self::exchange`] has failed.
+    pub(super) fn is_lost(&self) -> bool {
+        self.is_lost
+    }
+
+    /// Sends the displacements and applies the returned forces from the next tick on. In real time, the last forces
+    /// stand in for an answer that does not come in time; `time_left` returns the time until the deadline of the tick.
     ///
     /// If the target takes several steps per tick, displacements are interpolated linearly.
     ///
     /// # Errors
+    /// The link fails, or in real time too many answers in a row are missing.
+    pub(super) fn exchange(
+        &mut self,
+        run: &mut Run,
+        time_left: impl Fn() -> Duration,
+    ) -> Result<(), Box<OutsideLoss>> {
+        let time_s = run.time_s();
+        match self.steps(run, time_left) {
+            Ok(()) => {
+                self.silence.update(self.bank.missing_answers(), time_s);
+                Ok(())
+            }
+            Err(message) => {
+                self.is_lost = true;
+                Err(Box::new(self.loss(message, time_s)))
+            }
+        }
+    }
+
+    /// Makes the steps of one tick.
+    ///
+    /// # Errors
     /// The link fails; the message names it.
-    pub(super) fn exchange(&mut self, run: &mut Run) -> Result<(), String> {
+    fn steps(&mut self, run: &mut Run, time_left: impl Fn() -> Duration) -> Result<(), String> {
         let named = |error: SessionError| named(&self.name, &error);
         for step in 1..=self.steps {
             let share = f64::from(step) / f64::from(self.steps);
@@ -99,10 +194,15 @@ impl Line {
                     (from_m + share * (all[*damper] - from_m)) as f32
                 };
             }
-            let forces_n = self.bank.step(&self.displacements_m).map_err(named)?;
+            let displacements_m = &self.displacements_m;
+            let forces_n = match &self.hold {
+                Some(hold) => self.bank.step_or_hold(displacements_m, time_left(), hold),
+                None => self.bank.step(displacements_m),
+            }
+            .map_err(named)?;
             if step == self.steps {
                 for (damper, force_n) in self.dampers.iter().zip(forces_n) {
-                    super::set_force_n(run, *damper, f64::from(*force_n))
+                    set_force_n(run, *damper, f64::from(*force_n))
                         .map_err(|error| format!("{}: {error}", self.name))?;
                 }
             }
@@ -113,21 +213,30 @@ impl Line {
         Ok(())
     }
 
-    /// Closes the session and returns the results of the target.
+    /// Describes the loss of the target at `time_s`.
+    fn loss(&mut self, message: String, time_s: f64) -> OutsideLoss {
+        let (since_s, missing) = self.silence.end(self.bank.missing_answers(), time_s);
+        let lost = self.names.iter().zip(self.bank.forces_n());
+        let lost = lost.map(|(name, force_n)| LostDamper::new(name, f64::from(*force_n)));
+        OutsideLoss::new(message, lost.collect(), since_s, missing)
+    }
+
+    /// Closes the session at `time_s`, the end of the run, and returns the results of the target.
     ///
     /// # Errors
-    /// The link fails; the message names it.
-    pub(super) fn finish(self) -> Result<Target, String> {
-        let Self {
-            name, bank, steps, ..
-        } = self;
-        match bank.finish() {
+    /// The link fails.
+    pub(super) fn finish(mut self, time_s: f64) -> Result<Target, (Box<OutsideLoss>, Silence)> {
+        match self.bank.finish() {
             Ok(found) => Ok(Target {
-                link: name,
-                steps_a_tick: steps,
+                link: self.name,
+                steps_a_tick: self.steps,
                 found,
             }),
-            Err(error) => Err(named(&name, &error)),
+            Err(error) => {
+                let message = named(&self.name, &error);
+                let loss = self.loss(message, time_s);
+                Err((Box::new(loss), self.silence))
+            }
         }
     }
 }
@@ -179,6 +288,9 @@ fn in_words(error: &SessionError) -> String {
     match error {
         SessionError::Link(source) | SessionError::After { source, .. } => {
             format!("{error}{}", remedy(source))
+        }
+        SessionError::Unanswered { .. } => {
+            format!("{error}; use a longer --timeout-ms or more --hold-ticks")
         }
         _ => error.to_string(),
     }

@@ -1,21 +1,26 @@
 //! Dampers external to the simulated vehicle: behind a link, or as a recorded force.
 
 mod choice;
-mod line;
+pub mod line;
+pub mod lines;
 mod report;
+pub mod silence;
+
+use std::time::Duration;
 
 use choice::{Choice, Source};
-use line::Line;
+use line::{Line, Waits};
+use lines::{Lines, set_force_n};
 pub(super) use report::{OutsideReport, print};
+use silence::Silence;
 
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::line::LineOptions;
 use crate::commands::recording::ForceHistoryArguments;
-use crate::commands::vehicle::drive::Exchange;
 use dashpot_files::case::Case;
 use dashpot_recording::ForceHistory;
 use dashpot_study::verification::{Effect, Forces, InsideComparison};
-use dashpot_vehicle_run::{Ending, Run, VehicleRunError, outside_index};
+use dashpot_vehicle_run::{Ending, Run, outside_index};
 
 /// External dampers and the options of their links.
 #[derive(Debug, Clone, clap::Args)]
@@ -29,11 +34,21 @@ pub(super) struct OutsideArguments {
         conflicts_with = "check"
     )]
     choices: Vec<Choice>,
+    /// With --realtime: largest number of ticks in a row in which the vehicle may use the last force of a target that
+    /// does not answer [default: 100]. Then the run ends. The first such tick waits for --timeout-ms, by default one
+    /// tick, and each further one until its deadline. Without --realtime, the vehicle waits as long as --timeout-ms and
+    /// --tries allow.
+    #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(0..=10_000))]
+    hold_ticks: Option<u64>,
     #[command(flatten)]
     options: LineOptions,
     #[command(flatten)]
     recording: ForceHistoryArguments,
 }
+
+/// Ticks in a row in which the vehicle may use the last force of a silent target, unless `--hold-ticks` sets them. A
+/// target that receives nothing loses its link after as many.
+const HOLD_TICKS: u64 = 100;
 
 /// The external dampers of a run.
 pub(super) struct Outside {
@@ -41,23 +56,23 @@ pub(super) struct Outside {
     /// Index of each chosen damper.
     dampers: Vec<usize>,
     lines: Lines,
+    is_realtime: bool,
     /// Comparison with internal dampers; `None` if no damper is behind a link.
     beside: Option<InsideComparison>,
-}
-
-/// Sources of the forces of the external dampers, tick by tick.
-#[derive(Default)]
-pub(super) struct Lines {
-    lines: Vec<Line>,
-    recorded: Vec<(usize, ForceHistory)>,
 }
 
 impl OutsideArguments {
     /// Looks up the dampers and reads the files.
     ///
     /// # Errors
-    /// A damper does not exist, is given twice or has a fault during the run, or a file cannot be used.
-    pub(super) fn read(&self, case: &Case) -> Outcome<Option<Outside>> {
+    /// A damper does not exist, is given twice or has a fault during the run, a file cannot be used, or `--hold-ticks`
+    /// is given although the run is not in real time.
+    pub(super) fn read(&self, case: &Case, is_realtime: bool) -> Outcome<Option<Outside>> {
+        if self.hold_ticks.is_some() && (self.choices.is_empty() || !is_realtime) {
+            return Err(Failure::wrong_use(
+                "--hold-ticks requires --outside and --realtime",
+            ));
+        }
         if self.choices.is_empty() {
             if self.options != LineOptions::default() {
                 return Err(Failure::wrong_use(
@@ -93,6 +108,7 @@ impl OutsideArguments {
                 lines: Vec::new(),
                 recorded,
             },
+            is_realtime,
             beside: None,
         }))
     }
@@ -108,6 +124,15 @@ impl OutsideArguments {
             dampers.push(damper);
         }
         Ok(dampers)
+    }
+
+    /// Returns the wait for an answer in real time, and the allowed number of ticks in a row without one.
+    fn hold(&self, case: &Case) -> (Duration, u64) {
+        let answer_wait = self.options.timeout();
+        (
+            answer_wait.unwrap_or(Duration::from_secs_f64(case.step_s)),
+            self.hold_ticks.unwrap_or(HOLD_TICKS),
+        )
     }
 
     /// Opens the links and loads the dampers behind them.
@@ -132,7 +157,11 @@ impl OutsideArguments {
             }
         }
         for (choice, dampers) in links {
-            let line = Line::open(choice, dampers, case, &self.options)?;
+            let waits = Waits {
+                retry_limits: self.options.retry_limits(),
+                hold: outside.is_realtime.then(|| self.hold(case)),
+            };
+            let line = Line::open(choice, dampers, case, &self.options, waits)?;
             outside.lines.lines.push(line);
         }
         if !behind.is_empty() {
@@ -143,31 +172,6 @@ impl OutsideArguments {
             set_force_n(run, damper, 0.0)?;
         }
         Ok(())
-    }
-}
-
-/// Sets the force of a damper from the next tick on.
-fn set_force_n(run: &mut Run, damper: usize, force_n: f64) -> Result<(), VehicleRunError> {
-    Ok(run.state_mut().set_outside_force_n(damper, Some(force_n))?)
-}
-
-impl Exchange for Lines {
-    /// Applies the recorded forces at the end of the coming tick.
-    fn before(&mut self, run: &mut Run) -> Result<(), VehicleRunError> {
-        let time_s = run.time_s() + run.vehicle().step_s();
-        for (damper, history) in &self.recorded {
-            let force_n = history.force_n(time_s);
-            set_force_n(run, *damper, force_n)?;
-        }
-        Ok(())
-    }
-
-    /// Sends the displacements of the last tick; the returned forces act at the end of the next one. Returns an ending
-    /// if a target is lost.
-    fn after(&mut self, run: &mut Run) -> Option<Ending> {
-        let mut lines = self.lines.iter_mut();
-        let message = lines.find_map(|line| line.exchange(run).err())?;
-        Some(run.outside_lost(message))
     }
 }
 
@@ -188,15 +192,22 @@ impl Outside {
         ending: &mut Ending,
     ) -> Outcome<(OutsideReport, Vec<Forces>)> {
         let mut targets = Vec::new();
-        let is_lost = matches!(ending, Ending::OutsideLost { .. });
-        for line in self.lines.lines.into_iter().filter(|_| !is_lost) {
-            match line.finish() {
-                Ok(target) => targets.push(target),
-                Err(message) if *ending == Ending::Completed => {
-                    *ending = run.outside_lost(message);
+        let mut silences: Vec<(usize, Silence)> = Vec::new();
+        for line in self.lines.lines {
+            let dampers = line.dampers().to_vec();
+            let mut silence = line.silence();
+            if !line.is_lost() {
+                match line.finish(run.time_s()) {
+                    Ok(target) => targets.push(target),
+                    Err((loss, ended)) => {
+                        silence = ended;
+                        if *ending == Ending::Completed {
+                            *ending = run.outside_lost(*loss);
+                        }
+                    }
                 }
-                Err(_) => {}
             }
+            silences.extend(dampers.into_iter().map(|damper| (damper, silence)));
         }
         let compared = self.beside.map(|beside| beside.compare(case)).transpose();
         let compared = compared.map_err(|error| super::options::refused(case, &error))?;
@@ -204,7 +215,12 @@ impl Outside {
             Some((effect, forces)) => (Some(effect), forces),
             None => (None, Vec::new()),
         };
-        let mut report = OutsideReport::new(&self.choices, case, targets, effect);
+        let of_damper = |damper: &usize| {
+            let mut all = silences.iter();
+            all.find(|(other, _)| other == damper).map(|found| found.1)
+        };
+        let silences: Vec<Option<Silence>> = self.dampers.iter().map(of_damper).collect();
+        let mut report = OutsideReport::new(&self.choices, &silences, case, targets, effect);
         let histories = self.lines.recorded.iter().map(|(_, history)| history);
         report.add_unended(histories);
         Ok((report, forces))

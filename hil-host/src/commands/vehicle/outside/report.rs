@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::choice::{Choice, Source};
+use super::silence::Silence;
 use crate::commands::gap_report::unended;
 use dashpot_files::case::Case;
 use dashpot_realtime::timing::{optional_span, span};
@@ -36,6 +37,9 @@ pub(in crate::commands::vehicle) struct OutsideDamper {
     /// Number of the last line of the file, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(in crate::commands::vehicle) unended_line: Option<u64>,
+    /// Answers that its target did not give; `None` for a recorded force.
+    #[serde(flatten)]
+    pub(in crate::commands::vehicle) silence: Option<Silence>,
 }
 
 /// A target that runs external dampers.
@@ -51,15 +55,18 @@ pub(in crate::commands::vehicle) struct Target {
 impl OutsideReport {
     pub(super) fn new(
         choices: &[Choice],
+        silences: &[Option<Silence>],
         case: &Case,
         targets: Vec<Target>,
         effect: Option<Effect>,
     ) -> Self {
-        let dampers = choices.iter().map(|choice| OutsideDamper {
+        let dampers = choices.iter().zip(silences);
+        let dampers = dampers.map(|(choice, silence)| OutsideDamper {
             damper: choice.damper.clone(),
             source: choice.name.clone(),
             is_recorded: matches!(choice.source, Source::File(_)),
             unended_line: None,
+            silence: *silence,
         });
         Self {
             dampers: dampers.collect(),
@@ -87,6 +94,7 @@ impl OutsideReport {
             source,
             is_recorded,
             unended_line,
+            silence,
         } in &self.dampers
         {
             let text = if *is_recorded {
@@ -97,9 +105,10 @@ impl OutsideReport {
                 )
             } else {
                 format!(
-                    "on {source}: exchange every {} us, force delayed by {} us",
+                    "on {source}: exchange every {} us, force delayed by {} us{}",
                     micro(self.exchange_step_s),
-                    micro(self.delay_s)
+                    micro(self.delay_s),
+                    silence.unwrap_or_default().text()
                 )
             };
             lines.push((damper.clone(), text));

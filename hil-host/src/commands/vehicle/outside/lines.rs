@@ -1,0 +1,68 @@
+//! Forces of the external dampers, tick by tick.
+
+use std::time::Duration;
+
+use super::line::Line;
+use crate::commands::vehicle::drive::Exchange;
+use dashpot_recording::ForceHistory;
+use dashpot_vehicle_run::{Ending, Run, VehicleRunError};
+
+/// Sources of the forces of the external dampers, tick by tick.
+#[derive(Default)]
+pub struct Lines {
+    pub(super) lines: Vec<Line>,
+    pub(super) recorded: Vec<(usize, ForceHistory)>,
+}
+
+impl Lines {
+    /// Creates the sources from links to targets, without recorded forces.
+    pub fn new(lines: Vec<Line>) -> Self {
+        Self {
+            lines,
+            recorded: Vec::new(),
+        }
+    }
+
+    /// Returns the links to targets.
+    pub fn lines(&self) -> &[Line] {
+        &self.lines
+    }
+}
+
+/// Sets the force of a damper from the next tick on.
+pub(super) fn set_force_n(
+    run: &mut Run,
+    damper: usize,
+    force_n: f64,
+) -> Result<(), VehicleRunError> {
+    Ok(run.state_mut().set_outside_force_n(damper, Some(force_n))?)
+}
+
+impl Exchange for Lines {
+    /// Applies the recorded forces at the end of the coming tick.
+    fn before(&mut self, run: &mut Run) -> Result<(), VehicleRunError> {
+        let time_s = run.time_s() + run.vehicle().step_s();
+        for (damper, history) in &self.recorded {
+            let force_n = history.force_n(time_s);
+            set_force_n(run, *damper, force_n)?;
+        }
+        Ok(())
+    }
+
+    /// Sends the displacements of the last tick; the returned forces act at the end of the next one. Returns an ending
+    /// if a target is lost. Silent targets come last, because they use up the time that is left.
+    fn after(&mut self, run: &mut Run, time_left: impl Fn() -> Duration) -> Option<Ending> {
+        self.lines.iter_mut().for_each(Line::begin_tick);
+        for comes_last in [false, true] {
+            let mut lines = self.lines.iter_mut();
+            let lost = lines.find_map(|line| {
+                let is_due = line.comes_last() == comes_last;
+                is_due.then(|| line.exchange(run, &time_left).err())?
+            });
+            if let Some(loss) = lost {
+                return Some(run.outside_lost(*loss));
+            }
+        }
+        None
+    }
+}
