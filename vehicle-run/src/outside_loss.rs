@@ -46,8 +46,8 @@ impl OutsideLoss {
     /// let loss = OutsideLoss::new("tcp:rig:5555: no answer", dampers, 0.25, 101);
     /// assert_eq!(
     ///     loss.to_string(),
-    ///     "tcp:rig:5555: no answer; no valid answer since 0.250 s, 101 missing; last force, held until the end: front \
-    ///      damper -812.3 N"
+    ///     "tcp:rig:5555: no answer; no valid answer since 0.250 s, 101 missing; last force, held until the end: \
+    ///      front damper -812.3 N"
     /// );
     /// ```
     pub fn new(

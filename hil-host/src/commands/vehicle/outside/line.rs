@@ -6,7 +6,7 @@ use dashpot_core::Damper;
 use dashpot_core::link::MAX_DAMPERS;
 
 use super::choice::{Choice, Source};
-use super::lines::set_force_n;
+use super::force::set_force_n;
 use super::report::Target;
 use super::silence::Silence;
 use crate::commands::failure::{Failure, Outcome, remedy};

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::force::set_force_n;
 use super::line::Line;
 use crate::commands::vehicle::drive::Exchange;
 use dashpot_recording::ForceHistory;
@@ -27,15 +28,6 @@ impl Lines {
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
-}
-
-/// Sets the force of a damper from the next tick on.
-pub(super) fn set_force_n(
-    run: &mut Run,
-    damper: usize,
-    force_n: f64,
-) -> Result<(), VehicleRunError> {
-    Ok(run.state_mut().set_outside_force_n(damper, Some(force_n))?)
 }
 
 impl Exchange for Lines {

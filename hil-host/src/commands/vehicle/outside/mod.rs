@@ -1,6 +1,7 @@
 //! Dampers external to the simulated vehicle: behind a link, or as a recorded force.
 
 mod choice;
+mod force;
 pub mod line;
 pub mod lines;
 mod report;
@@ -9,8 +10,9 @@ pub mod silence;
 use std::time::Duration;
 
 use choice::{Choice, Source};
+use force::set_force_n;
 use line::{Line, Waits};
-use lines::{Lines, set_force_n};
+use lines::Lines;
 pub(super) use report::{OutsideReport, print};
 use silence::Silence;
 
