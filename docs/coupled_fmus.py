@@ -64,10 +64,12 @@ def main():
     with Part(sys.argv[1]) as vehicle, Part(sys.argv[2]) as damper:
         if vehicle.step_s != damper.step_s:
             sys.exit(f"the vehicle steps {vehicle.step_s} s, the damper {damper.step_s} s: export it with --step-us")
-        force, *others = vehicle.names("input")
-        if others:
-            sys.exit(f"this script couples one external damper, but the vehicle has {1 + len(others)}")
-        displacement = force.removesuffix("_force_n") + "_displacement_m"
+        # Other inputs are speed, friction, and forces on bodies.
+        displacement_of = {name: name.removesuffix("_force_n") + "_displacement_m" for name in vehicle.names("input")}
+        outside = [name for name, displacement in displacement_of.items() if displacement in vehicle.variables]
+        if len(outside) != 1:
+            sys.exit(f"this script couples one external damper, but the vehicle has {len(outside)}")
+        force, displacement = outside[0], displacement_of[outside[0]]
         outputs = [*vehicle.names("output"), force]
         steps = round(float(vehicle.description.defaultExperiment.stopTime) / vehicle.step_s)
         with open(sys.argv[3], "w", newline="") as file:

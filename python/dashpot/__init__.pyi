@@ -26,6 +26,7 @@ __all__ = [
     "State",
     "Status",
     "Study",
+    "Vehicle",
     "VehicleRun",
     "calibrate",
     "contact",

@@ -173,8 +173,8 @@ impl Vehicle {
         replaced.map_err(|error| self.refused(error))
     }
 
-    /// Runs `ticks` ticks and returns an array with a row of all outputs after each; fewer rows if the run ends, and none
-    /// after its end. `ending` then tells why.
+    /// Runs `ticks` ticks and returns an array with a row of all outputs after each; fewer rows if the run ends, and
+    /// none after its end. `ending` then tells why.
     ///
     /// `inputs` is one value for each of `Vehicle.inputs`; without it the inputs stay as they are.
     #[pyo3(signature = (ticks=1, inputs=None))]

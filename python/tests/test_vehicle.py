@@ -34,7 +34,8 @@ class Vehicles(Test):
     def test_a_stepped_vehicle_runs_as_a_whole_one(self):
         run = dashpot.vehicle("straight-180", duration_s=0.5)
         vehicle = dashpot.Vehicle("straight-180")
-        self.assertEqual(["time_s", *vehicle.outputs], list(run.history))
+        signals = [name for name in run.history if name != "time_s" and "_filtered_" not in name]
+        self.assertEqual(vehicle.outputs, signals)
         rows = numpy.concatenate([vehicle.step(200), vehicle.step(300, numpy.array([vehicle.get(name) for name in vehicle.inputs]))])
         self.assertEqual(vehicle.time_s, 0.5)
         for column, name in zip(rows.T, vehicle.outputs):
@@ -43,13 +44,13 @@ class Vehicles(Test):
     def test_inputs_of_a_stepped_vehicle_act(self):
         vehicle = dashpot.Vehicle("curve-r600", outside=["front lateral damper 1"], overrides={"rails": "rigid"})
         self.assertEqual(vehicle.inputs[:3], ["front_lateral_damper_1_force_n", "speed_m_per_s", "friction_factor"])
-        start = vehicle.save()
+        start, start_m = vehicle.save(), vehicle.get("distance_m")
         ahead = vehicle.step(1000)
         vehicle.restore(start)
         vehicle.set("speed_m_per_s", 0.5 * vehicle.get("speed_m_per_s"))
         vehicle.step(1000)
         at = vehicle.outputs.index("distance_m")
-        self.assertAlmostEqual(vehicle.get("distance_m"), 0.5 * ahead[-1, at], places=9)
+        self.assertAlmostEqual(vehicle.get("distance_m") - start_m, 0.5 * (ahead[-1, at] - start_m), places=9)
         vehicle.reset()
         self.assertTrue(numpy.array_equal(vehicle.step(1000), ahead))
         # A side force of 30 kN acts on the wheelsets as a whole, and a broken damper has no force.
@@ -58,20 +59,19 @@ class Vehicles(Test):
         vehicle.set("body_applied_lateral_force_n", 30e3)
         pushed = vehicle.step(1000)
         self.assertGreater(numpy.abs(pushed - ahead).max(), 1e-3)
-        lateral = [name for name in vehicle.outputs if name.endswith("wheelset_1_lateral_force_n")]
-        self.assertEqual(vehicle.step(0).shape, (0, len(vehicle.outputs)), lateral)
+        self.assertEqual(vehicle.step(0).shape, (0, len(vehicle.outputs)))
 
     def test_a_stepped_vehicle_refuses(self):
         vehicle = dashpot.Vehicle("straight-180")
         for words, call in (
-            ("straight-180: no variable `speed`", lambda: vehicle.set("speed", 3.0)),
+            ("straight, 180 km/h: no variable `speed`", lambda: vehicle.set("speed", 3.0)),
             ("body_lateral_m is an output, allowed: inputs", lambda: vehicle.set("body_lateral_m", 0.0)),
             ("speed_m_per_s 0.5, allowed: 1 to 150", lambda: vehicle.set("speed_m_per_s", 0.5)),
             ("friction_factor nan, allowed: 0 to 5", lambda: vehicle.set("friction_factor", math.nan)),
             ("inputs: 2 values, allowed: ", lambda: vehicle.step(1, numpy.zeros(2))),
             ("inputs: speed_m_per_s 0, allowed: 1 to 150", lambda: vehicle.step(1, numpy.zeros(len(vehicle.inputs)))),
             ("state: not the state of a vehicle of this case", lambda: vehicle.restore(b"123")),
-            ("straight-180: no damper `front damper`", lambda: vehicle.replace_damper("front damper", dashpot.Damper("paper"))),
+            ("straight, 180 km/h: no damper `front damper`", lambda: vehicle.replace_damper("front damper", dashpot.Damper("paper"))),
         ):
             with self.subTest(words), self.assertRaises(dashpot.DashpotError) as raised:
                 call()

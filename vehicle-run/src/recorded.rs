@@ -3,7 +3,10 @@
 use dashpot_rail::vehicle::VehicleParameters;
 
 use super::signals::{self, Signal};
-use super::{Ending, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning, confirmed};
+use super::{
+    Ending, FilteredForces, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning,
+    confirmed,
+};
 use dashpot_files::case::Case;
 use dashpot_files::did_you_mean;
 use dashpot_files::nearest_nanosecond;
@@ -16,7 +19,7 @@ const TICKS_PER_CHECK: u64 = 256;
 pub struct Recorded {
     /// How the run ended.
     pub ending: Ending,
-    /// Name of each signal and its value after each tick.
+    /// Name of each signal and of each filtered force, and its value after each tick.
     pub history: Vec<(String, Vec<f64>)>,
     /// `None` if [`Ending::has_indices`] is false.
     pub indices: Option<Indices>,
@@ -31,6 +34,43 @@ pub fn all_signals(run: &Run, vehicle: &VehicleParameters) -> Vec<Signal> {
     all
 }
 
+/// Where a column of a history comes from.
+#[derive(Clone)]
+enum Source {
+    Signal(Signal),
+    /// Number of the value among the filtered forces.
+    Filtered(usize),
+}
+
+/// Returns the columns with these names, in their order, or all columns without names.
+fn chosen(
+    signals: Vec<Signal>,
+    filtered: &[String],
+    names: Option<&[String]>,
+) -> Result<Vec<(String, Source)>, VehicleRunError> {
+    let signals = signals
+        .into_iter()
+        .map(|signal| (signal.name().to_owned(), Source::Signal(signal)));
+    let filtered = filtered.iter().enumerate();
+    let filtered = filtered.map(|(number, name)| (name.clone(), Source::Filtered(number)));
+    let all: Vec<_> = signals.chain(filtered).collect();
+    let Some(names) = names else {
+        return Ok(all);
+    };
+    let mut chosen = Vec::with_capacity(names.len());
+    for name in names {
+        let Some((_, source)) = all.iter().find(|(known, _)| known == name) else {
+            let known = all.iter().map(|(known, _)| known.as_str());
+            return Err(VehicleRunError::NoSignal {
+                name: name.clone(),
+                near: did_you_mean(name, known),
+            });
+        };
+        chosen.push((name.clone(), source.clone()));
+    }
+    Ok(chosen)
+}
+
 /// Runs `run`, which has not been stepped yet, to its end or until `is_cancelled` returns true. Records the named
 /// signals, or all if `names` is `None`.
 ///
@@ -42,17 +82,8 @@ pub fn record(
     names: Option<&[String]>,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Recorded, VehicleRunError> {
-    let mut chosen = all_signals(&run, &case.vehicle);
-    if let Some(names) = names {
-        let find = |name: &String| match chosen.iter().find(|signal| signal.name() == name) {
-            Some(signal) => Ok(signal.clone()),
-            None => Err(VehicleRunError::NoSignal {
-                name: name.clone(),
-                near: did_you_mean(name, chosen.iter().map(Signal::name)),
-            }),
-        };
-        chosen = names.iter().map(find).collect::<Result<_, _>>()?;
-    }
+    let mut filtered = FilteredForces::new(case);
+    let chosen = chosen(all_signals(&run, &case.vehicle), filtered.names(), names)?;
     let ticks = run.ticks();
     let mut columns: Vec<Vec<f64>> = chosen.iter().map(|_| Vec::new()).collect();
     let count = usize::try_from(ticks).unwrap_or(usize::MAX);
@@ -71,8 +102,12 @@ pub fn record(
             break Ending::Completed;
         }
         let time_s = nearest_nanosecond(run.time_s());
-        for (column, signal) in columns.iter_mut().zip(&chosen) {
-            column.push(signal.value(run.state(), time_s));
+        let filtered = filtered.next(run.state());
+        for (column, (_, source)) in columns.iter_mut().zip(&chosen) {
+            column.push(match source {
+                Source::Signal(signal) => signal.value(run.state(), time_s),
+                Source::Filtered(number) => filtered[*number],
+            });
         }
         indexer.add(run.state());
         watch.add(run.state());
@@ -84,7 +119,7 @@ pub fn record(
         }
     };
     let ending = confirmed(case, &run, ending)?;
-    let names = chosen.iter().map(|signal| signal.name().to_owned());
+    let names = chosen.into_iter().map(|(name, _)| name);
     Ok(Recorded {
         history: names.zip(columns).collect(),
         indices: indexer.indices().filter(|_| ending.has_indices()),

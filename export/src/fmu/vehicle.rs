@@ -62,8 +62,8 @@ impl Fmu {
         variables.push(Variable {
             name: "ending".into(),
             unit: "",
-            description: "0 running, 1 completed, 2 a wheel climbed the rail, 3 outside the contact tables, 4 diverged, 5 beyond the \
-                          model, 6 overturned",
+            description: "0 running, 1 completed, 2 a wheel climbed the rail, 3 outside the contact tables, \
+                          4 diverged, 5 beyond the model, 6 overturned",
             kind: Kind::Counter,
         });
         Ok(Self {
@@ -118,13 +118,14 @@ fn about(case: &CoupledCase) -> Markup {
     html! {
         p {
             "The vehicle of the case " (case.case.name) " on its track. The force of " (case.outside.join(", "))
-            " is an input, and so are the speed, a factor on the friction, and forces and moments on each body. Outputs are the signals of a Dashpot vehicle history, and the rate of each external damper \
-             over the last internal step."
+            " is an input, and so are the speed, a factor on the friction, and forces and moments on each body. \
+             Outputs are the signals of a Dashpot vehicle history, and the rate of each external damper over the last \
+             internal step."
         }
         p {
             "A damper force that is set at time t acts at the end of the internal step that starts at t; other inputs \
-             act during it. A value stays until another is set. A simulation ends with the case, or when the vehicle derails, overturns or goes beyond \
-             the model; "
+             act during it. A value stays until another is set. A simulation ends with the case, or when the vehicle \
+             derails, overturns or goes beyond the model; "
             code { "ending" }
             " gives the reason."
         }

@@ -15,7 +15,7 @@ fn a_study_of_ride_in_short_runs_is_refused_before_anything_runs() {
     ] {
         let study = STUDY
             .replace("\"last_lateral_m\"", &format!("\"{index}\""))
-            .replace("duration_s = 0.5", &format!("duration_s = {duration}"));
+            .replace("duration_s = 1.5", &format!("duration_s = {duration}"));
         let folder = folder(&study);
         let list = ["sweep", "study.toml", "--output", "out", "--list"];
         for line in [&list[..], &list[..4]] {
@@ -36,10 +36,10 @@ fn a_study_of_ride_in_short_runs_is_refused_before_anything_runs() {
     let varied = STUDY
         .replace("\"last_lateral_m\"", "\"sperling_vertical\"")
         .replace(
-            "duration_s = 0.5\nvary = [\n",
+            "duration_s = 1.5\nvary = [\n",
             "vary = [\n  { parameter = \"duration_s\", values = [6, 2] },\n",
         )
-        .replace("duration_s = 0.5", "duration_s = 5");
+        .replace("duration_s = 1.5", "duration_s = 5");
     let folder = folder(&varied);
     let error = error_of(&dashpot(&["sweep", "study.toml", "--list"], folder.path()).code(1));
     assert!(error.contains("the run takes 2 s"), "{error}");

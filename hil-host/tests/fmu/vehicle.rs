@@ -216,7 +216,7 @@ fn fmpy_simulates_both_versions_to_the_end_of_the_run() {
         .next()
         .unwrap();
     assert!(
-        error.contains(&format!("overturned to the left at {time_s} s")),
+        error.contains(&format!("left the tables of the contact at {time_s} s")),
         "{error} {}",
         outputs[0]
     );

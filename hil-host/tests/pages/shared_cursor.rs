@@ -89,7 +89,7 @@ fn check(width: u32) {
             );
         }
     }
-    assert!(histories == 8 && loops > 3, "{histories} {loops}");
+    assert!(histories == 15 && loops > 3, "{histories} {loops}");
     // With the mouse outside the plots, no values are shown.
     browser.leave();
     browser.wait_for(

@@ -84,7 +84,7 @@ fn made(arguments: &[&str], page: &str) -> String {
 pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
     [
         ("demonstration", &DEMONSTRATION, 13, "time, s"),
-        ("vehicle", &VEHICLE, 20, "time, s"),
+        ("vehicle", &VEHICLE, 41, "time, s"),
         ("bank", &BANK, 6, "time, s"),
         ("study", &STUDY, 9, "time, s"),
         ("sheet", &SHEET, 6, "peak velocity, m/s"),

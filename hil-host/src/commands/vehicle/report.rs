@@ -310,8 +310,8 @@ pub(super) fn of_damping(found: &DampingInfluence) -> String {
     let [low, high] = found.damping_s_per_m;
     if !found.is_examined {
         return format!(
-            "impacts: the greatest wheel load, {:.0} kN, depends on the normal damping, which is assumed; by how much was \
-             not examined, because the run takes more than 100 s or was interrupted",
+            "impacts: the greatest wheel load, {:.0} kN, depends on the normal damping, which is assumed; by how much \
+             was not examined, because the run takes more than 100 s or was interrupted",
             1e-3 * found.greatest_load_n
         );
     }
