@@ -198,8 +198,8 @@ impl Coupled {
         })
     }
 
-    /// Sets an input for all following ticks; `index` is that of the variable. An event of the case that changes the same
-    /// quantity later replaces the value.
+    /// Sets an input for all following ticks; `index` is that of the variable. An event of the case that changes the
+    /// same quantity later replaces the value.
     ///
     /// # Errors
     /// The variable is not an input, or the value is not allowed. On an error, nothing changes.
@@ -274,8 +274,8 @@ impl Coupled {
         Ok(())
     }
 
-    /// Ending as a number: 0 not ended, 1 case completed, 2 a wheel climbed the rail, 3 outside the contact tables, 4 diverged, 5
-    /// beyond the model, 6 overturned.
+    /// Ending as a number: 0 not ended, 1 case completed, 2 a wheel climbed the rail, 3 outside the contact tables, 4
+    /// diverged, 5 beyond the model, 6 overturned.
     pub fn ending_code(&self) -> i32 {
         match &self.ending {
             None => 0,

@@ -83,7 +83,7 @@ impl Input {
             }
             Self::FrictionFactor => "Factor on the friction of all wheels",
             Self::Applied { .. } => {
-                "Applied to the centre of the body: to the right, downward, and moments that increase roll, pitch and yaw"
+                "Applied to the centre of the body: to the right, downward; moments increase roll, pitch and yaw"
             }
         }
     }

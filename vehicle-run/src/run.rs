@@ -165,8 +165,8 @@ impl Run {
         self.state.ticks() >= self.ticks
     }
 
-    /// Simulates one tick, after applying the faults and events that are due. Returns the ending if the run ended. Allocates only
-    /// if it ended.
+    /// Simulates one tick, after applying the faults and events that are due. Returns the ending if the run ended.
+    /// Allocates only if it ended.
     ///
     /// # Errors
     /// No case is known in which this fails: [`Self::new`] has built the dampers of all faults, and a case checks its

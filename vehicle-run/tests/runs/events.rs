@@ -59,8 +59,8 @@ fn the_rails_carry_an_applied_force_and_its_moment() {
     );
 }
 
-/// Braking by 0.5 m/s^2 from 33.3 to 27.8 m/s takes 11.1 s and 339.5 m; in the curve after it, the body stands as if the
-/// vehicle had always had the lower speed.
+/// Braking by 0.5 m/s^2 from 33.3 to 27.8 m/s takes 11.1 s and 339.5 m; in the curve after it, the body stands as if
+/// the vehicle had always had the lower speed.
 #[test]
 fn a_braked_vehicle_stands_in_the_curve_as_a_slower_one() {
     let braking =
