@@ -67,7 +67,7 @@ class Vehicles(Test):
             ("straight, 180 km/h: no variable `speed`", lambda: vehicle.set("speed", 3.0)),
             ("body_lateral_m is an output, allowed: inputs", lambda: vehicle.set("body_lateral_m", 0.0)),
             ("speed_m_per_s 0.5, allowed: 1 to 150", lambda: vehicle.set("speed_m_per_s", 0.5)),
-            ("friction_factor nan, allowed: 0 to 5", lambda: vehicle.set("friction_factor", math.nan)),
+            ("friction_factor NaN, allowed: 0 to 5", lambda: vehicle.set("friction_factor", math.nan)),
             ("inputs: 2 values, allowed: ", lambda: vehicle.step(1, numpy.zeros(2))),
             ("inputs: speed_m_per_s 0, allowed: 1 to 150", lambda: vehicle.step(1, numpy.zeros(len(vehicle.inputs)))),
             ("state: not the state of a vehicle of this case", lambda: vehicle.restore(b"123")),
