@@ -1,5 +1,7 @@
 //! Events: changes of speed, friction and forces on bodies during a run.
 
+use std::fmt;
+
 use dashpot_rail::vehicle::{FRICTION_FACTOR, SPEED_M_PER_S, VehicleParameters};
 
 use super::CaseError;
@@ -41,6 +43,29 @@ pub struct Event {
     pub ramp_s: f64,
     /// The quantity and its new value.
     pub change: Change,
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "at {} s", self.time_s)?;
+        if self.ramp_s > 0.0 {
+            write!(f, ", within {} s", self.ramp_s)?;
+        }
+        match &self.change {
+            Change::Speed(speed_m_per_s) => write!(f, ": speed {:.1} km/h", 3.6 * speed_m_per_s),
+            Change::FrictionFactor(factor) => write!(f, ": friction times {factor}"),
+            Change::Force {
+                body,
+                at_m: [x, y, height],
+                force_n: [lateral, downward],
+            } => write!(
+                f,
+                ": {:.1} kN to the right and {:.1} kN down on {body}, {x} m forward, {y} m to the right, {height} m high",
+                1e-3 * lateral,
+                1e-3 * downward
+            ),
+        }
+    }
 }
 
 /// Event as written in a file.

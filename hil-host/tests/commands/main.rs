@@ -46,6 +46,7 @@ mod step_size;
 mod sweep;
 mod vehicle;
 mod vehicle_contact;
+mod vehicle_events;
 mod vehicle_realtime;
 mod verify;
 mod verify_probed;

@@ -42,6 +42,9 @@ pub(super) fn write(
         div.wide { table {
             @for (what, text) in report.contact.lines() { tr { td.text { (what) } td.text { (text) } } }
             tr { td.text { "support of the rails" } td.text { (report.support) } }
+            @for change in &report.changes {
+                tr { td.text { "change" } td.text { (change) } }
+            }
         } }
         @if report.ending != Ending::Completed {
             p { strong { "The run did not complete: " (report.ending) "." } }

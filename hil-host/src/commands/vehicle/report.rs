@@ -39,6 +39,9 @@ pub(super) struct Report {
     pub(super) normal_damping_s_per_m: f64,
     pub(super) step_s: f64,
     pub(super) ticks: u64,
+    /// Changes of dampers, speed, friction and forces during the run.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) changes: Vec<String>,
     pub(super) ending: Ending,
     /// Influence of the normal damping on the greatest wheel load; `None` if it shows no impact.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -96,6 +99,7 @@ impl Report {
             normal_damping_s_per_m: case.normal_damping_s_per_m,
             step_s: case.step_s,
             ticks: driven.ticks,
+            changes: changes(case),
             ending: driven.ending.clone(),
             damping: None,
             warnings: warnings.into_iter().map(found).collect(),
@@ -108,6 +112,14 @@ impl Report {
             files: Vec::new(),
         }
     }
+}
+
+/// Describes what changes during the run: dampers first, each kind in the order of time.
+fn changes(case: &Case) -> Vec<String> {
+    let faults = case.faults.iter();
+    let faults = faults.map(|fault| format!("at {} s: {} changes", fault.time_s, fault.damper));
+    let events = case.events.iter().map(ToString::to_string);
+    faults.chain(events).collect()
 }
 
 /// Describes the support of the rails.
@@ -157,6 +169,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         counted(report.ticks, "tick"),
         span(1e9 * report.mean_tick_s)
     )?;
+    for change in &report.changes {
+        writeln!(out, "change:   {change}")?;
+    }
     for found in &report.warnings {
         writeln!(out, "warning: {}", found.message)?;
     }
