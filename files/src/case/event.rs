@@ -60,7 +60,8 @@ impl fmt::Display for Event {
                 force_n: [lateral, downward],
             } => write!(
                 f,
-                ": {:.1} kN to the right and {:.1} kN down on {body}, {x} m forward, {y} m to the right, {height} m high",
+                ": {:.1} kN to the right and {:.1} kN down on {body}, {x} m forward, {y} m to the right, \
+                 {height} m high",
                 1e-3 * lateral,
                 1e-3 * downward
             ),
