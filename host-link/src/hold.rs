@@ -1,4 +1,4 @@
-//! What a run in real time does while its target does not answer: it holds the last forces for a while.
+//! Use of the last forces in real time, while a target does not answer.
 
 use std::time::Duration;
 
@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::SessionError;
 
-/// How long a tick waits for its answer, and for how many ticks the last forces stand in for missing ones.
+/// Limits for a target that does not answer: the wait in a tick, and the number of ticks that use the last forces.
 ///
 /// The first tick without an answer waits for [`Self::answer_wait`]; each further one only until its deadline, so that
 /// the run stays in real time.

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use dashpot_core::DamperParameters;
 use dashpot_files::case::CaseOptions;
 use dashpot_files::did_you_mean;
-use dashpot_vehicle_run::{Coupled, CoupledCase, Input};
-use numpy::{Ix1, PyArray1, PyArray2, PyUntypedArrayMethods};
+use dashpot_vehicle_run::{Coupled, CoupledCase};
+use numpy::{Ix1, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -68,19 +68,43 @@ impl Vehicle {
             .collect()
     }
 
-    fn set_index(&mut self, index: usize, value: f64) -> Outcome<()> {
+    /// Checks that a variable may be set to a value; `what` starts the message.
+    fn check(&self, what: &str, index: usize, value: f64) -> Outcome<()> {
         let variable = &self.vehicle.variables()[index];
-        let Some([min, max]) = variable.input().map(Input::allowed) else {
-            return refuse(format!("{} is an output, allowed: inputs", variable.name));
+        let name = &variable.name;
+        let Some(input) = variable.input() else {
+            return refuse(format!("{what}{name} is an output, allowed: inputs"));
         };
-        if !(min..=max).contains(&value) {
-            return refuse(format!(
-                "{} {value}, allowed: {min} to {max}",
-                variable.name
-            ));
+        if input.allows(value) {
+            return Ok(());
         }
+        let [min, max] = input.allowed();
+        refuse(format!("{what}{name} {value}, allowed: {min} to {max}"))
+    }
+
+    /// Sets a variable to a value that [`Self::check`] accepts.
+    fn put(&mut self, index: usize, value: f64) -> Outcome<()> {
         let set = self.vehicle.set(index, value);
         set.map_err(|error| self.refused(error))
+    }
+
+    /// Sets all inputs; all are checked before any is set.
+    fn put_all(&mut self, inputs: &Bound<'_, PyAny>) -> Outcome<()> {
+        let given = arrays::read::<f64, Ix1>("inputs", inputs)?;
+        let values = given.as_slice().map_err(PyErr::from)?;
+        let (found, expected) = (values.len(), self.inputs.len());
+        if found != expected {
+            return refuse(format!(
+                "inputs: {found} values, allowed: {expected}, one for each input"
+            ));
+        }
+        for (index, value) in self.inputs.iter().zip(values) {
+            self.check("inputs: ", *index, *value)?;
+        }
+        for (number, value) in values.iter().enumerate() {
+            self.put(self.inputs[number], *value)?;
+        }
+        Ok(())
     }
 }
 
@@ -102,10 +126,7 @@ impl Vehicle {
         let of_case = |error| Refusal::of_case(&case.name, error);
         let vehicle = py.detach(|| {
             let coupled = CoupledCase::new(&case, &outside)?;
-            let contact = coupled.contact()?;
-            let tables: Result<Vec<_>, _> =
-                contact.pairs().iter().map(|pair| pair.tables()).collect();
-            Coupled::new(&coupled, &tables?)
+            Coupled::new(&coupled, &coupled.contact()?.tables()?)
         });
         let vehicle = vehicle.map_err(of_case)?;
         let variables = vehicle.variables().iter().enumerate();
@@ -156,7 +177,8 @@ impl Vehicle {
     /// Sets an input from the next tick on.
     fn set(&mut self, name: &str, value: f64) -> Outcome<()> {
         let index = self.index(name)?;
-        self.set_index(index, value)
+        self.check("", index, value)?;
+        self.put(index, value)
     }
 
     /// Returns the value of an input or output.
@@ -174,7 +196,7 @@ impl Vehicle {
     }
 
     /// Runs `ticks` ticks and returns an array with a row of all outputs after each; fewer rows if the run ends, and
-    /// none after its end. `ending` then tells why.
+    /// none after its end. `ending` then gives the reason.
     ///
     /// `inputs` is one value for each of `Vehicle.inputs`; without it the inputs stay as they are.
     #[pyo3(signature = (ticks=1, inputs=None))]
@@ -185,30 +207,7 @@ impl Vehicle {
         inputs: Option<&Bound<'py, PyAny>>,
     ) -> Outcome<Bound<'py, PyArray2<f64>>> {
         if let Some(inputs) = inputs {
-            let given = arrays::read::<f64, Ix1>("inputs", inputs)?;
-            let (found, expected) = (given.shape()[0], self.inputs.len());
-            if found != expected {
-                return refuse(format!(
-                    "inputs: {found} values, allowed: {expected}, one for each input"
-                ));
-            }
-            let values = given.as_slice().map_err(PyErr::from)?.to_vec();
-            // All are checked before any is set.
-            for (index, value) in self.inputs.iter().zip(&values) {
-                let variable = &self.vehicle.variables()[*index];
-                let [min, max] = variable
-                    .input()
-                    .map_or([f64::MIN, f64::MAX], Input::allowed);
-                if !(min..=max).contains(value) {
-                    return refuse(format!(
-                        "inputs: {} {value}, allowed: {min} to {max}",
-                        variable.name
-                    ));
-                }
-            }
-            for (index, value) in self.inputs.clone().into_iter().zip(values) {
-                self.set_index(index, value)?;
-            }
+            self.put_all(inputs)?;
         }
         let mut rows: Vec<f64> = Vec::new();
         for tick in 0..ticks {
@@ -223,10 +222,8 @@ impl Vehicle {
             rows.extend(values.map(Option::unwrap_or_default));
         }
         let columns = self.outputs.len();
-        let array = PyArray1::from_vec(py, rows);
-        use numpy::PyArrayMethods;
-        let count = array.len() / columns;
-        Ok(array.reshape([count, columns])?)
+        let count = rows.len() / columns;
+        Ok(PyArray1::from_vec(py, rows).reshape([count, columns])?)
     }
 
     /// Returns to the start of the case.

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, CString};
 use std::path::Path;
 
-use dashpot_vehicle_run::{Coupled, CoupledCase, Ending, Input};
+use dashpot_vehicle_run::{Coupled, CoupledCase, Ending};
 
 use crate::result::ModelResult;
 
@@ -79,9 +79,9 @@ impl Model {
         let index = Self::index(variable);
         match index.and_then(|index| self.vehicle.variables().get(index)) {
             None => ModelResult::NoVariable,
-            Some(variable) => match variable.input().map(Input::allowed) {
+            Some(variable) => match variable.input() {
                 None => ModelResult::ReadOnly,
-                Some([min, max]) if (min..=max).contains(&value) => ModelResult::Done,
+                Some(input) if input.allows(value) => ModelResult::Done,
                 Some(_) => ModelResult::OutOfRange,
             },
         }

@@ -159,13 +159,20 @@ impl ContactSetup {
         Ok(self.wheelsets.iter().filter_map(of_sides).collect())
     }
 
-    /// Returns the contact of each wheelset with tables; computes and caches them if necessary.
+    /// Returns the tables of each pair; computes and caches them if necessary.
     ///
     /// # Errors
-    /// See [`WheelOnRail::tables`] and [`Self::contacts`].
+    /// See [`WheelOnRail::tables`].
+    pub fn tables(&self) -> Result<Vec<Arc<Tables>>, VehicleRunError> {
+        self.pairs.iter().map(WheelOnRail::tables).collect()
+    }
+
+    /// Returns the contact of each wheelset with the [`tables`](Self::tables) of its pairs.
+    ///
+    /// # Errors
+    /// See [`Self::tables`] and [`Self::contacts`].
     pub fn tabulated(&self) -> Result<Vec<Contact>, VehicleRunError> {
-        let tables: Result<Vec<_>, _> = self.pairs.iter().map(WheelOnRail::tables).collect();
-        self.contacts(&tables?)
+        self.contacts(&self.tables()?)
     }
 
     /// Returns the contact of each wheelset without tables, for a few evaluations.

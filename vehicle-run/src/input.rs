@@ -1,4 +1,4 @@
-//! What another simulation, a program or an operator may set while a vehicle runs.
+//! Inputs of a running vehicle, which another simulation, a program or an operator sets.
 
 use dashpot_rail::vehicle::{FRICTION_FACTOR, MAX_APPLIED, SPEED_M_PER_S, Vehicle, VehicleState};
 
@@ -96,6 +96,12 @@ impl Input {
             Self::FrictionFactor => FRICTION_FACTOR,
             Self::Applied { .. } => [-MAX_APPLIED, MAX_APPLIED],
         }
+    }
+
+    /// True if it may have this value.
+    pub fn allows(self, value: f64) -> bool {
+        let [min, max] = self.allowed();
+        (min..=max).contains(&value)
     }
 
     /// Current value; zero for an external damper that has no force yet.

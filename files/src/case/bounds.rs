@@ -35,7 +35,11 @@ pub(super) fn check(options: &CaseOptions, friction: f64) -> Result<(), CaseErro
 }
 
 /// Checks one number; NaN is out of bounds.
-fn check_bounds(key: &'static str, value: f64, [min, max]: [f64; 2]) -> Result<(), CaseError> {
+pub(super) fn check_bounds(
+    key: &'static str,
+    value: f64,
+    [min, max]: [f64; 2],
+) -> Result<(), CaseError> {
     if (min..=max).contains(&value) {
         return Ok(());
     }

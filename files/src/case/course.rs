@@ -31,11 +31,6 @@ impl<const N: usize> Course<N> {
         self.knots.push((time_s + ramp_s, value));
     }
 
-    /// True if the value never changes.
-    pub fn is_constant(&self) -> bool {
-        self.knots.iter().all(|knot| knot.1 == self.knots[0].1)
-    }
-
     /// Value at a time; at a jump, the value after it.
     pub fn at(&self, time_s: f64) -> [f64; N] {
         let next = self.knots.partition_point(|(knot_s, _)| *knot_s <= time_s);
@@ -68,13 +63,13 @@ impl<const N: usize> Course<N> {
         sum
     }
 
-    /// Greatest value of the first quantity.
+    /// Largest value of the first component.
     pub fn max(&self) -> f64 {
         let values = self.knots.iter().map(|(_, value)| value[0]);
         values.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Least value of the first quantity.
+    /// Smallest value of the first component.
     pub fn min(&self) -> f64 {
         let values = self.knots.iter().map(|(_, value)| value[0]);
         values.fold(f64::INFINITY, f64::min)

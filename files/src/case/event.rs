@@ -5,6 +5,7 @@ use std::fmt;
 use dashpot_rail::vehicle::{FRICTION_FACTOR, SPEED_M_PER_S, VehicleParameters};
 
 use super::CaseError;
+use super::bounds::check_bounds;
 use super::course::Course;
 
 /// Maximum rate of a change of speed, m/s^2. Emergency brakes of trains reach about 2.
@@ -93,14 +94,20 @@ pub struct EventOptions {
 impl EventOptions {
     /// Checks the event on its own.
     fn event(&self, vehicle: &VehicleParameters, duration_s: f64) -> Result<Event, String> {
+        let within = |key, value, allowed| {
+            check_bounds(key, value, allowed).map_err(|error| error.to_string())
+        };
         let Self { time_s, ramp_s, .. } = *self;
         within("time_s", time_s, [0.0, duration_s])?;
         within("ramp_s", ramp_s, [0.0, 36e3])?;
         let force = (&self.force_on, self.force_at_m, self.force_n);
         let change = match (self.speed_km_h, self.friction_factor, force) {
             (Some(speed_km_h), None, (None, None, None)) => {
-                let [min, max] = SPEED_M_PER_S.map(|speed| 3.6 * speed);
-                within("speed_km_h", speed_km_h, [min, max])?;
+                within(
+                    "speed_km_h",
+                    speed_km_h,
+                    SPEED_M_PER_S.map(|speed| 3.6 * speed),
+                )?;
                 Change::Speed(speed_km_h / 3.6)
             }
             (None, Some(factor), (None, None, None)) => {
@@ -108,10 +115,9 @@ impl EventOptions {
                 Change::FrictionFactor(factor)
             }
             (None, None, (Some(body), Some(at_m), Some(force_n))) => {
-                let mut names = vehicle.bodies.iter().map(|body| body.name.as_str());
-                if !names.any(|name| name == body) {
-                    let names = vehicle.bodies.iter().map(|body| body.name.as_str());
-                    let names: Vec<&str> = names.collect();
+                let bodies = vehicle.bodies.iter();
+                let names: Vec<&str> = bodies.map(|body| body.name.as_str()).collect();
+                if !names.contains(&body.as_str()) {
                     return Err(format!("force_on `{body}`, allowed: {}", names.join(", ")));
                 }
                 for metres in at_m {
@@ -170,11 +176,4 @@ pub(super) fn resolve(
         resolved.push(event);
     }
     Ok(resolved)
-}
-
-fn within(key: &str, value: f64, [min, max]: [f64; 2]) -> Result<(), String> {
-    if (min..=max).contains(&value) {
-        return Ok(());
-    }
-    Err(format!("{key} {value}, allowed: {min} to {max}"))
 }

@@ -4,6 +4,7 @@ use dashpot_core::DamperParameters;
 use dashpot_rail::vehicle::{Law, VehicleParameters};
 
 use super::CaseError;
+use super::bounds::check_bounds;
 use crate::{damper, vehicle};
 
 /// Change of one damper during a run.
@@ -47,12 +48,8 @@ pub(super) fn resolve(
             number: index + 1,
             reason,
         };
-        if !(0.0..=duration_s).contains(&fault.time_s) {
-            let time_s = fault.time_s;
-            return Err(invalid(format!(
-                "time_s {time_s}, allowed: 0 to {duration_s}"
-            )));
-        }
+        check_bounds("time_s", fault.time_s, [0.0, duration_s])
+            .map_err(|error| invalid(error.to_string()))?;
         if fault.replacement.is_none() && fault.overrides.is_empty() {
             return Err(invalid("no effect without `damper_file` or `set`".into()));
         }

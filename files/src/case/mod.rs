@@ -116,9 +116,6 @@ impl Case {
 
     /// Final distance of the vehicle's centre along the track, m.
     pub fn end_m(&self) -> f64 {
-        if self.events.is_empty() {
-            return self.start_m + self.speed_m_per_s * self.duration_s;
-        }
         self.start_m + self.speeds_m_per_s().integral(self.duration_s)[0]
     }
 

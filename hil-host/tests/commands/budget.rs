@@ -12,7 +12,7 @@ use dashpot_realtime::pacing::{Clock, Pacer};
 use crate::common::{dashpot, error_of, json_of, text_of};
 
 /// Clock that advances with the work of the ticks and with sleeping.
-struct SimulatedClock<'a>(&'a Cell<u64>);
+pub struct SimulatedClock<'a>(pub &'a Cell<u64>);
 
 impl Clock for SimulatedClock<'_> {
     fn now_ns(&self) -> u64 {

@@ -8,10 +8,11 @@ use assert_cmd::assert::Assert;
 use dashpot_files::case::Case;
 use dashpot_hil::commands::vehicle::drive::{Driven, Exchange, drive};
 use dashpot_realtime::handover::handover;
-use dashpot_realtime::pacing::{Clock, Pacer};
+use dashpot_realtime::pacing::Pacer;
 use dashpot_vehicle_run::{Ending, Run, TickRecord, VehicleRunError};
 use serde_json::Value;
 
+use crate::budget::SimulatedClock;
 use crate::common::{dashpot, error_of, json_of, text_of};
 
 /// Runs the locomotive for 0.3 s, with `options`.
@@ -93,7 +94,7 @@ fn a_run_stops_at_the_first_tick_above_the_limit() {
     assert_eq!(history.lines().count(), 2);
 }
 
-/// Whether a deadline is missed depends on the load of the machine; the exit code follows from the report.
+/// The load of the machine decides whether a deadline is missed, so the report tells which exit code is right.
 #[test]
 fn any_missed_deadline_fails_when_asked() {
     let folder = tempfile::tempdir().unwrap();
@@ -120,18 +121,6 @@ fn the_limits_require_real_time() {
     }
     let ended = vehicle(&["--realtime", "--stop-above-ns", "0"], folder.path()).code(2);
     assert!(error_of(&ended).contains("1.."));
-}
-
-/// Clock that advances by sleeping, and by the work of the ticks.
-struct SimulatedClock<'a>(&'a Cell<u64>);
-
-impl Clock for SimulatedClock<'_> {
-    fn now_ns(&self) -> u64 {
-        self.0.get()
-    }
-    fn sleep_until_ns(&self, deadline_ns: u64) {
-        self.0.set(deadline_ns);
-    }
 }
 
 /// Work of the ticks: 60 us, but 300 us in tick 7 and 2.5 ms in tick 12.

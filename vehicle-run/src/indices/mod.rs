@@ -80,6 +80,8 @@ pub(crate) struct Ticks {
     speed_m_per_s: f64,
     least_speed_m_per_s: f64,
     greatest_speed_m_per_s: f64,
+    /// Ticks in a window of [`WINDOW_M`] at the current speed.
+    window: usize,
 }
 
 impl Ticks {
@@ -91,12 +93,17 @@ impl Ticks {
             speed_m_per_s: case.speed_m_per_s,
             least_speed_m_per_s: speeds.min(),
             greatest_speed_m_per_s: speeds.max(),
+            window: window(case.speed_m_per_s * case.step_s),
         }
     }
 
     /// Goes on to a tick.
     pub fn go_on(&mut self, tick: &impl VehicleTick) {
-        self.speed_m_per_s = tick.speed_m_per_s();
+        let speed_m_per_s = tick.speed_m_per_s();
+        if speed_m_per_s != self.speed_m_per_s {
+            self.speed_m_per_s = speed_m_per_s;
+            self.window = window(self.tick_m());
+        }
     }
 
     /// Distance of a tick, m.
@@ -106,7 +113,7 @@ impl Ticks {
 
     /// Ticks in a window of [`WINDOW_M`] at the current speed.
     pub fn window(&self) -> usize {
-        window(self.tick_m())
+        self.window
     }
 
     /// Ticks in a window of [`WINDOW_M`] at the least speed.

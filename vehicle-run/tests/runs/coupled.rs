@@ -18,13 +18,9 @@ fn case(vehicle: &str, fault: &str) -> Case {
         .unwrap()
 }
 
-fn coupled(definition: &CoupledCase) -> Coupled {
-    let contact = definition.contact().unwrap();
-    let tables: Vec<_> = contact
-        .pairs()
-        .iter()
-        .map(|pair| pair.tables().unwrap())
-        .collect();
+/// Builds a coupled vehicle with cached tables.
+pub fn coupled(definition: &CoupledCase) -> Coupled {
+    let tables = definition.contact().unwrap().tables().unwrap();
     Coupled::new(definition, &tables).unwrap()
 }
 

@@ -1,7 +1,9 @@
 //! Events of a case, compared with closed forms and with runs that have the new values from the start.
 
 use dashpot_files::case::{Case, CaseOptions};
-use dashpot_vehicle_run::{Coupled, CoupledCase, Run};
+use dashpot_vehicle_run::{CoupledCase, Run};
+
+use crate::coupled::coupled;
 
 /// A coach at 120 km/h on rigid rails, with further lines of its case.
 fn case(track: &str, lines: &str) -> Case {
@@ -109,13 +111,7 @@ fn restored_states_continue_with_the_same_bits_across_events() {
          force_n = [9e3, 0]",
     );
     let definition = CoupledCase::new(&case, &[]).unwrap();
-    let contact = definition.contact().unwrap();
-    let tables: Vec<_> = contact
-        .pairs()
-        .iter()
-        .map(|pair| pair.tables().unwrap())
-        .collect();
-    let mut vehicle = Coupled::new(&definition, &tables).unwrap();
+    let mut vehicle = coupled(&definition);
     let mut saved = Vec::new();
     for _ in 0..6 {
         saved.push(vehicle.save().unwrap());

@@ -202,8 +202,7 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         writeln!(
             out,
             "\nA second reference with tolerance {:e} differs by {:.4} %, {:.4} um, {:.4} kN, {:.4} %, {:.4} %: the \
-             case \
-             is {}.",
+             case is {}.",
             LOOSER_TOLERANCE,
             1e2 * parting.acceleration.deviation,
             1e6 * parting.lateral_m.deviation,

@@ -241,9 +241,8 @@ fn tables(report: &Report) -> Markup {
                     }
                 } }
                 p {
-                    "Q: range within all steps. Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over 2 "
-                    "m. "
-                    "Wear number: mean creep power over the speed."
+                    "Q: range within all steps. Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over "
+                    "2 m. Wear number: mean creep power over the speed."
                 }
                 (limits(indices))
             }
@@ -289,8 +288,7 @@ fn limits(indices: &Indices) -> Markup {
         } }
         p {
             "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Q, filtered at 20 Hz, as "
-            "% "
-            "of the limit of EN 14363 for the speed. Y/Q, filtered at 20 Hz, as % of Nadal's "
+            "% of the limit of EN 14363 for the speed. Y/Q, filtered at 20 Hz, as % of Nadal's "
             "limit, mean over 2 m, and the longest distance beyond it. Lateral force as % of Prud'homme's limit, mean "
             "over 2 m. Nadal's limit is " (nadal_limits(indices))
             ". Prud'homme's limit is 10 kN plus a third of the static axle load."

@@ -34,7 +34,7 @@ impl Clock for SimulatedClock {
     }
 }
 
-/// What a silent target does with requests.
+/// How a silent target treats requests.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Silent {
     /// It does not receive them.

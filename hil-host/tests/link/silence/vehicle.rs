@@ -21,7 +21,7 @@ const START_M: f64 = 10.0;
 /// Limit for ticks in a row without an answer.
 const HOLD_TICKS: u64 = 40;
 
-/// What a run left.
+/// Results of a run.
 struct Ran {
     driven: Driven,
     pacing: Option<PacingReport>,

@@ -1,4 +1,4 @@
-//! What may change while a vehicle runs: speed, friction, and forces on bodies.
+//! Changes of a running vehicle: speed, friction, and forces on bodies.
 
 use super::block::{N, Vector};
 use super::state::VehicleState;

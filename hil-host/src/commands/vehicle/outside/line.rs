@@ -148,7 +148,7 @@ impl Line {
     }
 
     /// Sends the displacements and applies the returned forces from the next tick on. In real time, the last forces
-    /// stand in for an answer that does not come in time; `time_left` returns the time until the deadline of the tick.
+    /// are used again if the answer is late; `time_left` returns the time until the deadline of the tick.
     ///
     /// If the target takes several steps per tick, displacements are interpolated linearly.
     ///
