@@ -5,7 +5,7 @@
 use std::sync::LazyLock;
 
 use dashpot_files::study::StudyParameters;
-use dashpot_study::sweep::{Arithmetic, Study, digest_of_cells, physics};
+use dashpot_study::sweep::{PHYSICS, Study, digest_of_cells};
 use libfuzzer_sys::fuzz_target;
 
 static STUDY: LazyLock<Study> = LazyLock::new(|| {
@@ -16,10 +16,7 @@ static STUDY: LazyLock<Study> = LazyLock::new(|| {
 fuzz_target!(|text: &str| {
     let _ = STUDY.row(text.split(','));
     let mut cells: Vec<&str> = text.split(',').collect();
-    cells.push(match cells.last() {
-        Some(&"separate") => physics(Arithmetic::Separate),
-        _ => physics(Arithmetic::Fused),
-    });
+    cells.push(PHYSICS);
     let digest = digest_of_cells(cells.iter().copied());
     cells.push(&digest);
     let Ok(row) = STUDY.row(cells.into_iter()) else {

@@ -1,7 +1,7 @@
 //! Studies: numbered cases of a vehicle, with one row of indices each.
 
 use dashpot_files::study::{StudyParameters, Value};
-use dashpot_study::sweep::{self, Arithmetic, Row, Shard};
+use dashpot_study::sweep::{self, Row, Shard};
 use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -118,8 +118,7 @@ impl Study {
 
 /// Everything that must match in the receiving process: cases, version and physics.
 fn identity(study: &sweep::Study) -> String {
-    let [fused, separate] = [Arithmetic::Fused, Arithmetic::Separate].map(sweep::physics);
-    [study.digest(), sweep::VERSION, fused, separate].join(" ")
+    [study.digest(), sweep::VERSION, sweep::PHYSICS].join(" ")
 }
 
 /// Requested number of seeds.

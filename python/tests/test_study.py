@@ -39,7 +39,7 @@ def texts(row):
     def text(name, cell):
         if cell is None:
             return ""
-        if name in ("sweep", "ending", "study", "version", "arithmetic", "physics", "row_digest") or not isinstance(cell, float):
+        if name in ("sweep", "ending", "study", "version", "physics", "row_digest") or not isinstance(cell, float):
             return str(cell)
         return cell
 

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod contact;
 pub mod creep;
@@ -11,4 +12,4 @@ mod setters;
 pub mod track;
 pub mod vehicle;
 
-pub use math::{fuses_multiplication, without_fused_multiplication};
+pub use math::with_narrowest_vectors;

@@ -138,7 +138,7 @@ fn reached(contacts: &[Contact], profile: &Profile, is_wheel: bool, end: End) ->
         } else {
             [contact.track_y_m, profile.at(contact.track_y_m).z_m]
         };
-        (contact_y - y).hypot(contact_z - z) < contact.half_width_m + NEAR_M
+        libm::hypot(contact_y - y, contact_z - z) < contact.half_width_m + NEAR_M
     };
     let shifts = contacts
         .iter()

@@ -54,8 +54,8 @@ impl From<&RigidContact> for Shift {
             lateral_shift_m: contact.lateral_m,
             rolling_radius_difference_m: contact.rolling_radius_difference_m(),
             roll_rad: contact.roll_rad,
-            contact_angle_left_rad: -contact.sides[0].slope.atan(),
-            contact_angle_right_rad: -contact.sides[1].slope.atan(),
+            contact_angle_left_rad: -libm::atan(contact.sides[0].slope),
+            contact_angle_right_rad: -libm::atan(contact.sides[1].slope),
             wheel_place_left_m: contact.sides[0].wheel_y_m,
             wheel_place_right_m: contact.sides[1].wheel_y_m,
         }

@@ -2,10 +2,9 @@
 //! runs. The runs cover every element of a vehicle, elastically supported rails, a damper that changes during the run,
 //! both laws of a damper and every index.
 //!
-//! Both digests, with and without fused multiply-add, are those of an x86-64 processor that supports it. On other
-//! processors, the system library may round sines and exponentials differently.
+//! It is the same for every width of vectors.
 //!
-//! `DASHPOT_BLESS=1` writes both digests into `study/src/sweep/physics.rs`, and into the kept rows that new
+//! `DASHPOT_BLESS=1` writes it into `study/src/sweep/physics.rs`, and into the kept rows that new
 //! runs reproduce bit by bit.
 
 use std::collections::BTreeSet;
@@ -15,10 +14,8 @@ use dashpot_core::Damper;
 use dashpot_files::damper::{self, PRESETS};
 use dashpot_files::study::StudyParameters;
 use dashpot_rail::vehicle::Law;
-use dashpot_rail::without_fused_multiplication;
-use dashpot_study::sweep::{
-    Arithmetic, OBSERVED, ROW_DIGEST, Shared, Study, digest_of_cells, physics, row,
-};
+use dashpot_rail::with_narrowest_vectors;
+use dashpot_study::sweep::{OBSERVED, PHYSICS, ROW_DIGEST, Shared, Study, digest_of_cells, row};
 use dashpot_testbench::excitation::Excitation;
 
 use crate::rows::Kept;
@@ -36,7 +33,7 @@ fn study() -> Study {
     Study::new(parameters).expect("the study of physics")
 }
 
-/// Bits of the model's results with the arithmetic of this thread.
+/// Bits of the model's results with the vectors of this thread.
 fn results() -> Vec<String> {
     let mut results = Vec::new();
     let bits = |number: f64| format!("{:016x}", number.to_bits());
@@ -67,55 +64,34 @@ fn results() -> Vec<String> {
     results
 }
 
-/// Both digests with their arithmetic; empty on processors for which they are not defined.
-fn computed() -> Vec<(Arithmetic, String)> {
-    if !cfg!(target_arch = "x86_64") || Arithmetic::here() != Arithmetic::Fused {
-        eprintln!(
-            "the digests of physics are those of x86-64 with fused multiply-add: not compared here"
-        );
-        return Vec::new();
-    }
-    let with = || {
-        let results = results();
-        let digest = digest_of_cells(results.iter().map(String::as_str));
-        (Arithmetic::here(), digest)
-    };
-    let separate =
-        without_fused_multiplication(with).expect("x86-64 has instructions without fusing");
-    vec![with(), separate]
-}
-
-/// Replaces the digest of an arithmetic in its line of `text`.
-fn with_digest(text: &str, arithmetic: Arithmetic, digest: &str) -> String {
-    let start = format!("const {}: &str = \"", arithmetic.word().to_uppercase());
-    let at = text.find(&start).expect("its line") + start.len();
-    format!("{}{digest}{}", &text[..at], &text[at + digest.len()..])
+/// Digest of the model's results with the vectors of this thread.
+fn computed() -> String {
+    digest_of_cells(results().iter().map(String::as_str))
 }
 
 #[test]
 fn the_digest_of_physics_is_that_of_the_model() {
     let computed = computed();
-    let differ = |(arithmetic, digest): &&(Arithmetic, String)| physics(*arithmetic) != digest;
-    let Some((arithmetic, digest)) = computed.iter().find(differ) else {
+    assert_eq!(
+        with_narrowest_vectors(self::computed),
+        computed,
+        "the width of vectors must not change a bit"
+    );
+    if computed == PHYSICS {
         return;
-    };
+    }
     assert!(
         document::blessing(),
-        "the model behaves differently, and rows of studies must not mix: physics of {arithmetic} arithmetic is \
-         {digest}, {SOURCE} has {}; DASHPOT_BLESS=1 writes it there and into the kept rows where new runs have their \
-         bits",
-        physics(*arithmetic)
+        "the model behaves differently, and rows of studies must not mix: physics is {computed}, {SOURCE} has \
+         {PHYSICS}; DASHPOT_BLESS=1 writes it there and into the kept rows where new runs have their bits"
     );
-    let mut source = document::read(SOURCE);
-    for (arithmetic, digest) in &computed {
-        source = with_digest(&source, *arithmetic, digest);
-    }
-    document::compare(SOURCE, &source);
+    let source = document::read(SOURCE);
+    document::compare(SOURCE, &source.replace(PHYSICS, &computed));
     bless_kept_rows(&computed);
 }
 
-/// Writes the digests into the kept rows of those studies whose new runs (every 397th) have the same bits as before.
-fn bless_kept_rows(computed: &[(Arithmetic, String)]) {
+/// Writes the digest into the kept rows of those studies whose new runs (every 397th) have the same bits as before.
+fn bless_kept_rows(computed: &str) {
     for name in STUDIES {
         let path = format!("data/studies/rows/{name}.csv");
         let difference = match Kept::read(name) {
@@ -133,25 +109,22 @@ fn bless_kept_rows(computed: &[(Arithmetic, String)]) {
     }
 }
 
-/// Replaces the digests of physics in the rows, and the digests of their cells.
-fn with_physics(text: &str, computed: &[(Arithmetic, String)]) -> String {
+/// Replaces the digest of physics in the rows, and the digests of their cells.
+fn with_physics(text: &str, computed: &str) -> String {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let header = reader.headers().expect("a header").clone();
     let column = |name| {
         let mut names = header.iter();
         names.position(|column| column == name).expect("a column")
     };
-    let [arithmetic, physics, digest] = ["arithmetic", "physics", ROW_DIGEST].map(column);
+    let [physics, digest] = ["physics", ROW_DIGEST].map(column);
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(&header).expect("in memory");
     for record in reader.records() {
         let record = record.expect("a row");
         let mut cells: Vec<String> = record.iter().map(str::to_owned).collect();
-        let of = |(one, _): &&(Arithmetic, String)| one.word() == cells[arithmetic];
-        if let Some((_, new)) = computed.iter().find(of) {
-            cells[physics].clone_from(new);
-            cells[digest] = digest_of_cells(cells[..digest].iter().map(String::as_str));
-        }
+        cells[physics] = computed.to_owned();
+        cells[digest] = digest_of_cells(cells[..digest].iter().map(String::as_str));
         writer.write_record(&cells).expect("in memory");
     }
     String::from_utf8(writer.into_inner().expect("in memory")).expect("text")

@@ -78,7 +78,7 @@ impl WearEstimate {
         let weight = |distance: usize| {
             let part = distance as f64 * CELL_M / length_m;
             if part < 1.0 {
-                1.0 + (std::f64::consts::PI * part).cos()
+                1.0 + libm::cos(std::f64::consts::PI * part)
             } else {
                 0.0
             }

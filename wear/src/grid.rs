@@ -101,7 +101,7 @@ pub(crate) fn arcs(profile: &Profile) -> Vec<[f64; 2]> {
     let mut arcs = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
         if let Some(before) = i.checked_sub(1).map(|i| &points[i]) {
-            arc_m += (point.y_m - before.y_m).hypot(point.z_m - before.z_m);
+            arc_m += libm::hypot(point.y_m - before.y_m, point.z_m - before.z_m);
         }
         arcs.push([point.y_m, arc_m]);
     }

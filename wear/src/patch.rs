@@ -28,7 +28,7 @@ impl WearingPatch {
     /// The patch of a wheel that runs at `speed_m_per_s` with the friction coefficient `friction`.
     #[inline]
     pub fn new(patch: &PatchForces, speed_m_per_s: f64, friction: f64) -> Self {
-        let speed_m_per_s = speed_m_per_s.hypot(STANDSTILL_SPEED_M_PER_S);
+        let speed_m_per_s = libm::hypot(speed_m_per_s, STANDSTILL_SPEED_M_PER_S);
         Self {
             load_n: patch.load_n,
             peak_pressure_pa: patch.peak_pressure_pa,

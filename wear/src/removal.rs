@@ -90,7 +90,7 @@ pub fn removed(
             });
         }
         let depth_m = into * 2.0 * loss_m / (1.0 + (1.0 - 2.0 * radii).sqrt());
-        let (sin, cos) = point.angle_rad.sin_cos();
+        let (sin, cos) = libm::sincos(point.angle_rad);
         points_m.push([point.y_m - depth_m * sin, point.z_m + depth_m * cos]);
     }
     Ok(Profile::through(profile.name(), &points_m, 0.0)?)

@@ -66,7 +66,7 @@ impl RailTilt {
     /// assert!(upright.is_some_and(|tilt| !tilt.contains(0.025) && tilt.tilt_rad.abs() < 1e-3));
     /// ```
     pub fn contains(&self, inclination: f64) -> bool {
-        let laid_rad = inclination.atan();
+        let laid_rad = libm::atan(inclination);
         laid_rad != 0.0 && self.tilt_rad / laid_rad > 0.5
     }
 }
@@ -101,7 +101,7 @@ pub fn rail_tilt(rail: &Profile) -> Option<RailTilt> {
     if let Some((gauge, field)) = both {
         return Some(RailTilt {
             tilt_rad: 0.5 * (field.lean_rad - gauge.lean_rad),
-            uncertainty_rad: 0.5 * field.uncertainty_rad.hypot(gauge.uncertainty_rad),
+            uncertainty_rad: 0.5 * libm::hypot(field.uncertainty_rad, gauge.uncertainty_rad),
             basis: TiltBasis::BothSides,
         });
     }
@@ -109,14 +109,14 @@ pub fn rail_tilt(rail: &Profile) -> Option<RailTilt> {
     if let Some(field) = field {
         return Some(RailTilt {
             tilt_rad: field.lean_rad - USUAL_LEAN_RAD,
-            uncertainty_rad: field.uncertainty_rad.hypot(LEAN_ERROR_RAD),
+            uncertainty_rad: libm::hypot(field.uncertainty_rad, LEAN_ERROR_RAD),
             basis: TiltBasis::FieldSide,
         });
     }
     if let Some(gauge) = gauge.filter(|gauge| gauge.lean_rad < PLAUSIBLE_LEANS_RAD[1]) {
         return Some(RailTilt {
             tilt_rad: USUAL_LEAN_RAD - gauge.lean_rad,
-            uncertainty_rad: gauge.uncertainty_rad.hypot(LEAN_ERROR_RAD),
+            uncertainty_rad: libm::hypot(gauge.uncertainty_rad, LEAN_ERROR_RAD),
             basis: TiltBasis::GaugeSide,
         });
     }
@@ -153,7 +153,7 @@ fn line(points: &[&ProfilePoint], outwards: f64) -> Option<Side> {
     let slope = product / square;
     let is_near = |p: &&ProfilePoint| (p.y_m - y - slope * (p.z_m - z)).abs() < STRAIGHT_WITHIN_M;
     points.iter().all(is_near).then(|| Side {
-        lean_rad: (outwards * slope).atan(),
+        lean_rad: libm::atan(outwards * slope),
         uncertainty_rad: POINT_ERROR_M / (points[0].z_m - points[points.len() - 1].z_m),
     })
 }

@@ -149,7 +149,7 @@ pub(super) fn range(from: f64, to: f64, count: usize, geometric: bool) -> Vec<Va
     let at = |i: usize| match i {
         0 => from,
         _ if i + 1 == count => to,
-        _ if geometric => from * (share(i) * (to / from).ln()).exp(),
+        _ if geometric => from * libm::exp(share(i) * libm::log(to / from)),
         _ => from + share(i) * (to - from),
     };
     (0..count).map(|i| Value::Number(rounded(at(i)))).collect()

@@ -79,9 +79,6 @@ fn check_again(study: &Study, rows: &Rows, count: u32, seed: Option<u64>) -> Out
     .map_err(|error| {
         let remedy = match &error {
             CheckError::Differs { .. } => "; run its shard again with --anew",
-            CheckError::Arithmetic { .. } => {
-                "; merge without --check, or on a processor of that type"
-            }
             _ => "",
         };
         Failure::new(format!("--check with --check-seed {seed}: {error}{remedy}"))

@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use dashpot_study::sweep::{Arithmetic, physics};
+use dashpot_study::sweep::PHYSICS;
 
 use crate::common::{dashpot, error_of, json_of};
 use crate::sweep::{STUDY, altered, folder, read, rows, with_its_digest};
@@ -13,7 +13,7 @@ fn rows_of_other_physics_are_refused_on_resume_and_merge() {
     let folder = folder(STUDY);
     let text = rows(folder.path());
     let (header, rest) = text.split_once('\n').unwrap();
-    let here = physics(Arithmetic::here());
+    let here = PHYSICS;
     assert!(rest.lines().all(|row| row.contains(here)), "{rest}");
     // Rows of an earlier program, with correct digests.
     let other = "0123456789abcdef";
@@ -71,6 +71,6 @@ fn rows_of_an_earlier_dashpot_are_refused_with_a_remedy() {
         folder.path(),
     );
     let report = json_of(&restarted.success());
-    assert_eq!(report["physics"], physics(Arithmetic::here()));
+    assert_eq!(report["physics"], PHYSICS);
     assert_eq!(read(folder.path(), "one/rows.csv"), text);
 }

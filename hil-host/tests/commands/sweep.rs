@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Child, Stdio};
 
-use dashpot_study::sweep::{Arithmetic, digest_of_cells, physics};
+use dashpot_study::sweep::digest_of_cells;
 use tempfile::TempDir;
 
 use crate::common::{command, dashpot, error_of, files_in, json_of, text_of};
@@ -216,19 +216,6 @@ fn merge_names_missing_and_duplicate_cases() {
         "{error}"
     );
     assert!(!folder.path().join("merged").exists(), "nothing is written");
-    // These rows are from a processor with the other arithmetic.
-    let (arithmetic, other) = match Arithmetic::here() {
-        Arithmetic::Fused => (Arithmetic::Fused, Arithmetic::Separate),
-        Arithmetic::Separate => (Arithmetic::Separate, Arithmetic::Fused),
-    };
-    let row = altered(rows[0], "arithmetic", header, other.word());
-    let row = altered(&row, "physics", header, physics(other));
-    let text = format!("{header}\n{}\n", with_its_digest(&row));
-    fs::write(folder.path().join("c.csv"), text).unwrap();
-    let error =
-        error_of(&dashpot(&["merge", "study.toml", "a.csv", "c.csv"], folder.path()).code(1));
-    let expected = format!("c.csv: case 0: arithmetic {other}, allowed here: {arithmetic}");
-    assert!(error.contains(&expected), "{error}");
     // These rows are from another study or version, or were edited by hand.
     let row = rows[0];
     for (changed, expected) in [

@@ -75,7 +75,6 @@ duration_s = 0.2
                 "ending",
                 "study",
                 "version",
-                "arithmetic",
                 "physics",
                 "row_digest",
             ]

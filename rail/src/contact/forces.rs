@@ -103,7 +103,7 @@ impl PatchForces {
 
     /// Contact angle against the track plane, rad; it has the sign of `slope`.
     pub fn contact_angle_rad(&self) -> f64 {
-        self.slope.atan()
+        libm::atan(self.slope)
     }
 }
 

@@ -123,10 +123,10 @@ impl Hertz {
         let pi = std::f64::consts::PI;
         // The major semi-axis is `major * load^(1/3)`, the penetration `depth * load^(2/3)`.
         let modulus = steel.contact_modulus_pa();
-        let major = (3.0 * second / (2.0 * pi * k * k * modulus * half_sum)).cbrt();
+        let major = libm::cbrt(3.0 * second / (2.0 * pi * k * k * modulus * half_sum));
         let depth = 3.0 * first / (2.0 * pi * major * modulus);
-        let stiffness = depth.powf(-1.5);
-        let major_factor = major * stiffness.cbrt();
+        let stiffness = libm::pow(depth, -1.5);
+        let major_factor = major * libm::cbrt(stiffness);
         let (a, b) = if rolling > across {
             (k * major_factor, major_factor)
         } else {
@@ -147,7 +147,7 @@ impl Hertz {
 
     /// Penetration under a normal load, m.
     pub fn penetration_m(&self, load_n: f64) -> f64 {
-        (load_n.max(0.0) / self.stiffness_n_per_m_1_5).powf(2.0 / 3.0)
+        libm::pow(load_n.max(0.0) / self.stiffness_n_per_m_1_5, 2.0 / 3.0)
     }
 
     /// Semi-axes `[a, b]` (rolling direction, across) at a penetration, m; zero if the bodies are apart.
@@ -164,11 +164,11 @@ fn axis_ratio(ratio: f64) -> f64 {
         return 1.0;
     }
     let residual = |logarithm: f64| {
-        let k = logarithm.exp();
+        let k = libm::exp(logarithm);
         let (first, second) = complete(k);
-        ((second / (k * k) - first) / (first - second) / ratio).ln()
+        libm::log((second / (k * k) - first) / (first - second) / ratio)
     };
-    let mut before = -0.636 * ratio.ln();
+    let mut before = -0.636 * libm::log(ratio);
     let mut logarithm = 0.99 * before;
     let mut residual_before = residual(before);
     for _ in 0..20 {
@@ -183,5 +183,5 @@ fn axis_ratio(ratio: f64) -> f64 {
             break;
         }
     }
-    logarithm.exp()
+    libm::exp(logarithm)
 }

@@ -8,8 +8,8 @@ use crate::profile::{Profile, ProfilePoint};
 ///
 /// `None` if the gauge side ends above the depth at which the gauge is measured.
 pub(super) fn lay(rail: &Profile, installation: &Installation) -> Option<Profile> {
-    let turn = installation.inclination.atan();
-    let (sin, cos) = turn.sin_cos();
+    let turn = libm::atan(installation.inclination);
+    let (sin, cos) = libm::sincos(turn);
     let mut points: Vec<ProfilePoint> = rail
         .points()
         .iter()
@@ -24,7 +24,7 @@ pub(super) fn lay(rail: &Profile, installation: &Installation) -> Option<Profile
         .min_by(|&i, &j| points[i].z_m.total_cmp(&points[j].z_m))
         .unwrap_or(0);
     // Below its widest point, an inclined head curves back, and no wheel can touch it there.
-    let touchable = |p: &ProfilePoint| p.angle_rad.cos() > 0.01;
+    let touchable = |p: &ProfilePoint| libm::cos(p.angle_rad) > 0.01;
     let end = (top..points.len()).find(|&i| !touchable(&points[i]));
     points.truncate(end.unwrap_or(points.len()));
     let start = (0..top).rev().find(|&i| !touchable(&points[i]));

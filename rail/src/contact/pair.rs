@@ -179,5 +179,9 @@ fn flange(points: &[ProfilePoint]) -> Option<(usize, usize)> {
 
 /// `dz/dy` at every sample.
 fn slopes(profile: &Profile) -> Vec<f64> {
-    profile.points().iter().map(|p| p.angle_rad.tan()).collect()
+    profile
+        .points()
+        .iter()
+        .map(|p| libm::tan(p.angle_rad))
+        .collect()
 }

@@ -37,7 +37,7 @@ impl RigidContact {
         let distance = left_datum + right_datum;
         let mut sides_at = |roll: f64| {
             let mut side = |pair: &Pair, datum: f64, sign: f64| {
-                let narrowing = datum * (yaw_rad.cos() * roll.cos() - 1.0);
+                let narrowing = datum * (libm::cos(yaw_rad) * libm::cos(roll) - 1.0);
                 let pose = WheelPose {
                     lateral_m: sign * lateral_m + narrowing,
                     roll_rad: sign * roll,
@@ -47,7 +47,7 @@ impl RigidContact {
             };
             let sides = [side(left, left_datum, -1.0), side(right, right_datum, 1.0)];
             let residual = sides[1].interpenetration_m - sides[0].interpenetration_m
-                + distance * yaw_rad.cos() * roll.sin();
+                + distance * libm::cos(yaw_rad) * libm::sin(roll);
             (sides, residual)
         };
         let mut roll = 0.0;

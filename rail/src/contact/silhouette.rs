@@ -58,7 +58,7 @@ pub(super) struct Turn {
 
 impl Turn {
     pub fn new(roll_rad: f64, yaw_rad: f64, radius: f64) -> Self {
-        let (roll, yaw) = (roll_rad.sin_cos().into(), yaw_rad.sin_cos().into());
+        let (roll, yaw) = (libm::sincos(roll_rad).into(), libm::sincos(yaw_rad).into());
         Self { roll, yaw, radius }
     }
 

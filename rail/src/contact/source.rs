@@ -136,7 +136,7 @@ impl ElasticPatch {
         PatchNumbers {
             load: self.load_n,
             whole_load: self.whole_load_n,
-            sine: self.slope / self.slope.hypot(1.0),
+            sine: self.slope / libm::hypot(self.slope, 1.0),
             wheel_y: self.wheel_y_m,
             wheel_z: self.wheel_z_m,
             semi_axes: self.semi_axes_m,

@@ -165,7 +165,7 @@ impl Landscape {
                     let lower = before.min(after[i]);
                     let relevance = (1.0 - (top - lower) / RELEVANT_M).max(0.0);
                     let valley = (lower - height).min(VALLEY_M) * relevance;
-                    let penalty = VALLEY_M * ((height - top) / AVOIDED_M).exp();
+                    let penalty = VALLEY_M * libm::exp((height - top) / AVOIDED_M);
                     reward[position] += valley - penalty;
                 }
             }

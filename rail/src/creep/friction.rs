@@ -120,7 +120,7 @@ impl Friction {
         } else {
             self.static_coefficient
                 * ((1.0 - self.residual_ratio)
-                    * (-sliding_speed_m_per_s / self.decay_speed_m_per_s).exp()
+                    * libm::exp(-sliding_speed_m_per_s / self.decay_speed_m_per_s)
                     + self.residual_ratio)
         }
     }

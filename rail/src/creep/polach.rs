@@ -62,8 +62,8 @@ impl CreepLaw for Polach {
             0.0
         };
         let e = FRAC_PI_4 * shear * a * b * c * modified * per_limit;
-        let force = FRAC_2_PI * limit * (e / (1.0 + e * e) + e.atan());
-        let shape = 1.0 + 6.3 * (1.0 - (-a / b).exp());
+        let force = FRAC_2_PI * limit * (e / (1.0 + e * e) + libm::atan(e));
+        let shape = 1.0 + 6.3 * (1.0 - libm::exp(-a / b));
         let stiffness = 8.0 / 3.0 * shear * b * (a * b).sqrt() * kalker.c23;
         let e_m = stiffness * modified_lateral.abs() * per_limit / shape;
         let reciprocal = 1.0 / (e_m * e_m + 1.0);

@@ -8,7 +8,7 @@
 /// assert!((limit - 1.1995).abs() < 1e-3);
 /// ```
 pub fn nadal_limit(flange_angle_rad: f64, friction: f64) -> f64 {
-    let tan = flange_angle_rad.tan();
+    let tan = libm::tan(flange_angle_rad);
     (tan - friction) / (1.0 + friction * tan)
 }
 

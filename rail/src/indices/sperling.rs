@@ -108,7 +108,7 @@ impl Sperling {
             .zip(weights)
             .map(contribution)
             .sum();
-        3.57 * sum.powf(0.1)
+        3.57 * libm::pow(sum, 0.1)
     }
 }
 

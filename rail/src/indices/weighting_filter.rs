@@ -40,7 +40,7 @@ pub(super) struct Factor {
 impl Factor {
     pub(super) fn new(section: &Section, rate_hz: f64) -> Self {
         // s = c (z - 1)/(z + 1), where c keeps the corner frequency exact.
-        let c = 2.0 * PI * section.corner_hz / (PI * section.corner_hz / rate_hz).tan();
+        let c = 2.0 * PI * section.corner_hz / libm::tan(PI * section.corner_hz / rate_hz);
         let discretise = |[constant, linear, quadratic]: [f64; 3]| {
             let (linear, quadratic) = (linear * c, quadratic * c * c);
             [

@@ -36,7 +36,7 @@ impl Welch {
     /// A rate or a window out of bounds.
     pub fn new(rate_hz: f64, window_s: f64) -> Result<Self, SpectrumError> {
         let length = samples_of_window(rate_hz, window_s)?;
-        let hann = (0..length).map(|i| 0.5 - 0.5 * (2.0 * PI * i as f64 / length as f64).cos());
+        let hann = (0..length).map(|i| 0.5 - 0.5 * libm::cos(2.0 * PI * i as f64 / length as f64));
         Ok(Self {
             rate_hz,
             hann: hann.collect(),

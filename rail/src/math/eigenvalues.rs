@@ -235,11 +235,11 @@ impl Iteration {
 /// vector. Returns `v`, `factor` and that multiple.
 fn reflector(numbers: [f64; 3]) -> ([f64; 3], f64, f64) {
     let [x, y, z] = numbers;
-    let rest = y.hypot(z);
+    let rest = libm::hypot(y, z);
     if rest == 0.0 {
         return ([1.0, 0.0, 0.0], 0.0, x);
     }
-    let left = -x.hypot(rest).copysign(x);
+    let left = -libm::hypot(x, rest).copysign(x);
     let per = 1.0 / (x - left);
     ([1.0, y * per, z * per], (left - x) / left, left)
 }

@@ -1,12 +1,12 @@
 //! Numerical tools of this crate.
 
-mod arithmetic;
 pub(crate) mod dual;
 pub(crate) mod each;
 pub(crate) mod eigenvalues;
 pub(crate) mod elliptic;
 pub(crate) mod number;
 pub(crate) mod spline;
+mod vector_width;
 
-pub(crate) use arithmetic::level;
-pub use arithmetic::{fuses_multiplication, without_fused_multiplication};
+pub(crate) use vector_width::level;
+pub use vector_width::with_narrowest_vectors;

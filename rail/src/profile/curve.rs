@@ -114,7 +114,7 @@ impl Profile {
         check(points_m, smoothing_m)?;
         let mut profile = Self::resampled(name, points_m, smoothing_m);
         let ends = [points_m[0][0], points_m[points_m.len() - 1][0]];
-        let vertical = |point: &ProfilePoint| point.angle_rad.cos() <= 0.0;
+        let vertical = |point: &ProfilePoint| libm::cos(point.angle_rad) <= 0.0;
         let at_end = |point: &ProfilePoint, end: usize| (point.y_m - ends[end]).abs() <= width_m;
         let points = &profile.points;
         let start = points
@@ -158,8 +158,8 @@ impl Profile {
                 ProfilePoint {
                     y_m: y,
                     z_m: z,
-                    angle_rad: dz.atan2(dy),
-                    curvature_per_m: (dy * ddz - dz * ddy) / dy.hypot(dz).powi(3),
+                    angle_rad: libm::atan2(dz, dy),
+                    curvature_per_m: (dy * ddz - dz * ddy) / libm::hypot(dy, dz).powi(3),
                 }
             })
             .collect();
@@ -231,7 +231,7 @@ fn chord_lengths(points: &[[f64; 2]]) -> Vec<f64> {
     let mut lengths = Vec::with_capacity(points.len());
     for (i, point) in points.iter().enumerate() {
         if i > 0 {
-            length += (point[0] - points[i - 1][0]).hypot(point[1] - points[i - 1][1]);
+            length += libm::hypot(point[0] - points[i - 1][0], point[1] - points[i - 1][1]);
         }
         lengths.push(length);
     }

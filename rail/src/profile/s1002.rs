@@ -80,7 +80,7 @@ pub fn profile() -> Profile {
     let slope = |s: f64| (depth_mm(s + 1e-6) - depth_mm(s - 1e-6)) / 2e-6;
     while s < 60.0 {
         points.push([s * 1e-3, depth_mm(s) * 1e-3]);
-        s += 1e3 * SAMPLE_SPACING_M / 1.0_f64.hypot(slope(s));
+        s += 1e3 * SAMPLE_SPACING_M / libm::hypot(1.0, slope(s));
     }
     points.push([60e-3, depth_mm(60.0) * 1e-3]);
     Profile::resampled("S1002", &points, 0.0)

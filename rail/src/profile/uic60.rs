@@ -20,17 +20,17 @@ const MAX_DEPTH_MM: f64 = 36.0;
 /// ```
 pub fn position_mm(arc_mm: f64) -> [f64; 2] {
     let [mut y, mut z, mut angle, mut remaining] = [0.0, 0.0, 0.0, arc_mm];
-    let side_angle = (1.0 / SIDE_INCLINATION).atan();
+    let side_angle = libm::atan(1.0 / SIDE_INCLINATION);
     for (i, radius) in RADII_MM.into_iter().enumerate() {
-        let centre_y = y - radius * f64::sin(angle);
+        let centre_y = y - radius * libm::sin(angle);
         let end = match JOINTS_MM.get(i) {
-            Some(joint) => ((joint - centre_y) / radius).asin(),
+            Some(joint) => libm::asin((joint - centre_y) / radius),
             None => side_angle,
         };
         let turn = (remaining / radius).min(end - angle);
         let next = angle + turn;
-        y += radius * (next.sin() - angle.sin());
-        z += radius * (angle.cos() - next.cos());
+        y += radius * (libm::sin(next) - libm::sin(angle));
+        z += radius * (libm::cos(angle) - libm::cos(next));
         remaining -= turn * radius;
         angle = next;
         if remaining <= 0.0 {
@@ -38,8 +38,8 @@ pub fn position_mm(arc_mm: f64) -> [f64; 2] {
         }
     }
     [
-        y + remaining * side_angle.cos(),
-        z + remaining * side_angle.sin(),
+        y + remaining * libm::cos(side_angle),
+        z + remaining * libm::sin(side_angle),
     ]
 }
 

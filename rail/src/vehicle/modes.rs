@@ -40,7 +40,7 @@ impl Mode {
     /// oscillator.
     pub fn undamped_hz(&self) -> f64 {
         let [real, imaginary] = self.eigenvalue;
-        real.hypot(imaginary) / (2.0 * std::f64::consts::PI)
+        libm::hypot(real, imaginary) / (2.0 * std::f64::consts::PI)
     }
 
     /// Returns the frequency of the motion, Hz.
@@ -51,7 +51,7 @@ impl Mode {
     /// Returns the fraction of critical damping; negative if the motion grows.
     pub fn damping_ratio(&self) -> f64 {
         let [real, imaginary] = self.eigenvalue;
-        -real / real.hypot(imaginary)
+        -real / libm::hypot(real, imaginary)
     }
 
     /// Names the bodies with the most kinetic energy and their motion, for example `body bounce`.
@@ -142,7 +142,7 @@ fn shape(matrix: &DMatrix<f64>, value: Complex<f64>, number: usize) -> DVector<C
     });
     let solver = shifted.lu();
     let mut shape = DVector::from_fn(size, |i, _| {
-        Complex::new(1.0 + ((i * (number + 1)) as f64).sin(), 0.3)
+        Complex::new(1.0 + libm::sin((i * (number + 1)) as f64), 0.3)
     });
     for _ in 0..3 {
         if let Some(next) = solver.solve(&shape) {

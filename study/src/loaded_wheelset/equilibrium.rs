@@ -87,7 +87,7 @@ impl State {
             radius_m + 0.5 * (left.radius_beyond_datum_m() + right.radius_beyond_datum_m());
         // The datum of a wheel is lower than the centre of the wheelset by the cosine of its roll.
         let centre_m =
-            0.5 * (left.depth_m + right.depth_m) + radius_m * (1.0 - pressed.roll_rad.cos());
+            0.5 * (left.depth_m + right.depth_m) + radius_m * (1.0 - libm::cos(pressed.roll_rad));
         let motion = Motion {
             speed_m_per_s: running.speed_m_per_s,
             vertical_m: centre_m,
@@ -106,8 +106,8 @@ impl State {
         if running.roll_rad.is_some() {
             // Each wheel has its own depth on a rail that is raised or lowered.
             let lever_m = wheelset.pairs()[1].installation().datum_offset_m()
-                * running.yaw_rad.cos()
-                * pressed.roll_rad.sin();
+                * libm::cos(running.yaw_rad)
+                * libm::sin(pressed.roll_rad);
             let raised_m = 0.5 * (right.depth_m - left.depth_m) - lever_m;
             state.rails[0].vertical_m = raised_m;
             state.rails[1].vertical_m = -raised_m;
@@ -118,7 +118,7 @@ impl State {
     /// The shift holds at the top of the rails, not at the axle.
     fn set_roll(&mut self, wheelset: &LoadedWheelset, roll_rad: f64) {
         self.motion.roll_rad = roll_rad;
-        self.motion.lateral_m = self.lateral_m + wheelset.radius_m() * roll_rad.sin();
+        self.motion.lateral_m = self.lateral_m + wheelset.radius_m() * libm::sin(roll_rad);
     }
 
     fn forces(&self, wheelset: &LoadedWheelset) -> WheelsetForces {
@@ -141,7 +141,11 @@ impl State {
     /// Direction of the axle, to the right.
     fn axle(&self) -> [f64; 3] {
         let (roll, yaw) = (self.motion.roll_rad, self.motion.yaw_rad);
-        [-yaw.sin(), yaw.cos() * roll.cos(), yaw.cos() * roll.sin()]
+        [
+            -libm::sin(yaw),
+            libm::cos(yaw) * libm::cos(roll),
+            libm::cos(yaw) * libm::sin(roll),
+        ]
     }
 
     /// Derivatives of the residuals with respect to the depth of the wheelset, m, its roll, rad, and the relative
@@ -151,7 +155,7 @@ impl State {
         let mut forces = WheelsetForces::default();
         let contact = &wheelset.contact;
         let sides = contact.update_with_derivatives(&self.motion, &self.rails, &mut forces);
-        let arm_m = wheelset.radius_m() * self.motion.roll_rad.cos();
+        let arm_m = wheelset.radius_m() * libm::cos(self.motion.roll_rad);
         let axle = self.axle();
         let vertical = |side: &WheelDerivatives, column: usize| -side.force[2][column] / load_n;
         let driving = |side: &WheelDerivatives, column: usize| {

@@ -207,11 +207,11 @@ impl LoadedPatch {
     fn add(&mut self, next: &Self) {
         let [across, up] = [self, next]
             .map(|part| (part.load_n, part.contact_angle_rad))
-            .map(|(load_n, angle)| [load_n * angle.sin(), load_n * angle.cos()])
+            .map(|(load_n, angle)| [load_n * libm::sin(angle), load_n * libm::cos(angle)])
             .into_iter()
             .fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
-        self.load_n = across.hypot(up);
-        self.contact_angle_rad = across.atan2(up);
+        self.load_n = libm::hypot(across, up);
+        self.contact_angle_rad = libm::atan2(across, up);
         self.peak_pressure_pa = self.peak_pressure_pa.max(next.peak_pressure_pa);
         self.longitudinal_creep_force_n += next.longitudinal_creep_force_n;
         self.lateral_creep_force_n += next.lateral_creep_force_n;

@@ -75,7 +75,7 @@ impl<'a> Press<'a> {
         let [left, right] = self.wheelset.pairs();
         let distance_m =
             left.installation().datum_offset_m() + right.installation().datum_offset_m();
-        let lever_m = distance_m * yaw_rad.cos();
+        let lever_m = distance_m * libm::cos(yaw_rad);
         let rigid = RigidContact::of_sides([left, right], lateral_m, yaw_rad, &mut Vec::new());
         // The secant method for the roll at which one wheel is as much deeper than the other as the roll demands.
         let (mut roll_rad, mut slope) = (rigid.roll_rad, lever_m);
@@ -83,7 +83,7 @@ impl<'a> Press<'a> {
         for _ in 0..MAX_ROUNDS {
             let wheels = self.wheels(lateral_m, roll_rad, yaw_rad)?;
             let [left, right] = &wheels;
-            let residual = lever_m * roll_rad.sin() - (right.depth_m - left.depth_m);
+            let residual = lever_m * libm::sin(roll_rad) - (right.depth_m - left.depth_m);
             if residual.abs() < DEPTH_TOLERANCE_M {
                 return Some(Pressed { roll_rad, wheels });
             }
@@ -116,7 +116,7 @@ impl<'a> Press<'a> {
         let geometry: &ContactGeometry = &self.wheelset.contact.sources()[side];
         let pair = geometry.pair();
         let narrowing_m =
-            pair.installation().datum_offset_m() * (yaw_rad.cos() * roll_rad.cos() - 1.0);
+            pair.installation().datum_offset_m() * (libm::cos(yaw_rad) * libm::cos(roll_rad) - 1.0);
         let pose = WheelPose {
             lateral_m: sign * lateral_m + narrowing_m,
             roll_rad: sign * roll_rad,
@@ -131,7 +131,7 @@ impl<'a> Press<'a> {
             let patches = geometry.elastic_patches(&strips, pose.lateral_m, given, contact);
             let vertical_n: f64 = patches
                 .iter()
-                .map(|patch| patch.load_n / patch.slope.hypot(1.0))
+                .map(|patch| patch.load_n / libm::hypot(patch.slope, 1.0))
                 .sum();
             if (vertical_n / load_n - 1.0).abs() < LOAD_TOLERANCE {
                 let depth_m = contact.depth_m;

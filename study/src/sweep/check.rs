@@ -2,7 +2,6 @@
 
 use fastrand::Rng;
 
-use super::arithmetic::Arithmetic;
 use super::row::Row;
 use super::rows::Rows;
 use super::run::{RunError, run};
@@ -12,16 +11,6 @@ use super::study::Study;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
-    /// The rows were computed with an arithmetic that this processor does not have.
-    #[error(
-        "the rows were computed with {found} arithmetic, but this processor has {here} arithmetic, so their bits differ"
-    )]
-    Arithmetic {
-        /// Arithmetic of the rows.
-        found: Arithmetic,
-        /// Arithmetic of this processor.
-        here: Arithmetic,
-    },
     /// A case cannot be run.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -58,8 +47,7 @@ pub fn choose(rows: &Rows, count: usize, seed: u64) -> Vec<u64> {
 /// Runs `cases` again and compares each with its row, bit for bit.
 ///
 /// # Errors
-/// Returns an error for a row that differs, for rows of another arithmetic, for an invalid case, or after an
-/// interruption.
+/// Returns an error for a row that differs, for an invalid case, or after an interruption.
 pub fn check(
     study: &Study,
     rows: &Rows,
@@ -67,11 +55,6 @@ pub fn check(
     threads: usize,
     is_cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Result<(), CheckError> {
-    let here = Arithmetic::here();
-    let mut found = rows.values().map(|row| row.arithmetic);
-    if let Some(found) = found.find(|found| *found != here) {
-        return Err(CheckError::Arithmetic { found, here });
-    }
     let mut done = 0;
     run(study, cases, threads, is_cancelled, |row| {
         done += 1;

@@ -1,7 +1,6 @@
 //! Studies: sweeps of vehicle runs over many cases, one row of indices per case. The results are bit-identical for any
 //! order and number of threads.
 
-mod arithmetic;
 mod check;
 mod digest;
 mod history;
@@ -17,7 +16,6 @@ mod shared;
 mod study;
 mod summary;
 
-pub use arithmetic::Arithmetic;
 pub use check::{CheckError, check, choose};
 pub use digest::digest_of_cells;
 pub use history::{History, record};
@@ -25,7 +23,7 @@ pub use journal::Journal;
 pub use merge::{Duplicate, Gaps, MergeError, merge};
 pub use observation::Observation;
 pub use observed::{OBSERVED, Observed};
-pub use physics::physics;
+pub use physics::PHYSICS;
 pub use row::{ROW_DIGEST, Row, RowError, VERSION};
 pub use run::{RunError, observe, row, run, run_with};
 pub use shared::Shared;

@@ -1,19 +1,16 @@
 //! Row of a study: the values of a case and its observed indices.
 
-use super::arithmetic::Arithmetic;
 use super::digest::digest_of_cells;
-use super::physics::physics;
+use super::physics::PHYSICS;
 use super::study::{Study, StudyCase};
 
-/// Result of a case.
+/// Result of a case; the same bits on every processor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Number of the case.
     pub case: u64,
     /// Ending of the run, as text.
     pub ending: String,
-    /// Arithmetic of the processor. The bits of a row depend only on the case and on this.
-    pub arithmetic: Arithmetic,
     /// Observed indices; an index is `None` if the run did not complete or was too short.
     pub observed: Vec<Option<f64>>,
 }
@@ -84,8 +81,7 @@ impl Study {
         columns.extend(self.varied.iter().cloned());
         columns.extend(["seed".to_owned(), "ending".to_owned()]);
         columns.extend(self.observed.iter().map(|index| index.name.to_owned()));
-        columns
-            .extend(["study", "version", "arithmetic", "physics", ROW_DIGEST].map(str::to_owned));
+        columns.extend(["study", "version", "physics", ROW_DIGEST].map(str::to_owned));
         columns
     }
 
@@ -103,12 +99,7 @@ impl Study {
         let number =
             |value: &Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
         record.extend(row.observed.iter().map(number));
-        let provenance = [
-            self.digest(),
-            VERSION,
-            row.arithmetic.word(),
-            physics(row.arithmetic),
-        ];
+        let provenance = [self.digest(), VERSION, PHYSICS];
         record.extend(provenance.map(str::to_owned));
         record.push(digest_of_cells(record.iter().map(String::as_str)));
         record
@@ -132,24 +123,17 @@ impl Study {
             found: cells[column].to_owned(),
             expected,
         };
-        let arithmetics = [Arithmetic::Fused, Arithmetic::Separate];
-        let arithmetic_column = columns.len() - 3;
-        let arithmetic = arithmetics
-            .into_iter()
-            .find(|arithmetic| arithmetic.word() == cells[arithmetic_column]);
-        let arithmetic =
-            arithmetic.ok_or_else(|| invalid(arithmetic_column, "fused or separate".into()))?;
         // The other cells of a row of another study, version or physics are not compared.
         for (back, expected, reason) in [
             (
-                5,
+                4,
                 self.digest(),
                 "rows of different studies cannot be mixed",
             ),
-            (4, VERSION, "rows of different versions cannot be mixed"),
+            (3, VERSION, "rows of different versions cannot be mixed"),
             (
                 2,
-                physics(arithmetic),
+                PHYSICS,
                 "the model behaves differently now, and rows of different physics cannot be mixed",
             ),
         ] {
@@ -182,7 +166,6 @@ impl Study {
         let row = Row {
             case: case.number,
             ending: cells[ending].to_owned(),
-            arithmetic,
             observed,
         };
         let expected = self.record(&case, &row);

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
-use super::arithmetic::Arithmetic;
 use super::row::Row;
 use super::study::Study;
 use dashpot_files::FileError;
@@ -26,7 +25,7 @@ pub enum RowsError {
         /// Reason.
         source: FileError,
     },
-    /// The rows belong to another study, version, physics or arithmetic, or to an earlier release with other columns.
+    /// The rows belong to another study, version or physics, or to an earlier release with other columns.
     #[error("{0}")]
     Foreign(FileError),
 }
@@ -110,26 +109,6 @@ pub(super) fn parse(
 /// Same errors as [`read`]; also an error if a case occurs twice.
 pub fn read_once(study: &Study, path: &Path) -> Result<Rows, RowsError> {
     index_by_case(path, read(study, path)?)
-}
-
-/// Rejects rows computed with another arithmetic.
-pub(super) fn check_arithmetic<'a>(
-    path: &Path,
-    rows: impl Iterator<Item = &'a Row>,
-    expected: Arithmetic,
-) -> Result<(), RowsError> {
-    let mut others = rows.filter(|row| row.arithmetic != expected);
-    match others.next() {
-        Some(other) => {
-            let (case, found) = (other.case, other.arithmetic);
-            let reason = format!(
-                "case {case}: arithmetic {found}, allowed here: {expected}; rows from processors \
-                 with different arithmetic cannot be mixed"
-            );
-            Err(RowsError::Foreign(FileError::in_file(path, reason)))
-        }
-        None => Ok(()),
-    }
 }
 
 /// Collects rows by case number and rejects duplicates.

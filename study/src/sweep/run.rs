@@ -1,6 +1,5 @@
 //! Runs the cases of a study.
 
-use super::arithmetic::Arithmetic;
 use super::observation::Observation;
 use super::observed::Observed;
 use super::row::Row;
@@ -181,7 +180,6 @@ pub fn row(
     Ok(Some(Row {
         case: number,
         ending: ending.to_string(),
-        arithmetic: Arithmetic::here(),
         observed: study.observed.iter().map(value).collect(),
     }))
 }

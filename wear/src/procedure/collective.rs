@@ -55,7 +55,7 @@ impl Collective {
             let shift_m = 4e-3 / 12.0 * f64::from(step);
             let load_n = LOAD_N * if step % 2 == 0 { 0.95 } else { 1.05 };
             let yaw_rad = 1e-3 * f64::from(step.rem_euclid(3) - 1);
-            let share = (-0.5 * (shift_m / 2e-3).powi(2)).exp();
+            let share = libm::exp(-0.5 * (shift_m / 2e-3).powi(2));
             collective.with(Position::ShiftM(shift_m), yaw_rad, load_n, share)
         })
     }

@@ -120,7 +120,7 @@ impl Running {
             let geometry = &self.contact.sources()[1];
             let patches =
                 geometry.elastic_patches(wheel, shift_m, Given::LoadN(load_n), &mut normal);
-            let lateral = |patch: &ElasticPatch| -patch.load_n * patch.slope.atan().sin();
+            let lateral = |patch: &ElasticPatch| -patch.load_n * libm::sin(libm::atan(patch.slope));
             patches.iter().map(lateral).sum::<f64>() >= lateral_n
         };
         let mut high = (1..=SHIFTS)

@@ -135,9 +135,9 @@ impl WornPair {
 
     /// Maximum depth lost by the wheel along the normal of the new profile, m.
     pub fn wheel_depth_m(&self) -> f64 {
-        let inner = |point: &&ProfilePoint| point.angle_rad.cos() > 0.3;
+        let inner = |point: &&ProfilePoint| libm::cos(point.angle_rad) > 0.3;
         let depth = |point: &ProfilePoint| {
-            (point.z_m - self.wheel.at(point.y_m).z_m) * point.angle_rad.cos()
+            (point.z_m - self.wheel.at(point.y_m).z_m) * libm::cos(point.angle_rad)
         };
         let points = self.new_wheel.points().iter();
         points.filter(inner).map(depth).fold(0.0, f64::max)

@@ -15,7 +15,7 @@ pub(super) struct RailPosition<'a> {
 
 impl<'a> RailPosition<'a> {
     pub fn new(pair: &'a Pair, rail: &Profile) -> Self {
-        let (sin, cos) = pair.installation().inclination.atan().sin_cos();
+        let (sin, cos) = libm::sincos(libm::atan(pair.installation().inclination));
         let turned = |point: &dashpot_rail::profile::ProfilePoint| {
             [
                 point.y_m * cos + point.z_m * sin,

@@ -12,7 +12,7 @@ use crate::commands::failure::Outcome;
 use crate::commands::{counted, print_report};
 use dashpot_files::output;
 use dashpot_study::sweep::rows::Rows;
-use dashpot_study::sweep::{Arithmetic, Study, VERSION, physics};
+use dashpot_study::sweep::{PHYSICS, Study, VERSION};
 
 /// Report of a study.
 #[derive(Serialize)]
@@ -59,11 +59,7 @@ impl Report {
             study: study.parameters.name.clone(),
             digest: study.digest().to_owned(),
             version: VERSION,
-            physics: physics(
-                rows.values()
-                    .next()
-                    .map_or_else(Arithmetic::here, |row| row.arithmetic),
-            ),
+            physics: PHYSICS,
             rows: rows.len(),
             run_now,
             took_s: took.as_secs_f64(),

@@ -149,14 +149,14 @@ fn add_pivots<S: Simd>(
         factors[pivot] = column[0][pivot];
         let multiplier = load(simd, &multipliers[0][pivot]);
         let values = load(simd, &column[0]);
-        simd.mul_add_f64x4(multiplier, simd.splat_f64x4(factors[pivot]), values)
-            .store_slice(&mut column[0]);
+        let sum = values + multiplier * simd.splat_f64x4(factors[pivot]);
+        sum.store_slice(&mut column[0]);
     }
     let factors = factors.each(|factor| simd.splat_f64x4(factor));
     for (values, multipliers) in column.iter_mut().zip(multipliers).skip(1) {
         let mut sum: f64x4<S> = load(simd, values);
         for (multiplier, factor) in multipliers.iter().zip(factors).take(pivots) {
-            sum = simd.mul_add_f64x4(load(simd, multiplier), factor, sum);
+            sum += load(simd, multiplier) * factor;
         }
         sum.store_slice(values);
     }

@@ -30,7 +30,7 @@ const TYPICAL_STIFFNESS: f64 = 1e11;
 
 /// A typical penetration under a load, m.
 pub(super) fn typical_penetration_m(load_n: f64) -> f64 {
-    (load_n / TYPICAL_STIFFNESS).powf(2.0 / 3.0)
+    libm::pow(load_n / TYPICAL_STIFFNESS, 2.0 / 3.0)
 }
 
 /// Height that a contact usually reaches below its greatest height, in typical penetrations; on a steep flange it is

@@ -68,7 +68,7 @@ impl HalfSpace {
 
 /// `G(u)`.
 fn beside(u: f64) -> f64 {
-    let root = u.hypot(1.0);
+    let root = libm::hypot(u, 1.0);
     let (first, second) = complete(u / root);
     4.0 / PI * root * (first - second)
 }

@@ -17,7 +17,7 @@ pub(super) struct OctaveTable {
 impl OctaveTable {
     /// Tabulates `function` from `2^range[0]` to `2^range[1]`.
     pub fn new(range: [i32; 2], function: impl Fn(f64) -> f64) -> Self {
-        let [low, high] = range.map(|exponent| f64::from(exponent).exp2());
+        let [low, high] = range.map(|exponent| libm::exp2(f64::from(exponent)));
         let (first, last) = (low.to_bits() >> BELOW, high.to_bits() >> BELOW);
         let value = |index: u64| function(f64::from_bits(index << BELOW));
         Self {

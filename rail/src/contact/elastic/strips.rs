@@ -51,7 +51,7 @@ impl<'a> TurnedStrips<'a> {
         let points = pair.wheel().points();
         let turn = Turn::new(roll_rad, yaw_rad, pair.installation().wheel_radius_m);
         let middle = |i: usize, j: usize| {
-            0.5 * (points[j].y_m - points[i].y_m).hypot(points[j].z_m - points[i].z_m)
+            0.5 * libm::hypot(points[j].y_m - points[i].y_m, points[j].z_m - points[i].z_m)
         };
         let mut samples = Vec::new();
         let mut next = 0;
@@ -67,7 +67,7 @@ impl<'a> TurnedStrips<'a> {
             let after = samples.get(k + 1).map_or(0.0, |&j| middle(i, j));
             let (point, turned) = (&points[i], turn.point(&points[i], pair.wheel_slopes[i]));
             arc_m += 2.0 * before;
-            let rolling = (turned.slope.atan() - roll_rad).cos().max(0.01);
+            let rolling = libm::cos(libm::atan(turned.slope) - roll_rad).max(0.01);
             strips.push(Strip {
                 arc_m,
                 width_m: before + after,

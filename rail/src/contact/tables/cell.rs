@@ -164,8 +164,8 @@ impl<'a> Cell<'a> {
         let [first, second, third] = self.falling.each(|part| simd.splat_f32x8(part as f32));
         // Differences between nodes are small, so they keep the accuracy that single precision gives the depths.
         let differences = (b - a) * first;
-        let differences = simd.mul_add_f32x8(c - b, second, differences);
-        let differences = simd.mul_add_f32x8(d - c, third, differences);
+        let differences = differences + (c - b) * second;
+        let differences = differences + (d - c) * third;
         let (low, high) = simd.widen_f32x8(a);
         let (low_difference, high_difference) = simd.widen_f32x8(differences);
         let (low, high) = (low + low_difference, high + high_difference);
@@ -218,8 +218,8 @@ impl<'a> Cell<'a> {
                 continue;
             };
             let weight = simd.splat_f32x8(weight as f32);
-            sums[0] = simd.mul_add_f32x8(low, weight, sums[0]);
-            sums[1] = simd.mul_add_f32x8(high, weight, sums[1]);
+            sums[0] += low * weight;
+            sums[1] += high * weight;
         }
         sums
     }
@@ -240,7 +240,7 @@ impl<'a> Cell<'a> {
     fn record<S: Simd>(&self, simd: S, zone: usize) -> f32x8<S> {
         let [low, high] = self.records(simd, zone);
         let above = simd.splat_f32x8(self.load.above as f32);
-        simd.mul_add_f32x8(high - low, above, low)
+        low + (high - low) * above
     }
 }
 

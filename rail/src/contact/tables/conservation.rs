@@ -37,7 +37,7 @@ pub(super) struct Solved {
 fn vertical_n(patches: &[ElasticPatch; ZONES]) -> f64 {
     patches
         .iter()
-        .map(|patch| patch.load_n / patch.slope.hypot(1.0))
+        .map(|patch| patch.load_n / libm::hypot(patch.slope, 1.0))
         .sum()
 }
 
@@ -50,12 +50,12 @@ impl Solved {
         let mut before = (self.first_touch_m, 0.0_f64, None);
         for (level, (depth_m, patches)) in self.levels.iter().enumerate() {
             let square = ROOTS[level] * ROOTS[level];
-            let part = vertical_n(patches) / square.powf(1.5);
+            let part = vertical_n(patches) / libm::pow(square, 1.5);
             let (depth_before, square_before, part_before) = before;
             let mean_part = 0.5 * (part + part_before.unwrap_or(part));
             // The mean of the load, the integral of `square^1.5`.
-            let mean_load =
-                0.4 * (square.powf(2.5) - square_before.powf(2.5)) / (square - square_before);
+            let mean_load = 0.4 * (libm::pow(square, 2.5) - libm::pow(square_before, 2.5))
+                / (square - square_before);
             energy += (depth_m - depth_before) * mean_part * mean_load;
             energies[level] = energy;
             before = (*depth_m, square, Some(part));
@@ -73,7 +73,7 @@ impl Solved {
             if sum_n <= 0.0 {
                 continue;
             }
-            let root = ROOTS[level] / sum_n.cbrt();
+            let root = ROOTS[level] / libm::cbrt(sum_n);
             let scaled_m = self.first_touch_m + (*depth_m - self.first_touch_m) * root * root;
             *depth_m = scaled_m.max(least_m);
             let growth = ROOTS.get(level + 1).map_or(0.0, |next| {
@@ -151,7 +151,7 @@ fn corrected(row: &[Option<Solved>], energies: &[[f64; LEVELS]], at: usize) -> O
 fn turn(patches: &mut [ElasticPatch; ZONES], lateral_n: f64) {
     let (mut missing, mut by_angle) = (lateral_n, 0.0);
     for patch in patches.iter() {
-        let vertical = patch.load_n / patch.slope.hypot(1.0);
+        let vertical = patch.load_n / libm::hypot(patch.slope, 1.0);
         missing -= vertical * patch.slope;
         by_angle += vertical * (1.0 + patch.slope * patch.slope);
     }
@@ -161,11 +161,11 @@ fn turn(patches: &mut [ElasticPatch; ZONES], lateral_n: f64) {
     let angle = (missing / by_angle).clamp(-MAX_TURN_RAD, MAX_TURN_RAD);
     for patch in patches.iter_mut() {
         let steepness = (patch.slope / HALF_TURN_SLOPE).powi(4);
-        let before = patch.slope.atan();
+        let before = libm::atan(patch.slope);
         let limit = before.abs().max(MAX_ANGLE_RAD);
         let turned = before + angle * steepness / (1.0 + steepness);
-        let slope = turned.clamp(-limit, limit).tan();
-        let factor = slope.hypot(1.0) / patch.slope.hypot(1.0);
+        let slope = libm::tan(turned.clamp(-limit, limit));
+        let factor = libm::hypot(slope, 1.0) / libm::hypot(patch.slope, 1.0);
         patch.load_n *= factor;
         patch.whole_load_n *= factor;
         patch.slope = slope;

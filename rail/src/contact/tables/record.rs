@@ -32,11 +32,11 @@ pub(super) fn pack(patch: &ElasticPatch, load_n: f64) -> Record {
     let part = patch.load_n / load_n;
     let step = ((part - LEFT_OUT[0]) / (LEFT_OUT[1] - LEFT_OUT[0])).clamp(0.0, 1.0);
     let share = part * step * step * (3.0 - 2.0 * step);
-    let per_root = load_n.cbrt().recip();
+    let per_root = libm::cbrt(load_n).recip();
     let [a, b] = patch.semi_axes_m;
     let values = [
         1.0,
-        patch.slope / patch.slope.hypot(1.0),
+        patch.slope / libm::hypot(patch.slope, 1.0),
         patch.wheel_y_m,
         patch.wheel_z_m,
         a * per_root,

@@ -92,7 +92,7 @@ impl<'a> Row<'a> {
         let (mut force, mut position) = (0.0, 0.0);
         for patch in &patches {
             let part = patch.load_n / load_n(level);
-            force += part * patch.slope / patch.slope.hypot(1.0);
+            force += part * patch.slope / libm::hypot(patch.slope, 1.0);
             position += part * patch.wheel_y_m;
         }
         [depth_m, force, position]

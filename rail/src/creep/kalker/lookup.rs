@@ -83,7 +83,7 @@ impl KalkerLookup {
         let value = |lane: usize, part: f32| {
             let Row { here, step } = &self.rows[whole[lane].to_bits() as usize % ROWS];
             let (here, step) = (f32x4::from_slice(simd, here), f32x4::from_slice(simd, step));
-            simd.mul_add_f32x4(step, simd.splat_f32x4(part), here)
+            here + step * simd.splat_f32x4(part)
         };
         let values = [
             value(0, part[0]),

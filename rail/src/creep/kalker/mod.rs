@@ -94,12 +94,16 @@ impl KalkerTable {
         if !(0.0..=0.5).contains(&poisson_ratio) {
             return Err(KalkerError::PoissonRatio { poisson_ratio });
         }
-        let ratios: Vec<f64> = rows.iter().step_by(3).map(|row| row.ratio.ln()).collect();
+        let ratios: Vec<f64> = rows
+            .iter()
+            .step_by(3)
+            .map(|row| libm::log(row.ratio))
+            .collect();
         let spline = |column: &'static str, coefficient: fn(&Row) -> f64| {
             let logarithm = |three: &[Row]| {
                 let value = parabola(poisson_ratio, three, coefficient);
                 if value > 0.0 {
-                    Ok(value.ln())
+                    Ok(libm::log(value))
                 } else {
                     Err(KalkerError::NotPositive {
                         column,
@@ -127,7 +131,9 @@ impl KalkerTable {
     pub fn at(&self, ratio: f64) -> KalkerCoefficients {
         let [min, max] = self.ratio_limits;
         let inside = ratio.clamp(min, max);
-        let at_end = self.splines.map(|spline| spline.at(inside.ln())[0].exp());
+        let at_end = self
+            .splines
+            .map(|spline| libm::exp(spline.at(libm::log(inside))[0]));
         if ratio == inside {
             return at_end;
         }
@@ -149,9 +155,9 @@ impl KalkerTable {
             }
         } else {
             let g = 1.0 / ratio;
-            let log = (16.0 / (g * g)).ln();
+            let log = libm::log(16.0 / (g * g));
             let lateral = (1.0 - nu) * log + 2.0 * nu;
-            let constant = 3.0 - 4.0_f64.ln();
+            let constant = 3.0 - libm::log(4.0);
             KalkerCoefficients {
                 c11: 2.0 * PI / ((log - 2.0 * nu) * g) * (1.0 + constant / (log - 2.0 * nu)),
                 c22: 2.0 * PI / (lateral * g) * (1.0 + (1.0 - nu) * constant / lateral),

@@ -71,7 +71,7 @@ impl Contact<f64> {
     #[inline(always)]
     pub(super) fn beside_pure_spin(&self, [xi, eta, phi]: [f64; 3]) -> [f64; 3] {
         let min = MIN_SLIDING / (self.creepage * self.c22);
-        if xi.hypot(eta) < min {
+        if libm::hypot(xi, eta) < min {
             [min.copysign(xi), eta, phi]
         } else {
             [xi, eta, phi]

@@ -194,8 +194,7 @@ fn over_directions<S: Simd>(
 
 #[inline(always)]
 fn weighted<S: Simd>([a, b, c]: [f32x8<S>; 3], [p, q, r]: &[f32x8<S>; 3]) -> f32x8<S> {
-    let simd = a.simd;
-    simd.mul_add_f32x8(c, *r, simd.mul_add_f32x8(b, *q, a * *p))
+    a * *p + b * *q + c * *r
 }
 
 /// Locates two sets of four coordinates. Returns the positions within their cells, 0 to 1, and the sum over both sets

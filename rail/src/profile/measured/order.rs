@@ -18,7 +18,7 @@ pub(super) fn width_mm(rows: &[Row]) -> f64 {
 pub(super) fn jump(rows: &[Row]) -> Option<ProfileError> {
     let distance_mm = |pair: &[Row]| {
         let [p, q] = pair else { return 0.0 };
-        (q.y_mm - p.y_mm).hypot(q.z_mm - p.z_mm)
+        libm::hypot(q.y_mm - p.y_mm, q.z_mm - p.z_mm)
     };
     let mut sorted = rows.to_vec();
     sorted.sort_by(|p, q| p.y_mm.total_cmp(&q.y_mm));

@@ -190,9 +190,9 @@ impl Steps {
 
     /// Applies all steps; the result is in mm.
     fn apply(&self, mut rows: Vec<Row>) -> Vec<Row> {
-        let distance = |p: &Row, q: &Row| (q.y_mm - p.y_mm).hypot(q.z_mm - p.z_mm);
+        let distance = |p: &Row, q: &Row| libm::hypot(q.y_mm - p.y_mm, q.z_mm - p.z_mm);
         rows.dedup_by(|row, before| distance(before, row) < self.min_distance);
-        let (sin, cos) = (self.rotation / self.units_per_rad).sin_cos();
+        let (sin, cos) = libm::sincos(self.rotation / self.units_per_rad);
         for row in &mut rows {
             let [y, z] = [row.y_mm + self.shift[0], row.z_mm + self.shift[1]];
             (row.y_mm, row.z_mm) = (y * cos - z * sin, y * sin + z * cos);

@@ -63,7 +63,7 @@ impl Touchable {
                 hidden += 1 + rows.len();
                 break;
             }
-            let gap_mm = (row.y_mm - before.y_mm).hypot(row.z_mm - before.z_mm);
+            let gap_mm = libm::hypot(row.y_mm - before.y_mm, row.z_mm - before.z_mm);
             if gap_mm > MAX_GAP_MM {
                 // A gap on a vertical side is harmless: nothing further out is missing.
                 let beyond = iter::once(row)

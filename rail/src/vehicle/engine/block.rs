@@ -93,7 +93,7 @@ impl Block {
         let mut sum = sum;
         for (row, number) in self.0.iter().zip(vector) {
             let row = f64x8::from_slice(simd, row);
-            sum = simd.mul_add_f64x8(simd.splat_f64x8(*number), row, sum);
+            sum += simd.splat_f64x8(*number) * row;
         }
         sum
     }
@@ -111,7 +111,7 @@ impl Block {
         for Weighted { direction, weight } in all {
             let across = f64x8::from_slice(simd, direction) * *weight;
             for (row, number) in rows.iter_mut().zip(direction) {
-                *row = simd.mul_add_f64x8(simd.splat_f64x8(*number), across, *row);
+                *row += simd.splat_f64x8(*number) * across;
             }
         }
         self.store(rows);
@@ -124,7 +124,7 @@ impl Block {
         for (row, column) in rows.iter().zip(columns) {
             let across = f64x8::from_slice(simd, &column.direction) * row.weight;
             for (sum, number) in sums.iter_mut().zip(&row.direction) {
-                *sum = simd.mul_add_f64x8(simd.splat_f64x8(*number), across, *sum);
+                *sum += simd.splat_f64x8(*number) * across;
             }
         }
         self.store(sums);
@@ -137,7 +137,7 @@ impl Block {
         for (row, left) in self.0.iter_mut().zip(&left.0) {
             let mut sum = f64x8::from_slice(simd, row);
             for (number, right) in left.iter().zip(right) {
-                sum = simd.mul_add_f64x8(simd.splat_f64x8(-number), right, sum);
+                sum += simd.splat_f64x8(-number) * right;
             }
             *row = sum.into();
         }
@@ -150,7 +150,7 @@ impl Block {
         for (i, row) in self.0.iter_mut().enumerate() {
             let mut sum = simd.splat_f64x8(0.0);
             for (left, right) in left.0.iter().zip(right) {
-                sum = simd.mul_add_f64x8(simd.splat_f64x8(left[i]), right, sum);
+                sum += simd.splat_f64x8(left[i]) * right;
             }
             *row = sum.into();
         }
@@ -176,7 +176,7 @@ impl Block {
                 } else {
                     let factor = simd.splat_f64x8(-row[j]);
                     let left = simd.select_f64x8(at_pivot, zero, *row);
-                    *row = simd.mul_add_f64x8(factor, scaled, left);
+                    *row = left + factor * scaled;
                 }
             }
         }

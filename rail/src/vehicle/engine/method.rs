@@ -20,7 +20,7 @@ const MAX_STEPS: f64 = 200.0;
 
 /// Maximum phase of the oscillation of a mass on the contact's spring during a step, rad. At this value the greatest
 /// wheel loads of flange impacts differ by less than 3 % from those of much shorter steps.
-const MAX_PHASE_RAD: f64 = 0.75;
+const MAX_PHASE_RAD: f64 = 0.5;
 
 /// Maximum decay of a mass against the contact's damping during a step, under the load at standstill. Impacts reach
 /// several times this load and decay, so the bound is far below 1.
