@@ -59,6 +59,16 @@ pub enum VehicleFileError {
         /// The problem with its damper.
         source: Box<DamperError>,
     },
+    /// A friction element without friction, or with half of a load.
+    #[error("{name}: {element}: {reason}")]
+    Friction {
+        /// Name of the file or vehicle.
+        name: String,
+        /// Name of the elements.
+        element: String,
+        /// The problem, and what is allowed.
+        reason: &'static str,
+    },
     /// Invalid wheels.
     #[error("{name}: {source}")]
     Contact {

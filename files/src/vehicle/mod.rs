@@ -22,7 +22,7 @@ use crate::overrides::{self, Override, did_you_mean, explain};
 use crate::shipped::{Found, Shipped};
 
 /// Built-in vehicles: name and text.
-pub const VEHICLES: [(&str, &str); 3] = [
+pub const VEHICLES: [(&str, &str); 4] = [
     (
         "locomotive",
         include_str!("../../data/vehicles/locomotive.toml"),
@@ -31,6 +31,10 @@ pub const VEHICLES: [(&str, &str); 3] = [
     (
         "locomotive-without-yaw-dampers",
         include_str!("../../data/vehicles/locomotive-without-yaw-dampers.toml"),
+    ),
+    (
+        "freight-wagon",
+        include_str!("../../data/vehicles/freight-wagon.toml"),
     ),
 ];
 

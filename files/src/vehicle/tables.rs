@@ -2,7 +2,7 @@
 
 use dashpot_core::DamperParameters;
 use dashpot_rail::vehicle::{
-    Body, Direction, Element, End, Law, RidePoint, VehicleParameters, Wheelset,
+    Body, Direction, Element, End, FrictionLoad, Law, RidePoint, VehicleParameters, Wheelset,
 };
 use serde::Deserialize;
 
@@ -27,6 +27,8 @@ pub(super) struct VehicleFile {
     damper: Vec<DamperTable>,
     #[serde(default)]
     bump_stop: Vec<BumpStopTable>,
+    #[serde(default)]
+    friction: Vec<FrictionTable>,
     #[serde(default)]
     anti_roll_bar: Vec<AntiRollBarTable>,
     #[serde(default)]
@@ -94,6 +96,20 @@ struct BumpStopTable {
     direction: DirectionName,
     /// `[displacement, force]`, m and N.
     points_m_n: Vec<[f64; 2]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FrictionTable {
+    name: String,
+    between: [String; 2],
+    at_m: Vec<[f64; 3]>,
+    direction: DirectionName,
+    stiffness_n_per_m: f64,
+    friction_n: Option<f64>,
+    friction_coefficient: Option<f64>,
+    /// Name of the springs: the first element follows the load of the first one, and so on.
+    load_of: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -178,6 +194,35 @@ fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> 
         .collect()
 }
 
+impl FrictionTable {
+    /// Laws of its elements, which differ in the spring that they follow.
+    fn elements(&self) -> Result<Vec<Element>, &'static str> {
+        let of_load = match (self.friction_coefficient, &self.load_of) {
+            (Some(coefficient), Some(springs)) => Some((coefficient, springs)),
+            (None, None) if self.friction_n.is_none() => {
+                return Err("no friction, allowed: friction_n, or friction_coefficient and load_of");
+            }
+            (None, None) => None,
+            _ => return Err("friction_coefficient and load_of, allowed: both or neither"),
+        };
+        let [from, to] = &self.between;
+        let element = |(number, at): (usize, &[f64; 3])| {
+            let number = number + 1;
+            let law = Law::Friction {
+                direction: self.direction.into(),
+                stiffness_n_per_m: self.stiffness_n_per_m,
+                friction_n: self.friction_n.unwrap_or(0.0),
+                load: of_load.map(|(coefficient, springs)| {
+                    FrictionLoad::new(coefficient, format!("{springs} {number}"))
+                }),
+            };
+            let ends = [end(from, *at), end(to, *at)];
+            Element::new(format!("{} {number}", self.name), ends, law)
+        };
+        Ok(self.at_m.iter().enumerate().map(element).collect())
+    }
+}
+
 impl VehicleFile {
     /// Converts the tables to a vehicle; `locate` returns file and line of a part for error messages.
     pub fn vehicle(
@@ -230,6 +275,14 @@ impl VehicleFile {
                 points: table.points_m_n.clone(),
             };
             all.extend(elements(&table.name, &table.between, &table.at_m, &law));
+        }
+        for table in &self.friction {
+            let elements = table.elements();
+            all.extend(elements.map_err(|reason| VehicleFileError::Friction {
+                name: locate(&table.name),
+                element: table.name.clone(),
+                reason,
+            })?);
         }
         for (number, table) in self.damper.iter().enumerate() {
             let replacement = replaced.get(number).copied().flatten();

@@ -4,6 +4,7 @@ use dashpot_core::DamperParameters;
 use nalgebra::Vector3;
 
 use super::error::VehicleError;
+use super::friction::{self, FrictionLoad};
 
 /// An element between two points.
 ///
@@ -135,6 +136,20 @@ pub enum Law {
         /// Magnitudes of displacement, m, and of the resisting force, N. The first point is the gap, with zero force.
         points: Vec<[f64; 2]>,
     },
+    /// Dry friction along one direction: a spring in series with a slider, which holds until the force reaches its
+    /// limit `friction_n + coefficient load` and then slides at exactly this force (Jenkins element; Iwnicki, Stichel,
+    /// Orlova and Hecht, Vehicle System Dynamics 53, 2015, 995-1033). Both ends are at the same point. At standstill it
+    /// exerts no force. In the linear equations the slider sticks.
+    Friction {
+        /// Direction of the axis.
+        direction: Direction,
+        /// Stiffness of the spring, N/m.
+        stiffness_n_per_m: f64,
+        /// Constant part of the limit, N.
+        friction_n: f64,
+        /// Part of the limit that follows the load of a spring.
+        load: Option<FrictionLoad>,
+    },
     /// A torsion bar that resists the roll of one body relative to the other.
     AntiRollBar {
         /// Roll stiffness, N m/rad.
@@ -156,6 +171,7 @@ impl Law {
         "bush",
         "damper",
         "bump_stop",
+        "friction",
         "anti_roll_bar",
         "traction_rod",
     ];
@@ -173,13 +189,15 @@ impl Law {
             Self::Bush { .. } => 1,
             Self::Damper { .. } => 2,
             Self::BumpStop { .. } => 3,
-            Self::AntiRollBar { .. } => 4,
-            Self::TractionRod { .. } => 5,
+            Self::Friction { .. } => 4,
+            Self::AntiRollBar { .. } => 5,
+            Self::TractionRod { .. } => 6,
         };
         Self::NAMES[index]
     }
 
-    /// Spring force that resists a displacement of the second end, N; zero for dashpots and dampers, which are at rest.
+    /// Spring force that resists a displacement of the second end, N; zero for dashpots, dampers and friction, which are
+    /// at rest.
     pub(super) fn spring_force(
         &self,
         displacement: Vector3<f64>,
@@ -198,9 +216,10 @@ impl Law {
                 let along = line.normalize();
                 along * (along.dot(&displacement) * stiffness_n_per_m)
             }
-            Self::Damper { .. } | Self::BumpStop { .. } | Self::AntiRollBar { .. } => {
-                Vector3::zeros()
-            }
+            Self::Damper { .. }
+            | Self::BumpStop { .. }
+            | Self::Friction { .. }
+            | Self::AntiRollBar { .. } => Vector3::zeros(),
         }
     }
 }
@@ -293,6 +312,12 @@ impl Element {
                     reason,
                 })?;
             }
+            Law::Friction {
+                stiffness_n_per_m,
+                friction_n,
+                load,
+                ..
+            } => friction::check(owner, *stiffness_n_per_m, *friction_n, load.as_ref())?,
             Law::AntiRollBar {
                 stiffness_n_m_per_rad,
             } => {

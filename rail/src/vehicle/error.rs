@@ -76,6 +76,29 @@ pub enum VehicleError {
         /// Requirement that the points violate.
         reason: &'static str,
     },
+    /// The friction of an element follows a spring that gives no load.
+    #[error("{element}: friction follows the load of {spring}, {reason}")]
+    FrictionSpring {
+        /// Name of the element.
+        element: String,
+        /// Name of the spring.
+        spring: String,
+        /// The problem, and what is allowed.
+        reason: String,
+    },
+    /// The springs of friction elements are too stiff for the tick.
+    #[error(
+        "friction: the stuck elements oscillate at {frequency_hz:.3} Hz against the bodies, allowed: at most \
+         {allowed_hz:.3} Hz in ticks of {step_s} s; use softer springs or a shorter tick"
+    )]
+    FrictionTooStiff {
+        /// Frequency of the bodies on all stuck friction elements, Hz.
+        frequency_hz: f64,
+        /// Its bound, Hz.
+        allowed_hz: f64,
+        /// Tick, s.
+        step_s: f64,
+    },
     /// The vehicle has no bodies.
     #[error("no body: a vehicle needs at least one")]
     NoBody,
@@ -194,11 +217,13 @@ impl VehicleError {
             | Self::Ends { element: part, .. }
             | Self::Damper { element: part, .. }
             | Self::Stop { element: part, .. }
+            | Self::FrictionSpring { element: part, .. }
             | Self::NotCarried { wheelset: part, .. }
             | Self::NotHeld { body: part, .. } => Some(part),
             Self::NoWheelset
             | Self::StepTooLong { .. }
             | Self::ContactTooFast { .. }
+            | Self::FrictionTooStiff { .. }
             | Self::NoSuchDamper { .. }
             | Self::NoSuchBodyIndex { .. }
             | Self::OtherVehicle

@@ -133,7 +133,7 @@ impl Linear {
                     stiffness,
                 });
             }
-            Law::BumpStop { .. } => {}
+            Law::BumpStop { .. } | Law::Friction { .. } => {}
             Law::AntiRollBar {
                 stiffness_n_m_per_rad,
             } => {
@@ -164,6 +164,22 @@ impl Linear {
     fn add_along(&mut self, displacement: &RowDVector<f64>, stiffness: f64, damping: f64) {
         self.stiffness += displacement.transpose() * displacement * stiffness;
         self.damping += displacement.transpose() * displacement * damping;
+    }
+
+    /// Adds the spring of a friction element whose slider sticks. It takes no part in the equilibrium, so it is added
+    /// after it.
+    pub fn add_sticking(&mut self, element: &Element, ends: &[Attachment; 2]) {
+        if let Law::Friction {
+            direction,
+            stiffness_n_per_m,
+            friction_n,
+            load,
+        } = &element.law
+            && (*friction_n > 0.0 || load.as_ref().is_some_and(|load| load.coefficient > 0.0))
+        {
+            let displacement = self.displacement(ends).row(direction.axis()).into_owned();
+            self.add_along(&displacement, *stiffness_n_per_m, 0.0);
+        }
     }
 
     /// Adds the geometric stiffness of the static `force` on the second end.

@@ -31,6 +31,7 @@ mod carried;
 mod element;
 mod engine;
 mod error;
+mod friction;
 mod linear;
 mod modes;
 mod parameters;
@@ -46,6 +47,7 @@ pub use engine::{
 };
 
 pub use error::VehicleError;
+pub use friction::FrictionLoad;
 pub use modes::Mode;
 pub use parameters::VehicleParameters;
 pub use ride_point::RidePoint;

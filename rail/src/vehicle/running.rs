@@ -40,7 +40,7 @@ struct Central {
 }
 
 impl Running {
-    /// Linearises the vehicle at `speed_m_per_s` with `contact` on all wheelsets.
+    /// Linearises the vehicle at `speed_m_per_s` with `contact` on all wheelsets. Friction elements stick.
     ///
     /// # Errors
     /// Those of [`Standstill::new`], a speed out of bounds, or a wheelset that the rails cannot carry.
@@ -76,6 +76,7 @@ impl Running {
         let ends = attach(vehicle, true)?;
         for (element, (ends, line)) in vehicle.elements.iter().zip(&ends) {
             linear.add(element, ends, *line);
+            linear.add_sticking(element, ends);
         }
         for ((ends, _), force) in ends.iter().zip(standstill.forces()) {
             linear.add_preload(ends, *force);

@@ -6,6 +6,7 @@ use super::GRAVITY_M_PER_S2;
 use super::body::{Body, COORDINATES, Coordinate, Wheelset};
 use super::element::{Element, End};
 use super::error::VehicleError;
+use super::friction;
 use super::linear::{Attachment, Linear};
 use super::modes::{self, Mode};
 use super::parameters::VehicleParameters;
@@ -26,10 +27,12 @@ const MIN_FREQUENCY_HZ: f64 = 0.01;
 
 impl Standstill {
     /// Computes the equilibrium under gravity: the displacements of the bodies from their unloaded positions, the
-    /// forces of the elements, and the geometric stiffness due to these forces.
+    /// forces of the elements, and the geometric stiffness due to these forces. Friction elements exert no force in
+    /// equilibrium, and stick in the equations of motion.
     ///
     /// # Errors
-    /// A value out of bounds, a duplicate name, an element on a missing body, or a body that no element holds.
+    /// A value out of bounds, a duplicate name, an element on a missing body, a body that no element holds, or friction
+    /// that follows a spring without load.
     pub fn new(vehicle: &VehicleParameters) -> Result<Self, VehicleError> {
         let bodies = &vehicle.bodies;
         check(vehicle)?;
@@ -65,6 +68,10 @@ impl Standstill {
             .collect();
         for ((ends, _), force) in ends.iter().zip(&forces) {
             linear.add_preload(ends, *force);
+        }
+        for (element, (ends, _)) in vehicle.elements.iter().zip(&ends) {
+            friction::check_load(element, &vehicle.elements, &forces)?;
+            linear.add_sticking(element, ends);
         }
         let wheelsets = wheelset_bodies(vehicle);
         let mut axle_loads_n: Vec<f64> = wheelsets

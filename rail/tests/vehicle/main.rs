@@ -6,6 +6,7 @@ mod contacts;
 mod curves;
 mod errors;
 mod flange;
+mod friction;
 mod limits;
 mod modes_turned_in_a_circle;
 mod random;

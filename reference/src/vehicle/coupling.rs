@@ -22,7 +22,7 @@ pub(super) enum Action {
     },
     /// Spring about x.
     Bar { stiffness: f64 },
-    /// Force along an axis from the damper or stop with this index.
+    /// Force along an axis from the damper, stop or friction element with this index.
     Nonlinear { axis: usize, number: usize },
 }
 
@@ -49,7 +49,7 @@ fn minus(a: Vector, b: Vector) -> Vector {
 }
 
 impl Coupling {
-    /// Builds an element without a standing force; `number` is the index of a damper or stop. `None` if its law is
+    /// Builds an element without a standing force; `number` is the index of a damper, stop or friction element. `None` if its law is
     /// unknown.
     pub(super) fn new(
         vehicle: &VehicleParameters,
@@ -78,7 +78,9 @@ impl Coupling {
                 angular_stiffness: *stiffness_n_m_per_rad,
                 angular_damping: *damping_n_m_s_per_rad,
             },
-            Law::Damper { direction, .. } | Law::BumpStop { direction, .. } => {
+            Law::Damper { direction, .. }
+            | Law::BumpStop { direction, .. }
+            | Law::Friction { direction, .. } => {
                 let axis = match direction {
                     Direction::Longitudinal => 0,
                     Direction::Lateral => 1,
@@ -130,7 +132,7 @@ impl Coupling {
         }
     }
 
-    /// Index of a damper or stop, and displacement and velocity along its axis.
+    /// Index of a damper, stop or friction element, and displacement and velocity along its axis.
     pub(super) fn along(&self, motion: &Motion) -> Option<(usize, f64, f64)> {
         match self.action {
             Action::Nonlinear { axis, number } => {
@@ -174,6 +176,30 @@ impl Coupling {
         }
     }
 
+    /// Vertical force of the springs on the second end and its rate, positive in its direction at rest. Only springs
+    /// have one, and their dashpots do not count.
+    pub(super) fn vertical_load(&self, motion: &Motion) -> [f64; 2] {
+        let Action::Springs { stiffness, .. } = &self.action else {
+            return [0.0; 2];
+        };
+        let [_, _, at_rest] = self.standing_force;
+        let change = -stiffness[2] * at_rest.signum();
+        [
+            at_rest.abs() + change * motion.shift[2],
+            change * motion.velocity[2],
+        ]
+    }
+
+    /// Derivative of the vertical load with respect to the coordinates of both bodies.
+    pub(super) fn vertical_load_slopes(&self) -> [Coordinates; 2] {
+        let Action::Springs { stiffness, .. } = &self.action else {
+            return [[0.0; 5]; 2];
+        };
+        // By virtual work, the loads from a unit force equal the displacements due to unit coordinates.
+        let change = -stiffness[2] * self.standing_force[2].signum();
+        self.loads(&[[0.0, 0.0, change], [0.0; 3]])
+    }
+
     /// Loads on the first and second body from `force` and `moment` on the second end and their opposites on the first.
     pub(super) fn loads(&self, [force, moment]: &[Vector; 2]) -> [Coordinates; 2] {
         let opposite = |vector: &Vector| vector.map(|component| -component);
@@ -183,7 +209,8 @@ impl Coupling {
         ]
     }
 
-    /// Loads on both bodies from a force of 1 N on the second end along the axis of a damper or stop.
+    /// Loads on both bodies from a force of 1 N on the second end along the axis of a damper, stop or
+    /// friction element.
     pub(super) fn loads_along(&self) -> [Coordinates; 2] {
         let mut force = [0.0; 3];
         if let Action::Nonlinear { axis, .. } = self.action {

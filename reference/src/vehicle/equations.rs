@@ -9,6 +9,7 @@ use super::attachment::{Coordinates, Pose};
 use super::chain::Chain;
 use super::coupling::Coupling;
 use super::frame::{Following, Path};
+use super::friction::Friction;
 use super::rails::Flexible;
 use super::standing::Standing;
 use super::stop::Stop;
@@ -16,12 +17,14 @@ use super::stop::Stop;
 /// Coordinates of a body.
 pub(super) const N: usize = 5;
 
-/// An element whose law has ranges: a damper or a stop.
+/// An element whose law has ranges: a damper, a stop or friction.
 #[derive(Clone, Debug)]
 pub(super) enum Ranged {
     /// Damper index, and the damper.
     Damper(usize, Box<Chain>),
     Stop(Stop),
+    /// Number among the friction elements, and the element.
+    Friction(usize, Friction),
 }
 
 /// A wheelset with its contact.
@@ -53,8 +56,10 @@ pub(super) struct Equations<'a, L, S: PatchSource> {
 #[derive(Clone, Debug)]
 pub(super) struct Situation<'a> {
     pub(super) path: Path<'a>,
-    /// Range of each damper and stop.
+    /// Range of each damper, stop and friction element.
     pub(super) ranges: Vec<usize>,
+    /// Position of the slider of each friction element that rests (m).
+    pub(super) sliders: Vec<f64>,
     /// Motion of the track frames at the time of the last evaluation; iterations of a stage share it.
     following: (f64, Vec<Following>),
 }
@@ -69,20 +74,24 @@ pub(super) struct Outcome {
     pub(super) contacts: Vec<WheelsetForces>,
     pub(super) damper_displacements: Vec<f64>,
     pub(super) damper_forces: Vec<f64>,
+    pub(super) friction_forces: Vec<f64>,
 }
 
-/// Displacement and velocity of a damper or stop.
+/// Displacement and velocity of a damper, stop or friction element.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Extension {
     pub(super) displacement: f64,
     pub(super) velocity: f64,
+    /// Limit of the force of a friction element (N) and its rate (N/s).
+    pub(super) limit: [f64; 2],
 }
 
 impl<'a> Situation<'a> {
-    pub(super) fn new(path: Path<'a>, ranges: Vec<usize>) -> Self {
+    pub(super) fn new(path: Path<'a>, ranges: Vec<usize>, sliders: Vec<f64>) -> Self {
         Self {
             path,
             ranges,
+            sliders,
             following: (f64::NAN, Vec::new()),
         }
     }
@@ -153,7 +162,24 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         })
     }
 
-    /// Displacement and velocity of each damper and stop. The displacement of a damper is relative to the vehicle at
+    /// Load of an element (N) and its rate (N/s).
+    fn load(&self, following: &[Following], state: &[f64], element: usize) -> [f64; 2] {
+        let coupling = &self.couplings[element];
+        coupling.vertical_load(&coupling.motion(&self.poses(following, state, coupling)))
+    }
+
+    /// Limit of the force of an element with ranges and its rate; zero if it is not a friction element.
+    fn limit(&self, following: &[Following], state: &[f64], number: usize) -> [f64; 2] {
+        let Ranged::Friction(_, friction) = &self.ranged[number] else {
+            return [0.0; 2];
+        };
+        let load = friction.load.map_or([0.0; 2], |(element, _)| {
+            self.load(following, state, element)
+        });
+        friction.limit(load)
+    }
+
+    /// Displacement and velocity of each damper, stop and friction element. The displacement of a damper is relative to the vehicle at
     /// rest, not to its piston.
     pub(super) fn extensions(&self, following: &[Following], state: &[f64]) -> Vec<Extension> {
         let mut extensions = vec![Extension::default(); self.ranged.len()];
@@ -163,6 +189,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                 extensions[number] = Extension {
                     displacement,
                     velocity,
+                    limit: self.limit(following, state, number),
                 };
             }
         }
@@ -226,6 +253,9 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         outcome.damper_displacements.resize(self.dampers, 0.0);
         outcome.damper_forces.resize(self.dampers, 0.0);
         outcome.piston_velocities.resize(self.dampers, 0.0);
+        outcome
+            .friction_forces
+            .resize(situation.sliders.len(), 0.0);
         for coupling in &self.couplings {
             let poses = self.poses(following, state, coupling);
             let motion = coupling.motion(&poses);
@@ -246,6 +276,16 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                     force
                 }
                 Ranged::Stop(stop) => stop.force(range, x),
+                Ranged::Friction(slider, friction) => {
+                    let at = Extension {
+                        displacement: x,
+                        velocity: v,
+                        limit: self.limit(following, state, number),
+                    };
+                    let force = friction.force(range, &at, situation.sliders[*slider]);
+                    outcome.friction_forces[*slider] = force;
+                    force
+                }
             };
             let against = coupling
                 .loads_along()

@@ -1,4 +1,4 @@
-//! Events: a damper or stop leaves a range of its law.
+//! Events: a damper, stop or friction element leaves a range of its law.
 
 use dashpot_rail::contact::PatchSource;
 use dashpot_rail::creep::CreepLaw;
@@ -6,7 +6,7 @@ use dashpot_rail::creep::CreepLaw;
 use super::equations::{Equations, N, Ranged, Situation};
 
 impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
-    /// Distances of each damper and stop to the two ends of its range.
+    /// Distances of each damper, stop and friction element to the two ends of its range.
     pub(super) fn margins(
         &self,
         situation: &mut Situation<'_>,
@@ -23,13 +23,17 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                     chain.margins(range, from_piston, at.velocity)
                 }
                 Ranged::Stop(stop) => stop.ranges.margins(range, at.displacement),
+                Ranged::Friction(slider, friction) => {
+                    friction.margins(range, &at, situation.sliders[*slider])
+                }
             }
         };
         (0..self.ranged.len()).flat_map(margins).collect()
     }
 
-    /// Updates the range of each damper and stop, and returns the number of changes. The piston of a damper that stops
-    /// yielding is set to the position of the yield force.
+    /// Updates the range of each damper, stop and friction element, and returns the number of changes. The piston of a
+    /// damper that stops yielding is set to the position of the yield force, and the slider of an element that stops
+    /// sliding to that of the limit.
     pub(super) fn settle(
         &self,
         situation: &mut Situation<'_>,
@@ -52,6 +56,12 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
                     range
                 }
                 Ranged::Stop(stop) => stop.ranges.settled(before, at.displacement),
+                Ranged::Friction(slider, friction) => {
+                    let slider = &mut situation.sliders[*slider];
+                    let (range, position) = friction.settled(before, &at, *slider);
+                    *slider = position;
+                    range
+                }
             };
             situation.ranges[number] = now;
             changes += usize::from(now != before);

@@ -2,8 +2,8 @@
 //!
 //! The Newton-Euler equations of each body are integrated by an adaptive stiff solver to a stated tolerance. The forces
 //! of elements follow from the motion of their ends; dampers use the laws of the [reference damper](crate::damper) with
-//! clearance, held piston, flow and yielding. The solver restarts where a damper or stop passes an edge of its law, and
-//! where a body passes an edge of the track. Only the wheel-rail contact, [`dashpot_rail::contact`], and the
+//! clearance, held piston, flow and yielding; friction elements rest or slide. The solver restarts where a damper, stop
+//! or friction element passes an edge of its law, and where a body passes an edge of the track. Only the wheel-rail contact, [`dashpot_rail::contact`], and the
 //! description of the vehicle are shared with the real-time model.
 //!
 //! Coordinates of each body are lateral, vertical (m), roll, pitch and yaw (rad), relative to the vehicle at rest, in
@@ -16,6 +16,7 @@ mod coupling;
 mod equations;
 mod events;
 mod frame;
+mod friction;
 mod rails;
 mod ranges;
 mod slopes;
@@ -35,6 +36,7 @@ use self::chain::{CLEARANCE, Chain};
 use self::coupling::Coupling;
 use self::equations::{Equations, N, Outcome, Ranged, Rolling, Situation};
 use self::frame::{Path, Runner};
+use self::friction::{Friction, RESTING};
 use self::rails::Flexible;
 use self::standing::Standing;
 use self::stop::Stop;
@@ -70,6 +72,9 @@ pub struct VehicleSample {
     pub damper_displacements_m: Vec<f64>,
     /// Force of each damper, positive if it resists extension (N).
     pub damper_forces_n: Vec<f64>,
+    /// Force of each friction element in the order of the elements, positive if it resists a positive displacement of
+    /// its second end (N).
+    pub friction_forces_n: Vec<f64>,
 }
 
 /// Statistics of a run.
@@ -83,7 +88,7 @@ pub struct Statistics {
     pub evaluations: usize,
     /// Factorisations of the iteration matrix of Newton's method.
     pub factorisations: usize,
-    /// Changes of the range of a damper or stop.
+    /// Changes of the range of a damper, stop or friction element.
     pub events: usize,
 }
 
@@ -126,7 +131,7 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         Standstill::new(vehicle)?;
         VehicleError::check(&vehicle.name, "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
         VehicleError::check(&vehicle.name, "start_m", start_m, [-1e7, 1e7])?;
-        let (mut couplings, mut ranged, mut dampers) = (Vec::new(), Vec::new(), 0);
+        let (mut couplings, mut ranged, mut dampers, mut sliders) = (Vec::new(), Vec::new(), 0, 0);
         for element in &vehicle.elements {
             let coupling = Coupling::new(vehicle, element, ranged.len());
             couplings.push(coupling.ok_or_else(|| ReferenceError::UnknownLaw {
@@ -138,6 +143,24 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
                     dampers += 1;
                 }
                 Law::BumpStop { points, .. } => ranged.push(Ranged::Stop(Stop::new(points))),
+                Law::Friction {
+                    stiffness_n_per_m,
+                    friction_n,
+                    load,
+                    ..
+                } => {
+                    let mut elements = vehicle.elements.iter();
+                    let friction = Friction {
+                        stiffness: *stiffness_n_per_m,
+                        constant: *friction_n,
+                        load: load.as_ref().and_then(|load| {
+                            let spring = elements.position(|spring| spring.name == load.spring);
+                            spring.map(|spring| (spring, load.coefficient))
+                        }),
+                    };
+                    ranged.push(Ranged::Friction(sliders, friction));
+                    sliders += 1;
+                }
                 _ => {}
             }
         }
@@ -175,9 +198,10 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         let ranges = ranged.iter().map(|element| match element {
             Ranged::Damper(..) => CLEARANCE,
             Ranged::Stop(stop) => stop.ranges.edges.len() / 2,
+            Ranged::Friction(..) => RESTING,
         });
         let path = Path::new(track, speed_m_per_s, start_m, &runners);
-        let mut situation = Situation::new(path, ranges.collect());
+        let mut situation = Situation::new(path, ranges.collect(), vec![0.0; sliders]);
         let equations = Equations {
             contacts,
             inertia,
@@ -195,8 +219,10 @@ impl<'a, L: CreepLaw, S: PatchSource> VehicleReference<'a, L, S> {
         }
         let extensions = equations.extensions(situation.following(), &start);
         for (element, at) in equations.ranged.iter().zip(extensions) {
-            if let Ranged::Damper(damper, _) = element {
-                start[2 * coordinates + damper] = at.displacement;
+            match element {
+                Ranged::Damper(damper, _) => start[2 * coordinates + damper] = at.displacement,
+                Ranged::Friction(slider, _) => situation.sliders[*slider] = at.displacement,
+                Ranged::Stop(_) => {}
             }
         }
         Ok(Self {
@@ -300,6 +326,7 @@ fn sample<'a, L: CreepLaw, S: PatchSource>(
         contacts: outcome.contacts,
         damper_displacements_m: outcome.damper_displacements,
         damper_forces_n: outcome.damper_forces,
+        friction_forces_n: outcome.friction_forces,
     }
 }
 

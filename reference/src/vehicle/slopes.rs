@@ -79,6 +79,23 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         }
     }
 
+    /// Adds the effect of an element's load on the force of a friction element, `by_load` per load. Only the iteration
+    /// uses it, so it may be wrong where the spring has no load.
+    fn add_load(&self, matrix: &mut Matrix, friction: &Coupling, by_load: f64, element: usize) {
+        let spring = &self.couplings[element];
+        let slopes = spring.vertical_load_slopes();
+        for (attachment, slopes) in spring.attachments.iter().zip(slopes) {
+            let Some(body) = attachment.body else {
+                continue;
+            };
+            for (k, slope) in slopes.into_iter().enumerate() {
+                let per_newton = friction.loads_along();
+                let loads = per_newton.map(|load| load.map(|per| -per * by_load * slope));
+                self.add_column(matrix, friction, &loads, N * body + k);
+            }
+        }
+    }
+
     /// Complete matrix at a state.
     pub(super) fn slopes(
         &self,
@@ -102,6 +119,13 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
             // By virtual work, the loads from a unit force equal the displacements due to unit coordinates.
             let (slope, damper) = match &self.ranged[number] {
                 Ranged::Stop(stop) => (stop.slope(range), None),
+                Ranged::Friction(_, friction) => {
+                    let [slope, by_load] = friction.slopes(range);
+                    if let Some((element, _)) = friction.load {
+                        self.add_load(&mut matrix, coupling, by_load, element);
+                    }
+                    (slope, None)
+                }
                 Ranged::Damper(damper, chain) => {
                     let piston = 2 * coordinates + damper;
                     let from_piston = displacement - state[piston];

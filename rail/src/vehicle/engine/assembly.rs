@@ -8,6 +8,7 @@ use nalgebra::DMatrix;
 
 use super::across::{Across, DamperElement, StopElement};
 use super::block::N;
+use super::friction::{self, FrictionElement, Frame};
 use super::guidance::BodyPosition;
 use super::identity::Identity;
 use super::method::{Method, OnContact};
@@ -80,7 +81,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         bodies.extend(wheelset_bodies(parameters));
         let mut linear = Linear::new(&bodies);
         let mut on_track = Linear::new(&bodies);
-        let (mut dampers, mut stops) = (Vec::new(), Vec::new());
+        let (mut dampers, mut stops, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
+        let mut stuck = Linear::new(&bodies);
         let attached = attach(parameters, true)?;
         for ((element, (ends, line)), force) in parameters
             .elements
@@ -101,6 +103,16 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                     across: Across::new(&linear, ends, direction.axis()),
                     points: points.clone(),
                 }),
+                Law::Friction { .. } => {
+                    stuck.add_sticking(element, ends);
+                    let frame = Frame {
+                        linear: &linear,
+                        elements: &parameters.elements,
+                        attached: &attached,
+                        forces: standstill.forces(),
+                    };
+                    frictions.extend(FrictionElement::new(element, ends, &frame));
+                }
                 _ => {
                     linear.add(element, ends, *line);
                     linear.add_preload(ends, *force);
@@ -111,6 +123,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 }
             }
         }
+        friction::check_stiffness(&stuck, step_s)?;
         let (first, count) = (parameters.bodies.len(), parameters.wheelsets.len());
         let Linear {
             mut inertia,
@@ -216,6 +229,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             system,
             dampers,
             stops,
+            frictions,
         };
         vehicle.shape = vehicle.undisplaced(0.0, 0.0).shape();
         Ok(vehicle)

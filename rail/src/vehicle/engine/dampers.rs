@@ -1,4 +1,4 @@
-//! Steps of dampers and stops, once per tick.
+//! Steps of dampers, stops and friction elements, once per tick.
 
 use std::array::from_fn;
 
@@ -29,7 +29,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         states
     }
 
-    /// Computes the forces of dampers and stops at the end of the tick from the predicted positions of the bodies.
+    /// Computes the forces of dampers, stops and friction elements at the end of the tick from the predicted positions of the bodies.
     #[inline(always)]
     pub(super) fn step_dampers(&self, state: &mut VehicleState, track: &Track) {
         let h = self.step_s;
@@ -96,11 +96,17 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         for (element, force) in self.stops.iter().zip(&mut work.target_stop_forces_n) {
             *force = element.force(displacement(&element.across));
         }
+        let sliders = state.sliders_m.iter_mut();
+        let targets = sliders.zip(&mut work.target_friction_forces_n);
+        for (element, (slider, force)) in self.frictions.iter().zip(targets) {
+            let limit = element.limit_n(displacement);
+            *force = element.force(displacement(&element.across), limit, slider);
+        }
         self.pull(state);
         state.add_applied();
     }
 
-    /// Sums the forces of dampers and stops on the bodies at the start of the tick, and their change during the tick.
+    /// Sums the forces of dampers, stops and friction elements on the bodies at the start of the tick, and their change during the tick.
     #[inline(always)]
     fn pull(&self, state: &mut VehicleState) {
         let work = &mut state.work;
@@ -108,12 +114,19 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         work.tick_changes.fill([0.0; N]);
         let dampers = self.dampers.iter().map(|element| &element.across);
         let stops = self.stops.iter().map(|element| &element.across);
-        let before = state.damper_forces_n.iter().chain(&state.stop_forces_n);
+        let frictions = self.frictions.iter().map(|element| &element.across);
+        let before = state
+            .damper_forces_n
+            .iter()
+            .chain(&state.stop_forces_n)
+            .chain(&state.friction_forces_n);
         let after = work
             .target_damper_forces_n
             .iter()
-            .chain(&work.target_stop_forces_n);
-        for (across, (before, after)) in dampers.chain(stops).zip(before.zip(after)) {
+            .chain(&work.target_stop_forces_n)
+            .chain(&work.target_friction_forces_n);
+        let all = dampers.chain(stops).chain(frictions);
+        for (across, (before, after)) in all.zip(before.zip(after)) {
             across.pull(*before, &mut work.tick_forces);
             across.pull(after - before, &mut work.tick_changes);
         }

@@ -18,7 +18,8 @@ pub struct Energy {
     /// Kinetic energy of the bodies' motion relative to the track frame, including wheel rotation beyond free rolling,
     /// J.
     pub kinetic_j: f64,
-    /// Potential energy of springs and weight, J. The mounts of dampers are not included.
+    /// Potential energy of springs and weight, J. The mounts of dampers and the springs of
+    /// friction elements are not included.
     pub potential_j: f64,
     /// Elastic energy of the contact, J.
     pub contact_j: f64,

@@ -112,6 +112,20 @@ impl Hasher {
                 self.direction(*direction);
                 self.numbers(points.as_flattened());
             }
+            Law::Friction {
+                direction,
+                stiffness_n_per_m,
+                friction_n,
+                load,
+            } => {
+                self.direction(*direction);
+                self.numbers(&[*stiffness_n_per_m, *friction_n]);
+                self.count(usize::from(load.is_some()));
+                if let Some(load) = load {
+                    self.numbers(&[load.coefficient]);
+                    self.text(&load.spring);
+                }
+            }
             Law::AntiRollBar {
                 stiffness_n_m_per_rad,
             } => {
@@ -135,6 +149,7 @@ mod tests {
     use super::*;
     use crate::vehicle::body::Wheelset;
     use crate::vehicle::element::End;
+    use crate::vehicle::friction::FrictionLoad;
 
     fn damper(damping: f64, direction: Direction) -> Law {
         Law::Damper {
@@ -147,6 +162,15 @@ mod tests {
         Law::BumpStop {
             direction,
             points: vec![[0.01, 0.0], [0.02, 3e3]],
+        }
+    }
+
+    fn friction(friction_n: f64, load: Option<(f64, &str)>) -> Law {
+        Law::Friction {
+            direction: Direction::Lateral,
+            stiffness_n_per_m: 1e6,
+            friction_n,
+            load: load.map(|(coefficient, spring)| FrictionLoad::new(coefficient, spring)),
         }
     }
 
@@ -197,6 +221,11 @@ mod tests {
             vehicle("e", "b", stop(Direction::Vertical)),
             vehicle("e", "b", damper(10e3, Direction::Lateral)),
             vehicle("e", "b", damper(10e3, Direction::Vertical)),
+            vehicle("e", "b", friction(1e3, None)),
+            vehicle("e", "b", friction(2e3, None)),
+            vehicle("e", "b", friction(1e3, Some((0.1, "s")))),
+            vehicle("e", "b", friction(1e3, Some((0.2, "s")))),
+            vehicle("e", "b", friction(1e3, Some((0.1, "t")))),
             vehicle("e", "b", rod),
             vehicle("e", "b", stiffer_rod),
         ];

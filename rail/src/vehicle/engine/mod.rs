@@ -6,6 +6,7 @@ mod block;
 mod dampers;
 mod energy;
 mod extremes;
+mod friction;
 mod guidance;
 mod identity;
 mod influences;
@@ -28,6 +29,7 @@ use self::assembly::build;
 use self::block::{N, Vector};
 pub use self::energy::Energy;
 pub use self::extremes::Extremes;
+use self::friction::FrictionElement;
 pub use self::guidance::CANT_BASE_M;
 use self::guidance::{BodyPosition, Guidance};
 use self::identity::Identity;
@@ -115,6 +117,7 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     on_track: Option<Springs>,
     dampers: Vec<DamperElement>,
     stops: Vec<StopElement>,
+    frictions: Vec<FrictionElement>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,6 +180,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             friction_factor: 1.0,
             applied: zeros.clone(),
             stop_forces_n: vec![0.0; self.stops.len()],
+            friction_forces_n: vec![0.0; self.frictions.len()],
+            sliders_m: vec![0.0; self.frictions.len()],
             is_diverged: false,
             met_other_vehicle: false,
             work: Work {
@@ -189,6 +194,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 tick_changes: zeros,
                 target_damper_forces_n: vec![0.0; self.dampers.len()],
                 target_stop_forces_n: vec![0.0; self.stops.len()],
+                target_friction_forces_n: vec![0.0; self.frictions.len()],
                 extremes: vec![Extremes::default(); self.wheelsets.len()],
             },
         }
@@ -209,7 +215,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
     }
 
-    /// Displaces a body before the first step: adds `displacement` to its coordinates and updates all forces.
+    /// Displaces a body before the first step: adds `displacement` to its coordinates and updates all forces. Dampers
+    /// and friction elements are without force in the new position.
     ///
     /// # Errors
     /// An index out of range, a displacement outside -10 to 10 m or rad, or a state of another vehicle. The state is
@@ -261,6 +268,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     /// Returns the names of the dampers.
     pub fn damper_names(&self) -> impl ExactSizeIterator<Item = &str> {
         self.dampers.iter().map(|element| element.name.as_str())
+    }
+
+    /// Returns the names of the friction elements.
+    pub fn friction_names(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.frictions.iter().map(|element| element.name.as_str())
     }
 
     /// Returns the load of each wheelset on the rails at standstill, N.

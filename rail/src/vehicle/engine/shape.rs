@@ -23,6 +23,8 @@ pub(super) struct Shape {
     outside_forces: usize,
     stop_forces: usize,
     applied: usize,
+    friction_forces: usize,
+    sliders: usize,
     work: WorkShape,
 }
 
@@ -37,6 +39,7 @@ struct WorkShape {
     tick_changes: usize,
     target_damper_forces: usize,
     target_stop_forces: usize,
+    target_friction_forces: usize,
     extremes: usize,
 }
 
@@ -78,6 +81,8 @@ impl VehicleState {
             outside_forces: state.outside_forces_n.len(),
             stop_forces: state.stop_forces_n.len(),
             applied: state.applied.len(),
+            friction_forces: state.friction_forces_n.len(),
+            sliders: state.sliders_m.len(),
             work: WorkShape::new(&state.work),
         }
     }
@@ -96,6 +101,7 @@ impl WorkShape {
             tick_changes: work.tick_changes.len(),
             target_damper_forces: work.target_damper_forces_n.len(),
             target_stop_forces: work.target_stop_forces_n.len(),
+            target_friction_forces: work.target_friction_forces_n.len(),
             extremes: work.extremes.len(),
         }
     }
@@ -166,12 +172,13 @@ mod tests {
         let (vehicle, track) = (vehicle(), Track::default());
         let state = vehicle.at_rest(&track, 0.0, 20.0).unwrap();
         assert!(vehicle.can_step(&state));
-        let changes: [Change; 8] = [
+        let changes: [Change; 9] = [
             |state| state.bodies += 1,
             |state| state.coordinates.clear(),
             |state| state.forces.push([0.0; 5]),
             |state| state.contacts.clear(),
             |state| state.damper_forces_n.push(0.0),
+            |state| state.sliders_m.push(0.0),
             |state| state.work.residual.clear(),
             |state| state.work.guidance.pose_rate.clear(),
             |state| state.work.system.diagonal.clear(),

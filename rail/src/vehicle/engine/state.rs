@@ -48,6 +48,9 @@ pub struct VehicleState {
     pub(super) friction_factor: f64,
     /// Applied force and moment on each body, N and N m.
     pub(super) applied: Vec<Vector>,
+    pub(super) friction_forces_n: Vec<f64>,
+    /// Position of the slider of each friction element, m.
+    pub(super) sliders_m: Vec<f64>,
     pub(super) is_diverged: bool,
     /// True once the state was passed to the step of a vehicle that it does not belong to.
     pub(super) met_other_vehicle: bool,
@@ -76,7 +79,7 @@ pub(super) struct Work {
     pub in_middle: Vec<Vector>,
     /// Rates of `in_middle`.
     pub rates_in_middle: Vec<Vector>,
-    /// Forces of dampers and stops on each body at the start of the tick.
+    /// Forces of dampers, stops and friction on each body at the start of the tick.
     pub tick_forces: Vec<Vector>,
     /// Change of `tick_forces` during the tick.
     pub tick_changes: Vec<Vector>,
@@ -84,6 +87,8 @@ pub(super) struct Work {
     pub target_damper_forces_n: Vec<f64>,
     /// Stop forces at the end of the tick.
     pub target_stop_forces_n: Vec<f64>,
+    /// Friction forces at the end of the tick.
+    pub target_friction_forces_n: Vec<f64>,
     /// Extremes of each wheelset over all steps of the tick.
     pub extremes: Vec<Extremes>,
 }
@@ -176,6 +181,17 @@ impl VehicleState {
         &self.stop_forces_n
     }
 
+    /// Returns the force of each friction element, positive if it resists a positive displacement of its second end, N.
+    pub fn friction_forces_n(&self) -> &[f64] {
+        &self.friction_forces_n
+    }
+
+    /// Returns the position of the slider of each friction element, m: the displacement at which the element exerts no
+    /// force. It does not change at all while the slider sticks.
+    pub fn sliders_m(&self) -> &[f64] {
+        &self.sliders_m
+    }
+
     /// Replaces the force of a damper with an external force from the next tick on; `None` returns to the damper's own
     /// model.
     ///
@@ -263,6 +279,8 @@ clone_by_field!(VehicleState {
     stop_forces_n,
     friction_factor,
     applied,
+    friction_forces_n,
+    sliders_m,
     is_diverged,
     met_other_vehicle,
     work,
@@ -277,6 +295,7 @@ clone_by_field!(Work {
     tick_changes,
     target_damper_forces_n,
     target_stop_forces_n,
+    target_friction_forces_n,
     extremes,
 });
 clone_by_field!(Guidance {

@@ -54,6 +54,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         state
             .stop_forces_n
             .clone_from(&state.work.target_stop_forces_n);
+        state
+            .friction_forces_n
+            .clone_from(&state.work.target_friction_forces_n);
         state.ticks = state.ticks.saturating_add(1);
     }
 
@@ -67,6 +70,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             state.accelerations[body] = from_fn(|i| forces[i] / self.inertia[body][i]);
         }
         state.last_accelerations.clone_from(&state.accelerations);
+        self.relax_friction(state);
     }
 
     #[inline(always)]
