@@ -5,7 +5,9 @@ use dashpot_core::parameters::Mount;
 use dashpot_rail::contact::Tables;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::{Generation, Irregularity, Layout, Part, Seeds, Spectrum, Track};
-use dashpot_rail::vehicle::{Law, RailSupport, Vehicle, VehicleParameters};
+use dashpot_rail::vehicle::{
+    Direction, Element, FrictionLoad, Law, RailSupport, Vehicle, VehicleParameters,
+};
 use dashpot_reference::vehicle::{VehicleReference, VehicleSample};
 use fastrand::Rng;
 
@@ -17,7 +19,35 @@ fn between(random: &mut Rng, min: f64, max: f64) -> f64 {
     min + random.f64() * (max - min)
 }
 
-/// The locomotive with random masses, inertias, stiffnesses, dampings and dampers.
+/// Friction beside the axlebox springs of both outer wheelsets, in all directions: constant at the front, and with a
+/// part that follows the load of the spring at the rear.
+fn friction(parameters: &VehicleParameters, random: &mut Rng) -> Vec<Element> {
+    let mut elements = Vec::new();
+    let axes = [
+        Direction::Longitudinal,
+        Direction::Lateral,
+        Direction::Vertical,
+    ];
+    let springs = parameters.elements.iter();
+    for spring in springs.filter(|spring| spring.name.split(' ').nth(1) == Some("primary")) {
+        for direction in axes {
+            let follows = spring.name.starts_with("rear");
+            let coefficient = between(random, 0.01, 0.05);
+            let law = Law::Friction {
+                direction,
+                stiffness_n_per_m: between(random, 1e6, 10e6),
+                friction_n: between(random, 0.1e3, 2e3),
+                load: follows.then(|| FrictionLoad::new(coefficient, &spring.name)),
+            };
+            let name = format!("{} {direction:?}", spring.name);
+            elements.push(Element::new(name, spring.ends.clone(), law));
+        }
+    }
+    assert_eq!(elements.len(), 12);
+    elements
+}
+
+/// The locomotive with random masses, inertias, stiffnesses, dampings, dampers and friction.
 fn vehicle(random: &mut Rng) -> VehicleParameters {
     let mut parameters = locomotive();
     for body in &mut parameters.bodies {
@@ -48,6 +78,8 @@ fn vehicle(random: &mut Rng) -> VehicleParameters {
             _ => {}
         }
     }
+    let friction = friction(&parameters, random);
+    parameters.elements.extend(friction);
     parameters
 }
 
@@ -110,6 +142,7 @@ fn random_vehicles_run_as_in_the_reference() {
         let samples = solve(&mut reference, &times, 1e-7);
         let (mut lateral, mut load) = ([0.0; 6], [0.0; 12]);
         let (mut acceleration, mut scale, mut damper, mut damper_scale) = (0.0, 0.0, 0.0, 0.0);
+        let (mut friction, mut friction_scale) = (0.0, 0.0);
         for sample in &samples {
             engine.step(&mut state, &track);
             for (axle, sum) in lateral.iter_mut().enumerate() {
@@ -132,6 +165,11 @@ fn random_vehicles_run_as_in_the_reference() {
                 damper += (found - expected).powi(2);
                 damper_scale += expected * expected;
             }
+            let forces = state.friction_forces_n().iter();
+            for (found, expected) in forces.zip(&sample.friction_forces_n) {
+                friction += (found - expected).powi(2);
+                friction_scale += expected * expected;
+            }
         }
         let worst =
             |sums: &[f64]| (sums.iter().fold(0.0_f64, |a, b| a.max(*b)) / f64::from(ticks)).sqrt();
@@ -140,8 +178,9 @@ fn random_vehicles_run_as_in_the_reference() {
             worst(&load),
             (acceleration / scale).sqrt(),
             (damper / damper_scale).sqrt(),
+            (friction / friction_scale).sqrt(),
         ];
-        let allowed = [5e-6, 700.0, 0.01, 0.01];
+        let allowed = [5e-6, 700.0, 0.01, 0.01, 0.01];
         for (found, allowed) in found.iter().zip(allowed) {
             assert!(*found < allowed, "case {case} at {speed} m/s: {found:?}");
         }

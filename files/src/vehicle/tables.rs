@@ -200,7 +200,9 @@ impl FrictionTable {
         let of_load = match (self.friction_coefficient, &self.load_of) {
             (Some(coefficient), Some(springs)) => Some((coefficient, springs)),
             (None, None) if self.friction_n.is_none() => {
-                return Err("no friction, allowed: friction_n, or friction_coefficient and load_of");
+                return Err(
+                    "no friction, allowed: friction_n, or friction_coefficient and load_of",
+                );
             }
             (None, None) => None,
             _ => return Err("friction_coefficient and load_of, allowed: both or neither"),

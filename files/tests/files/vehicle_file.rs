@@ -38,6 +38,16 @@ direction = "lateral"
 points_m_n = [[0.02, 0], [0.03, 10e3]]
 at_m = [[4, 0, 0.46]]
 
+[[friction]]
+name = "friction"
+between = ["track", "body"]
+direction = "vertical"
+stiffness_n_per_m = 5e6
+friction_n = 100
+friction_coefficient = 0.06
+load_of = "spring"
+at_m = [[4, -1, 0.46], [4, 1, 0.46]]
+
 [[damper]]
 name = "damper"
 between = ["axle 2", "body"]
@@ -73,7 +83,7 @@ fn errors_have_file_line_and_name() {
         (
             "[\"axle 2\", \"body\"]",
             "[\"axle 3\", \"body\"]",
-            "wagon.toml:38: damper 1: attached to axle 3, which does not exist; allowed: body, axle 1, axle 2",
+            "wagon.toml:48: damper 1: attached to axle 3, which does not exist; allowed: body, axle 1, axle 2",
         ),
         (
             "[\"axle 1\", \"body\"]",
@@ -91,24 +101,45 @@ fn errors_have_file_line_and_name() {
             "wagon.toml:22: spring 1: used twice",
         ),
         (
+            "load_of = \"spring\"",
+            "load_of = \"stop\"",
+            "wagon.toml:38: friction 1: friction follows the load of stop 1, which is not a spring with vertical \
+             stiffness; allowed: spring 1, spring 2, spring 3, spring 4",
+        ),
+        (
+            "load_of = \"spring\"",
+            "",
+            "wagon.toml:38: friction: friction_coefficient and load_of, allowed: both or neither",
+        ),
+        (
+            "friction_n = 100\nfriction_coefficient = 0.06\nload_of = \"spring\"",
+            "",
+            "wagon.toml:38: friction: no friction, allowed: friction_n, or friction_coefficient and load_of",
+        ),
+        (
+            "friction_n = 100",
+            "friction_n = -100",
+            "wagon.toml:38: friction 1: friction_n = -100, allowed: 0 to 100000000",
+        ),
+        (
             "\"reduced-lateral\"",
             "\"none.toml\"",
-            "wagon.toml:38: damper: none.toml: cannot read",
+            "wagon.toml:48: damper: none.toml: cannot read",
         ),
         (
             "body = \"body\"",
             "body = \"axle 1\"",
-            "wagon.toml:45: seat: on axle 1, which is not a body; allowed: body",
+            "wagon.toml:55: seat: on axle 1, which is not a body; allowed: body",
         ),
         (
             "0.5, 1.1]",
             "0.5, 11]",
-            "wagon.toml:45: seat: height_m = 11, allowed: 0 to 10",
+            "wagon.toml:55: seat: height_m = 11, allowed: 0 to 10",
         ),
         (
             "[4, 0.5, 1.1]",
             "[4, 0.5]",
-            "wagon.toml: TOML parse error at line 47, column 8",
+            "wagon.toml: TOML parse error at line 57, column 8",
         ),
         (
             "direction = \"lateral\"\npoints",

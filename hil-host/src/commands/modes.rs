@@ -4,7 +4,9 @@ use std::io::{self, Write};
 
 use dashpot_rail::contact::{ContactGeometry, WheelsetContact};
 use dashpot_rail::creep::KalkerBook;
-use dashpot_rail::vehicle::{Mode, Running, Standstill, VehicleError, VehicleParameters};
+use dashpot_rail::vehicle::{
+    Element, Law, Mode, Running, Standstill, VehicleError, VehicleParameters,
+};
 use serde::Serialize;
 
 use super::wheel_rail::WheelRailArguments;
@@ -22,9 +24,10 @@ use dashpot_vehicle_run::{VehicleRunError, hunting};
   dashpot modes --vehicle locomotive
   dashpot modes --vehicle locomotive --speed-km-h 180
   dashpot modes --vehicle coach --hunting
+  dashpot modes --vehicle freight-wagon --sliding
   dashpot modes --vehicle locomotive --set \"front lateral damper.damper='in-service'\" --format json")]
 pub struct ModesArguments {
-    /// Vehicle: built-in name (locomotive, coach) or TOML file.
+    /// Vehicle: built-in name (locomotive, coach, freight-wagon) or TOML file.
     #[arg(long, default_value = "locomotive", value_name = "VEHICLE")]
     pub vehicle: String,
     /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3, or of the contact, such as
@@ -38,6 +41,10 @@ pub struct ModesArguments {
     /// one, above which a push to the flange leads to a limit cycle.
     #[arg(long, conflicts_with = "speed_km_h")]
     pub hunting: bool,
+    /// Linear equations in which all friction elements slide: their constant force has no part in a mode. Without it
+    /// they stick, as in motion too small to move their sliders.
+    #[arg(long)]
+    pub sliding: bool,
     /// Friction coefficient between wheel and rail.
     #[arg(long, default_value_t = 0.4, value_name = "MU")]
     pub friction: f64,
@@ -58,7 +65,17 @@ struct Report {
     /// Only with `--hunting`.
     #[serde(skip_serializing_if = "Option::is_none")]
     hunting: Option<HuntingRow>,
+    /// `None` if the vehicle has no friction elements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    dry_friction: Option<DryFriction>,
     modes: Vec<ModeRow>,
+}
+
+/// Friction elements in the linear equations.
+#[derive(Serialize)]
+struct DryFriction {
+    elements: usize,
+    linearised_as: &'static str,
 }
 
 #[derive(Serialize)]
@@ -83,6 +100,10 @@ const FRICTION: std::ops::RangeInclusive<f64> = 0.0..=2.0;
 /// Maximum speed and step of the search for a critical speed, km/h.
 const MAX_SEARCH_KM_H: f64 = 500.0;
 const SEARCH_STEP_KM_H: f64 = 10.0;
+
+/// A mode is unstable if it grows by more than this part of its frequency. Rounding gives the modes of a vehicle
+/// without dampers a small damping of either sign.
+const MIN_GROWTH: f64 = 1e-9;
 
 /// Modes above this frequency (Hz) are those of wheel and rail and are not listed.
 const MAX_MODE_HZ: f64 = 50.0;
@@ -131,14 +152,15 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
         name: name.clone(),
         source,
     };
-    let standstill = Standstill::new(&vehicle).map_err(refused)?;
+    let linear = linearised(&vehicle, arguments.sliding);
+    let standstill = Standstill::new(&linear).map_err(refused)?;
     let (mut hunting, mut speed_km_h) = (None, arguments.speed_km_h);
     let modes = if arguments.hunting || speed_km_h.is_some() {
         let setup = setup(arguments, &vehicle, wheels, &options)?;
         let contacts = setup.exact().map_err(|error| of_vehicle(name, &error))?;
         let contacts: Vec<&Contact> = contacts.iter().map(AsRef::as_ref).collect();
         if arguments.hunting {
-            let critical = critical_speed_km_h(&vehicle, &contacts).map_err(refused)?;
+            let critical = critical_speed_km_h(&linear, &contacts).map_err(refused)?;
             speed_km_h = Some(critical.unwrap_or(MAX_SEARCH_KM_H));
             let cycle = limit_cycle(name, &vehicle, &setup, critical)?;
             hunting = Some(HuntingRow {
@@ -149,7 +171,7 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
             });
         }
         let modes =
-            modes_at(&vehicle, &contacts, speed_km_h.unwrap_or_default()).map_err(refused)?;
+            modes_at(&linear, &contacts, speed_km_h.unwrap_or_default()).map_err(refused)?;
         modes
             .into_iter()
             .filter(|mode| mode.undamped_hz() < MAX_MODE_HZ)
@@ -157,7 +179,16 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
     } else {
         standstill.modes().map_err(refused)?
     };
+    let elements = friction_elements(&vehicle);
     let report = Report {
+        dry_friction: (elements > 0).then_some(DryFriction {
+            elements,
+            linearised_as: if arguments.sliding {
+                "sliding"
+            } else {
+                "sticking"
+            },
+        }),
         vehicle: vehicle.name,
         axle_loads_n: standstill.axle_loads_n().to_vec(),
         speed_km_h,
@@ -165,6 +196,24 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
         modes: modes.iter().map(ModeRow::from).collect(),
     };
     print_report(arguments.format, &report, print)
+}
+
+fn is_friction(element: &Element) -> bool {
+    matches!(element.law, Law::Friction { .. })
+}
+
+fn friction_elements(vehicle: &VehicleParameters) -> usize {
+    let elements = vehicle.elements.iter();
+    elements.filter(|element| is_friction(element)).count()
+}
+
+/// Returns the vehicle for the linear equations, in which friction elements stick unless they are `sliding`.
+fn linearised(vehicle: &VehicleParameters, sliding: bool) -> VehicleParameters {
+    let mut linear = vehicle.clone();
+    if sliding {
+        linear.elements.retain(|element| !is_friction(element));
+    }
+    linear
 }
 
 /// Resolves the contact of the vehicle with the values of the options.
@@ -232,7 +281,7 @@ fn critical_speed_km_h(
 ) -> Result<Option<f64>, VehicleError> {
     let grows = |km_h: f64| -> Result<bool, VehicleError> {
         let modes = modes_at(vehicle, contacts, km_h)?;
-        Ok(modes.iter().any(|mode| mode.damping_ratio() < 0.0))
+        Ok(modes.iter().any(|mode| mode.damping_ratio() < -MIN_GROWTH))
     };
     let mut stable = 0.0;
     while stable < MAX_SEARCH_KM_H {
@@ -277,6 +326,20 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             .map(|load| format!("{:.1}", load / 1e3))
             .collect();
         writeln!(out, "axle loads, kN: {}", loads.join(", "))?;
+    }
+    if let Some(friction) = &report.dry_friction {
+        let state = match friction.linearised_as {
+            "sliding" => "slide and add nothing to the modes; without --sliding they stick",
+            _ => {
+                "stick, as in motion too small to move their sliders; larger motion is softer and damped, and \
+                  --sliding shows its modes without friction"
+            }
+        };
+        writeln!(
+            out,
+            "dry friction: {} elements, which in these linear equations {state}",
+            friction.elements
+        )?;
     }
     if let Some(HuntingRow {
         nonlinear_critical_speed_km_h: Some(speed),

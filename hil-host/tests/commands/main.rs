@@ -30,6 +30,7 @@ mod labview_page;
 mod lifted_wheel_without_a_word;
 mod modes;
 mod modes_coach;
+mod modes_freight_wagon;
 mod names_of_a_file_were_translated;
 mod overturned_called_left_the_tables;
 mod replay;

@@ -196,8 +196,21 @@ impl Law {
         Self::NAMES[index]
     }
 
-    /// Spring force that resists a displacement of the second end, N; zero for dashpots, dampers and friction, which are
-    /// at rest.
+    /// Vertical stiffness of a spring whose load friction can follow, N/m.
+    pub(super) fn vertical_stiffness(&self) -> Option<f64> {
+        match self {
+            Self::SpringDamper {
+                stiffness_n_per_m, ..
+            }
+            | Self::Bush {
+                stiffness_n_per_m, ..
+            } => Some(stiffness_n_per_m[2]).filter(|stiffness| *stiffness > 0.0),
+            _ => None,
+        }
+    }
+
+    /// Spring force that resists a displacement of the second end, N; zero for dashpots, dampers and friction, which
+    /// are at rest.
     pub(super) fn spring_force(
         &self,
         displacement: Vector3<f64>,

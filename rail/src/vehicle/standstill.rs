@@ -4,9 +4,8 @@ use nalgebra::{DVector, SymmetricEigen, Vector3};
 
 use super::GRAVITY_M_PER_S2;
 use super::body::{Body, COORDINATES, Coordinate, Wheelset};
-use super::element::{Element, End};
+use super::element::{Element, End, Law};
 use super::error::VehicleError;
-use super::friction;
 use super::linear::{Attachment, Linear};
 use super::modes::{self, Mode};
 use super::parameters::VehicleParameters;
@@ -24,6 +23,9 @@ pub struct Standstill {
 
 /// A body with a lower natural frequency counts as not held, Hz.
 const MIN_FREQUENCY_HZ: f64 = 0.01;
+
+/// Minimum load of a spring at standstill that friction can follow, N.
+const MIN_LOAD_N: f64 = 1.0;
 
 impl Standstill {
     /// Computes the equilibrium under gravity: the displacements of the bodies from their unloaded positions, the
@@ -70,7 +72,7 @@ impl Standstill {
             linear.add_preload(ends, *force);
         }
         for (element, (ends, _)) in vehicle.elements.iter().zip(&ends) {
-            friction::check_load(element, &vehicle.elements, &forces)?;
+            check_load(element, &vehicle.elements, &forces)?;
             linear.add_sticking(element, ends);
         }
         let wheelsets = wheelset_bodies(vehicle);
@@ -239,4 +241,44 @@ fn check_held(linear: &Linear, bodies: &[Body]) -> Result<(), VehicleError> {
         body: bodies[largest / COORDINATES.len()].name.clone(),
         coordinate: COORDINATES[largest % COORDINATES.len()].name(),
     })
+}
+
+/// Checks that the friction of an element follows a spring that carries a load at standstill. `forces` are those of all
+/// elements on their second ends, N.
+fn check_load(
+    element: &Element,
+    elements: &[Element],
+    forces: &[Vector3<f64>],
+) -> Result<(), VehicleError> {
+    let Law::Friction {
+        load: Some(load), ..
+    } = &element.law
+    else {
+        return Ok(());
+    };
+    let refused = |reason: String| VehicleError::FrictionSpring {
+        element: element.name.clone(),
+        spring: load.spring.clone(),
+        reason,
+    };
+    let springs = || {
+        let springs = elements
+            .iter()
+            .zip(forces)
+            .filter(|(element, _)| element.law.vertical_stiffness().is_some());
+        springs.map(|(element, force)| (element.name.as_str(), force.z))
+    };
+    match springs().find(|(name, _)| *name == load.spring) {
+        Some((_, force)) if force.abs() >= MIN_LOAD_N => Ok(()),
+        Some(_) => Err(refused(
+            "which carries no load at standstill, allowed: a spring that carries weight".to_owned(),
+        )),
+        None => {
+            let names: Vec<&str> = springs().map(|(name, _)| name).collect();
+            Err(refused(format!(
+                "which is not a spring with vertical stiffness; allowed: {}",
+                names.join(", ")
+            )))
+        }
+    }
 }

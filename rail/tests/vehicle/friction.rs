@@ -86,7 +86,10 @@ fn half_peaks_fall_by_equal_amounts_until_the_slider_sticks() {
         let next = ((friction * friction - 2.0 * SPRINGS * rest).sqrt() - friction) / SPRINGS;
         assert!((found - next).abs() < 1e-6, "{number}: {found} for {next}");
         let rigid = start - 2e-3 * (number + 1) as f64;
-        assert!((found - rigid).abs() < 4e-6, "{number}: {found} for {rigid}");
+        assert!(
+            (found - rigid).abs() < 4e-6,
+            "{number}: {found} for {rigid}"
+        );
         peak = next;
     }
     // It stops at the first turning point within Fd/k, at -0.5 mm, but for the spring in series.
@@ -111,9 +114,7 @@ fn friction_follows_the_load_of_a_spring() {
     let (coefficient, start) = (0.04, 30e-3);
     let own = 0.25 * SPRINGS;
     let standing = 0.25 * MASS_KG * GRAVITY_M_PER_S2;
-    let centre = |sign: f64| {
-        -sign * coefficient * standing / (SPRINGS + sign * coefficient * own)
-    };
+    let centre = |sign: f64| -sign * coefficient * standing / (SPRINGS + sign * coefficient * own);
     let half = std::f64::consts::PI * (MASS_KG / SPRINGS).sqrt();
     for upside_down in [false, true] {
         let load = FrictionLoad::new(coefficient, "body spring 1 -1");
@@ -204,5 +205,8 @@ fn friction_needs_a_spring_that_carries_weight_and_a_tick_that_follows_it() {
         *stiffness_n_per_m = 1e11;
     }
     let error = Vehicle::new(&stiff, contact(0.0), 1e-3).unwrap_err();
-    assert!(matches!(error, VehicleError::FrictionTooStiff { .. }), "{error}");
+    assert!(
+        matches!(error, VehicleError::FrictionTooStiff { .. }),
+        "{error}"
+    );
 }

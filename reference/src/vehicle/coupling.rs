@@ -44,13 +44,22 @@ pub(super) struct Motion {
     turn_rate: Vector,
 }
 
+/// Displacement and velocity of a damper, stop or friction element.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Extension {
+    pub(super) displacement: f64,
+    pub(super) velocity: f64,
+    /// Limit of the force of a friction element (N) and its rate (N/s).
+    pub(super) limit: [f64; 2],
+}
+
 fn minus(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 impl Coupling {
-    /// Builds an element without a standing force; `number` is the index of a damper, stop or friction element. `None` if its law is
-    /// unknown.
+    /// Builds an element without a standing force; `number` is the index of a damper, stop or friction element. `None`
+    /// if its law is unknown.
     pub(super) fn new(
         vehicle: &VehicleParameters,
         element: &Element,

@@ -7,7 +7,7 @@ use dashpot_rail::creep::CreepLaw;
 
 use super::attachment::{Coordinates, Pose};
 use super::chain::Chain;
-use super::coupling::Coupling;
+use super::coupling::{Coupling, Extension};
 use super::frame::{Following, Path};
 use super::friction::Friction;
 use super::rails::Flexible;
@@ -75,15 +75,6 @@ pub(super) struct Outcome {
     pub(super) damper_displacements: Vec<f64>,
     pub(super) damper_forces: Vec<f64>,
     pub(super) friction_forces: Vec<f64>,
-}
-
-/// Displacement and velocity of a damper, stop or friction element.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Extension {
-    pub(super) displacement: f64,
-    pub(super) velocity: f64,
-    /// Limit of the force of a friction element (N) and its rate (N/s).
-    pub(super) limit: [f64; 2],
 }
 
 impl<'a> Situation<'a> {
@@ -179,8 +170,8 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         friction.limit(load)
     }
 
-    /// Displacement and velocity of each damper, stop and friction element. The displacement of a damper is relative to the vehicle at
-    /// rest, not to its piston.
+    /// Displacement and velocity of each damper, stop and friction element. The displacement of a damper is relative to
+    /// the vehicle at rest, not to its piston.
     pub(super) fn extensions(&self, following: &[Following], state: &[f64]) -> Vec<Extension> {
         let mut extensions = vec![Extension::default(); self.ranged.len()];
         for coupling in &self.couplings {
@@ -253,9 +244,7 @@ impl<L: CreepLaw, S: PatchSource> Equations<'_, L, S> {
         outcome.damper_displacements.resize(self.dampers, 0.0);
         outcome.damper_forces.resize(self.dampers, 0.0);
         outcome.piston_velocities.resize(self.dampers, 0.0);
-        outcome
-            .friction_forces
-            .resize(situation.sliders.len(), 0.0);
+        outcome.friction_forces.resize(situation.sliders.len(), 0.0);
         for coupling in &self.couplings {
             let poses = self.poses(following, state, coupling);
             let motion = coupling.motion(&poses);

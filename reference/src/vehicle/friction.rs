@@ -3,7 +3,7 @@
 //! The slider rests in one range of the law, so its position is constant between two events. In the other two it slides
 //! and the force is the limit, so its position follows from the displacement. It has to be set only where sliding ends.
 
-use super::equations::Extension;
+use super::coupling::Extension;
 use super::ranges::OVERLAP_M;
 
 /// Index of the range in which the slider rests. It slides towards negative displacements in the range before, and

@@ -3,8 +3,8 @@
 //! The Newton-Euler equations of each body are integrated by an adaptive stiff solver to a stated tolerance. The forces
 //! of elements follow from the motion of their ends; dampers use the laws of the [reference damper](crate::damper) with
 //! clearance, held piston, flow and yielding; friction elements rest or slide. The solver restarts where a damper, stop
-//! or friction element passes an edge of its law, and where a body passes an edge of the track. Only the wheel-rail contact, [`dashpot_rail::contact`], and the
-//! description of the vehicle are shared with the real-time model.
+//! or friction element passes an edge of its law, and where a body passes an edge of the track. Only the wheel-rail
+//! contact, [`dashpot_rail::contact`], and the description of the vehicle are shared with the real-time model.
 //!
 //! Coordinates of each body are lateral, vertical (m), roll, pitch and yaw (rad), relative to the vehicle at rest, in
 //! the frame that follows the track at the body. Velocities are absolute, in the same axes. The pitch of a wheelset is

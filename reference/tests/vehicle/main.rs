@@ -7,5 +7,6 @@ mod common;
 #[allow(dead_code)]
 mod damper_parameters;
 mod dampers;
+mod friction;
 mod running;
 mod unequal;

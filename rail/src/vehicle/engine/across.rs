@@ -1,4 +1,5 @@
-//! Elements with nonlinear forces: dampers and stops here, friction in `friction.rs`, each along one displacement between two bodies.
+//! Elements with nonlinear forces: dampers and stops here, friction in `friction.rs`, each along one displacement
+//! between two bodies.
 
 use dashpot_core::Damper;
 

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 
 use super::across::{Across, DamperElement, StopElement};
 use super::block::N;
-use super::friction::{self, FrictionElement, Frame};
+use super::friction::{self, FrictionElement, Standing};
 use super::guidance::BodyPosition;
 use super::identity::Identity;
 use super::method::{Method, OnContact};
@@ -105,13 +105,13 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 }),
                 Law::Friction { .. } => {
                     stuck.add_sticking(element, ends);
-                    let frame = Frame {
+                    let standing = Standing {
                         linear: &linear,
                         elements: &parameters.elements,
                         attached: &attached,
                         forces: standstill.forces(),
                     };
-                    frictions.extend(FrictionElement::new(element, ends, &frame));
+                    frictions.extend(FrictionElement::new(element, ends, &standing));
                 }
                 _ => {
                     linear.add(element, ends, *line);

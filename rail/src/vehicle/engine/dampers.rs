@@ -29,7 +29,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         states
     }
 
-    /// Computes the forces of dampers, stops and friction elements at the end of the tick from the predicted positions of the bodies.
+    /// Computes the forces of dampers, stops and friction elements at the end of the tick from the predicted positions
+    /// of the bodies.
     #[inline(always)]
     pub(super) fn step_dampers(&self, state: &mut VehicleState, track: &Track) {
         let h = self.step_s;
@@ -106,7 +107,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         state.add_applied();
     }
 
-    /// Sums the forces of dampers, stops and friction elements on the bodies at the start of the tick, and their change during the tick.
+    /// Sums the forces of dampers, stops and friction elements on the bodies at the start of the tick, and their change
+    /// during the tick.
     #[inline(always)]
     fn pull(&self, state: &mut VehicleState) {
         let work = &mut state.work;

@@ -11,7 +11,6 @@ use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
 use crate::vehicle::element::{Element, Law};
 use crate::vehicle::error::VehicleError;
-use crate::vehicle::friction::vertical_stiffness;
 use crate::vehicle::linear::{Attachment, Linear};
 use crate::vehicle::standstill::AttachedEnds;
 
@@ -41,8 +40,8 @@ struct Load {
     change_n_per_m: f64,
 }
 
-/// The elements of a vehicle and their forces at standstill.
-pub(super) struct Frame<'a> {
+/// The elements of a vehicle with their forces at standstill.
+pub(super) struct Standing<'a> {
     pub linear: &'a Linear,
     pub elements: &'a [Element],
     pub attached: &'a [AttachedEnds],
@@ -52,15 +51,15 @@ pub(super) struct Frame<'a> {
 
 impl Load {
     /// The load of the element called `spring`. [`Standstill`](crate::vehicle::Standstill) checks that it carries one.
-    fn new(spring: &str, coefficient: f64, frame: &Frame<'_>) -> Option<Self> {
-        let number = frame
+    fn new(spring: &str, coefficient: f64, standing: &Standing<'_>) -> Option<Self> {
+        let number = standing
             .elements
             .iter()
             .position(|element| element.name == spring)?;
-        let stiffness = vertical_stiffness(&frame.elements[number].law)?;
-        let force = frame.forces[number].z;
+        let stiffness = standing.elements[number].law.vertical_stiffness()?;
+        let force = standing.forces[number].z;
         Some(Self {
-            across: Across::new(frame.linear, &frame.attached[number].0, 2),
+            across: Across::new(standing.linear, &standing.attached[number].0, 2),
             coefficient,
             standing_n: force.abs(),
             // The force on the second end changes by `-stiffness` times the displacement.
@@ -71,7 +70,7 @@ impl Load {
 
 impl FrictionElement {
     /// `None` if the element has another law.
-    pub fn new(element: &Element, ends: &[Attachment; 2], frame: &Frame<'_>) -> Option<Self> {
+    pub fn new(element: &Element, ends: &[Attachment; 2], standing: &Standing<'_>) -> Option<Self> {
         let Law::Friction {
             direction,
             stiffness_n_per_m,
@@ -84,10 +83,10 @@ impl FrictionElement {
         let load = load.as_ref();
         Some(Self {
             name: element.name.clone(),
-            across: Across::new(frame.linear, ends, direction.axis()),
+            across: Across::new(standing.linear, ends, direction.axis()),
             stiffness_n_per_m: *stiffness_n_per_m,
             friction_n: *friction_n,
-            load: load.and_then(|load| Load::new(&load.spring, load.coefficient, frame)),
+            load: load.and_then(|load| Load::new(&load.spring, load.coefficient, standing)),
         })
     }
 
@@ -132,7 +131,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
 pub(super) fn check_stiffness(stuck: &Linear, step_s: f64) -> Result<(), VehicleError> {
     let root: DVector<f64> = stuck.inertia.map(|inertia| 1.0 / inertia.sqrt());
     let scaled = stuck.stiffness.component_mul(&(&root * root.transpose()));
-    let fastest = SymmetricEigen::new(scaled).eigenvalues.max().max(0.0).sqrt();
+    let fastest = SymmetricEigen::new(scaled)
+        .eigenvalues
+        .max()
+        .max(0.0)
+        .sqrt();
     if fastest * step_s <= MAX_PHASE_RAD {
         return Ok(());
     }
