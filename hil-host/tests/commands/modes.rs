@@ -209,7 +209,7 @@ fn errors_name_the_problem_its_location_and_the_allowed_values() {
             &["--vehicle", "locomotiv"],
             2,
             "vehicle `locomotiv`: no such vehicle or file; give a TOML file or a vehicle: locomotive, coach, \
-             locomotive-without-yaw-dampers; did you \
+             locomotive-without-yaw-dampers, freight-wagon; did you \
              mean `locomotive`?",
         ),
         (
