@@ -42,7 +42,8 @@ pub struct ModesArguments {
     #[arg(long, conflicts_with = "speed_km_h")]
     pub hunting: bool,
     /// Linear equations in which all friction elements slide: their constant force has no part in a mode. Without it
-    /// they stick, as in motion too small to move their sliders.
+    /// they stick, as in motion too small to move their sliders. With --hunting, only the linear critical speed is
+    /// found.
     #[arg(long)]
     pub sliding: bool,
     /// Friction coefficient between wheel and rail.
@@ -83,7 +84,7 @@ struct HuntingRow {
     critical_speed_km_h: Option<f64>,
     greatest_speed_km_h: f64,
     /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is no linear
-    /// critical speed.
+    /// critical speed. `None` with `--sliding`, which concerns the linear equations only.
     nonlinear_critical_speed_km_h: Option<f64>,
     /// Maximum lateral displacement of a wheelset in the limit cycle at that speed, m.
     limit_cycle_m: Option<f64>,
@@ -162,7 +163,12 @@ pub fn run(arguments: &ModesArguments) -> Outcome<()> {
         if arguments.hunting {
             let critical = critical_speed_km_h(&linear, &contacts).map_err(refused)?;
             speed_km_h = Some(critical.unwrap_or(MAX_SEARCH_KM_H));
-            let cycle = limit_cycle(name, &vehicle, &setup, critical)?;
+            // The step lets friction stick and slide, so its speeds do not belong to those of sliding friction.
+            let cycle = if arguments.sliding {
+                None
+            } else {
+                limit_cycle(name, &vehicle, &setup, critical)?
+            };
             hunting = Some(HuntingRow {
                 critical_speed_km_h: critical,
                 greatest_speed_km_h: MAX_SEARCH_KM_H,
@@ -357,10 +363,13 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(out)?;
     writeln!(out, "undamped Hz  damped Hz  damping ratio  mode")?;
     for row in &report.modes {
+        // Rounding gives undamped modes either sign.
+        let is_undamped = row.damping_ratio.abs() < MIN_GROWTH;
+        let damping_ratio = if is_undamped { 0.0 } else { row.damping_ratio };
         writeln!(
             out,
             "{:11.3}  {:9.3}  {:13.3}  {}",
-            row.undamped_hz, row.damped_hz, row.damping_ratio, row.mode
+            row.undamped_hz, row.damped_hz, damping_ratio, row.mode
         )?;
     }
     Ok(())

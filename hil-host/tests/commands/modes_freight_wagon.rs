@@ -58,6 +58,15 @@ fn the_friction_sticks_or_slides_in_the_modes() {
     }
 }
 
+/// The undamped modes of the wagon are not unstable by rounding, and the step has no speed of sliding friction.
+#[test]
+fn sliding_friction_has_a_linear_critical_speed_only() {
+    let hunting = report(&["--hunting", "--sliding"])["hunting"].clone();
+    let critical = hunting["critical_speed_km_h"].as_f64().unwrap();
+    assert!((15.0..30.0).contains(&critical), "{critical}");
+    assert_eq!(hunting["nonlinear_critical_speed_km_h"], Value::Null);
+}
+
 #[test]
 fn the_report_says_what_the_linear_equations_do_with_friction() {
     let text = |arguments: &[&str]| {
