@@ -125,7 +125,7 @@ fn draw_panel(area: &Area<'_>, title: &str, unit: &str, curves: &[Curve]) {
             .margin(4 * FINE)
             .background_style(WHITE.mix(0.85))
             .border_style(INK.mix(0.3).stroke_width(FINE))
-            .position(SeriesLabelPosition::UpperRight)
+            .position(SeriesLabelPosition::LowerLeft)
             .draw()
             .unwrap();
     }

@@ -2,7 +2,6 @@
 
 use dashpot::document;
 use dashpot_files::case::Case;
-use dashpot_rail::vehicle::VehicleState;
 use dashpot_vehicle_run::{Run, signals};
 
 use crate::FOLDER;
@@ -11,6 +10,8 @@ use crate::FOLDER;
 pub const WHEELSETS: usize = 4;
 /// Bodies before the wheelsets: the body and two bogies.
 const BODIES: usize = 3;
+/// Position of the first wheelset in the vehicle, m.
+const FIRST_WHEELSET_M: f64 = 9.1;
 /// Ticks of 1 ms between two rows.
 const TICKS_PER_ROW: usize = 20;
 
@@ -26,6 +27,8 @@ pub struct Histories {
     pub body_lateral_mm: Vec<f64>,
     /// Vertical load of the first wheelset's right wheel, kN.
     pub load_kn: Vec<f64>,
+    /// Lateral displacement of the first wheelset from the middle of the rails under it, mm; empty for ORVD's results.
+    pub shift_mm: Vec<f64>,
 }
 
 impl Histories {
@@ -36,6 +39,7 @@ impl Histories {
             yaw_mrad: Default::default(),
             body_lateral_mm: Vec::new(),
             load_kn: Vec::new(),
+            shift_mm: Vec::new(),
         }
     }
 
@@ -69,19 +73,20 @@ impl Histories {
         let height_m = case.vehicle.bodies[0].height_m;
         let mut run = Run::new(&case).unwrap();
         let mut histories = Self::new();
-        histories.push(run.time_s(), run.state(), height_m);
+        histories.push(&run, height_m);
         while !run.is_over() {
             for _ in 0..TICKS_PER_ROW {
                 let ending = run.step().unwrap();
                 assert!(ending.is_none() || run.is_over(), "{ending:?}");
             }
-            histories.push(run.time_s(), run.state(), height_m);
+            histories.push(&run, height_m);
         }
         histories
     }
 
-    fn push(&mut self, time_s: f64, state: &VehicleState, height_m: f64) {
-        self.time_s.push(time_s);
+    fn push(&mut self, run: &Run, height_m: f64) {
+        let state = run.state();
+        self.time_s.push(run.time_s());
         for wheelset in 0..WHEELSETS {
             let [lateral_m, _, _, _, yaw_rad] = state.coordinates()[BODIES + wheelset];
             self.lateral_mm[wheelset].push(1e3 * lateral_m);
@@ -93,5 +98,9 @@ impl Histories {
             .push(1e3 * (lateral_m - height_m * roll_rad));
         self.load_kn
             .push(1e-3 * signals::load_n(&state.contacts()[0], 1));
+        let [rails, _] =
+            (run.track().irregularity()).channels(state.distance_m() + FIRST_WHEELSET_M);
+        let shift_m = state.coordinates()[BODIES][0] - rails.lateral;
+        self.shift_mm.push(1e3 * shift_m);
     }
 }

@@ -102,7 +102,7 @@ def main():
     write_data_root(work / "root")
     startup = json.loads((orvd / "vehicle_library/gz18/startup_states/moving_startup_60kmh.json").read_text())
     startup["common_wheel_spin_generation"]["effective_rolling_radius_meters"] = ROLLING_RADIUS_M
-    # Height of the rails at which the wheels carry the vehicle at the start: the load to the power 2/3 is almost linear.
+    # Height of the rails at which the wheels carry the vehicle at the start: load to the power 2/3 is almost linear.
     offsets_m, linear = [0.0], []
     for attempt in range(20):
         startup["rail_profile_reference_vertical_offset_meters"] = offsets_m[-1]
@@ -119,7 +119,8 @@ def main():
     for speed_km_h in [int(speed) for speed in sys.argv[4:]] or [60, 120]:
         startup["initial_longitudinal_speed_meters_per_second"] = speed_km_h / 3.6
         rows, [advance_s, whole_s, used_s] = run(orvd, program, work, startup, f"straight-{speed_km_h}", 20)
-        print(f"{speed_km_h} km/h: integration {advance_s:.1f} s, whole process {whole_s:.1f} s, processor {used_s:.1f} s")
+        print(f"{speed_km_h} km/h: integration {advance_s:.1f} s, whole process {whole_s:.1f} s, "
+              f"processor {used_s:.1f} s")
         with open(HERE / f"gz18-straight-{speed_km_h}.csv", "w") as file:
             file.write("time_s" + "".join(f",lateral_{i}_mm,yaw_{i}_mrad" for i in range(1, 5))
                        + ",body_lateral_mm,right_load_1_kn\n")
