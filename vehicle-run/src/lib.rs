@@ -22,8 +22,10 @@ pub mod recorded;
 mod run;
 pub mod signals;
 pub mod spectra;
+mod start;
 mod tick;
 pub mod validity;
+mod warning;
 pub mod wear;
 
 pub use accelerometer::Accelerometer;
@@ -41,5 +43,6 @@ pub use outside::{OutsideError, outside_index};
 pub use outside_loss::{LostDamper, OutsideLoss};
 pub use run::Run;
 pub use tick::{TickRecord, VehicleTick};
-pub use validity::{ValidityWatch, Warning};
+pub use validity::ValidityWatch;
+pub use warning::Warning;
 pub use wear::{RunWear, WearIndices, WheelWear};

@@ -95,7 +95,7 @@ pub fn record(
         return Err(VehicleRunError::Memory { ticks, signals });
     }
     let mut indexer = Indexer::new(case);
-    let mut watch = ValidityWatch::new(case);
+    let mut watch = ValidityWatch::new(case, run.track());
     let ending = loop {
         let ended = run.step()?;
         if ended == Some(Ending::Completed) {

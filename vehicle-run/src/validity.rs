@@ -1,12 +1,10 @@
 //! Validity limits of the model: wheel loads far above those at standstill, and wheels that lift off the rail.
 
-use std::fmt;
-
+use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::Standstill;
-use serde::Serialize;
 
-use super::VehicleTick;
 use super::signals::SIDES;
+use super::{VehicleTick, Warning, start};
 use dashpot_files::case::Case;
 use dashpot_files::nearest_nanosecond;
 
@@ -21,86 +19,6 @@ pub const END_LOAD_RATIO: f64 = 50.0;
 /// Duration of wheel lift above which a warning is given, s.
 pub const WARN_LIFT_S: f64 = 0.05;
 
-/// Result outside the validity of the model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case", tag = "kind")]
-pub enum Warning {
-    /// A wheel carried more than [`WARN_LOAD_RATIO`] times its load at standstill.
-    WheelLoad {
-        /// Name of the wheelset.
-        wheelset: String,
-        /// Side of the wheel, `left` or `right`.
-        side: &'static str,
-        /// Maximum load, N.
-        load_n: f64,
-        /// Load of this wheel at standstill, N.
-        load_static_n: f64,
-        /// Time of the maximum load, s.
-        time_s: f64,
-        /// Position of the wheelset along the track at that time, m.
-        distance_m: f64,
-        /// Number of ticks with a load above the limit.
-        ticks: u64,
-    },
-    /// A wheel carried no load for longer than [`WARN_LIFT_S`].
-    WheelLift {
-        /// Name of the wheelset.
-        wheelset: String,
-        /// Side of the wheel, `left` or `right`.
-        side: &'static str,
-        /// Longest duration without load, s.
-        duration_s: f64,
-        /// Start of the longest lift, s.
-        time_s: f64,
-        /// Position of the wheelset along the track at that time, m.
-        distance_m: f64,
-        /// Number of lifts longer than the limit.
-        times: u64,
-    },
-}
-
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::WheelLoad {
-                wheelset,
-                side,
-                load_n,
-                load_static_n,
-                time_s,
-                distance_m,
-                ticks,
-            } => write!(
-                f,
-                "{wheelset}, {side} wheel: the load reached {:.0} kN, {:.1} times the static load, at {time_s:.3} s, \
-                 {distance_m:.1} m along the track; it exceeded {WARN_LOAD_RATIO:.0} times the static load in {}, \
-                 which is outside the validity of the contact model",
-                1e-3 * load_n,
-                load_n / load_static_n,
-                counted(*ticks, "tick")
-            ),
-            Self::WheelLift {
-                wheelset,
-                side,
-                duration_s,
-                time_s,
-                distance_m,
-                times,
-            } => write!(
-                f,
-                "{wheelset}, {side} wheel: no load for {duration_s:.3} s from {time_s:.3} s on, {distance_m:.1} m \
-                 along the track; in all {} of more than {WARN_LIFT_S} s, so the vehicle was near derailment",
-                counted(*times, "lift")
-            ),
-        }
-    }
-}
-
-fn counted(count: u64, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
-}
-
 /// Monitors every wheel tick by tick, without allocating in a tick.
 #[derive(Debug, Clone)]
 pub struct ValidityWatch {
@@ -108,6 +26,7 @@ pub struct ValidityWatch {
     ticks: u64,
     /// Minimum number of ticks that is longer than [`WARN_LIFT_S`].
     long_ticks: u64,
+    start: Option<Warning>,
     wheels: Vec<Wheel>,
 }
 
@@ -143,8 +62,8 @@ struct Moment {
 }
 
 impl ValidityWatch {
-    /// Starts monitoring the vehicle of a case.
-    pub fn new(case: &Case) -> Self {
+    /// Starts monitoring the vehicle of a case on its track.
+    pub fn new(case: &Case, track: &Track) -> Self {
         let standstill = Standstill::new(&case.vehicle).ok();
         let axle_load_n = |index: usize| {
             let standstill = standstill.as_ref()?;
@@ -170,6 +89,7 @@ impl ValidityWatch {
             ticks: 0,
             // One tick more than WARN_LIFT_S contains; the factor guards against rounding below a whole number.
             long_ticks: (WARN_LIFT_S / case.step_s * (1.0 + 1e-9)) as u64 + 1,
+            start: start::warning(case, track),
             wheels: wheels.collect(),
         }
     }
@@ -202,13 +122,18 @@ impl ValidityWatch {
         self.wheels.iter().filter_map(ratio).reduce(f64::max)
     }
 
-    /// Returns the warnings in the order of the wheels, loads before lifts.
+    /// Returns the warnings: that of the start, then in the order of the wheels, loads before lifts.
     pub fn warnings(&self) -> Vec<Warning> {
         let wheels = || self.wheels.iter();
         let loads = wheels().filter_map(|wheel| self.load_warning(wheel));
         let lifts = wheels().filter(|wheel| wheel.long_lifts > 0);
         let lifts = lifts.map(|wheel| self.lift_warning(wheel));
-        loads.chain(lifts).collect()
+        self.start
+            .iter()
+            .cloned()
+            .chain(loads)
+            .chain(lifts)
+            .collect()
     }
 
     /// Time at the end of a tick, s.

@@ -51,6 +51,10 @@ const SHIPPED: Shipped = Shipped {
     texts: &CASES,
 };
 
+/// Default distance of the vehicle's middle along the track at the start, m: vehicles of up to 30 m stand in front of
+/// everything that begins at 0.
+pub const START_M: f64 = -15.0;
+
 /// Default normal damping, s/m: the middle of the range for steel, 0.12 to 0.48 s/m (Hunt and Crossley, Journal of
 /// Applied Mechanics 42, 1975, 440-445, `3/2` times their 0.08 to 0.32 s/m). The rails damp impacts more than the
 /// contact.
@@ -184,7 +188,7 @@ pub struct CaseOptions {
 }
 
 impl CaseOptions {
-    /// A vehicle on a track at a speed (km/h) with defaults: 10 s from distance 0, friction 0.4, flexible rails
+    /// A vehicle on a track at a speed (km/h) with defaults: 10 s from [`START_M`], friction 0.4, flexible rails
     /// ([`RailSupport::BALLASTED`]), [`NORMAL_DAMPING_S_PER_M`], time step 1 ms.
     pub fn new(vehicle: &str, track: &str, speed_km_h: f64) -> Self {
         Self {
@@ -195,7 +199,7 @@ impl CaseOptions {
             overrides: Vec::new(),
             speed_km_h,
             duration_s: 10.0,
-            start_m: 0.0,
+            start_m: START_M,
             friction: 0.4,
             contact: ContactOptions::default(),
             normal_damping_s_per_m: NORMAL_DAMPING_S_PER_M,

@@ -31,7 +31,7 @@ pub fn observe(
     let needs_wear = observed.iter().any(Observed::needs_wear);
     let mut wear = needs_wear.then(|| RunWear::new(case, &run, WearLaw::default()));
     let mut indexer = Indexer::new(case);
-    let mut watch = ValidityWatch::new(case);
+    let mut watch = ValidityWatch::new(case, run.track());
     let last = run.ticks().saturating_sub((LAST_S / case.step_s) as u64);
     let bodies = run.vehicle().names().len() - run.vehicle().wheelsets();
     let mut last_lateral_m = 0.0_f64;

@@ -298,7 +298,7 @@ fn follow(
     let names: Vec<String> = names.chain(filtered.names().iter().cloned()).collect();
     let mut history = History::new(names.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
-    let mut watch = ValidityWatch::new(case);
+    let mut watch = ValidityWatch::new(case, run.track());
     let (exchange, mut beside) = outside.map(Outside::parts).unzip();
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
