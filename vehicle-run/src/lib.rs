@@ -33,7 +33,7 @@ pub use confirmation::confirmed;
 pub use coupled::{Coupled, CoupledCase, CoupledVariable};
 pub use ending::{Ending, Place};
 pub use error::VehicleRunError;
-pub use filtered::FilteredForces;
+pub use filtered::filtered_names;
 pub use indices::{
     BodyIndices, FILTER_HZ, Indexer, Indices, Judged, Nadal, NadalWheel, RideError, RideIndices,
     UnbalancedIndices, WINDOW_M, WheelIndices, WheelsetIndices, check_ride,

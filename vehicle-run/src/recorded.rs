@@ -4,8 +4,8 @@ use dashpot_rail::vehicle::VehicleParameters;
 
 use super::signals::{self, Signal};
 use super::{
-    Ending, FilteredForces, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning,
-    confirmed,
+    Ending, Indexer, Indices, Run, ValidityWatch, VehicleRunError, Warning, confirmed,
+    filtered_names,
 };
 use dashpot_files::case::Case;
 use dashpot_files::did_you_mean;
@@ -82,8 +82,8 @@ pub fn record(
     names: Option<&[String]>,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Recorded, VehicleRunError> {
-    let mut filtered = FilteredForces::new(case);
-    let chosen = chosen(all_signals(&run, &case.vehicle), filtered.names(), names)?;
+    let signals = all_signals(&run, &case.vehicle);
+    let chosen = chosen(signals, &filtered_names(&case.vehicle), names)?;
     let ticks = run.ticks();
     let mut columns: Vec<Vec<f64>> = chosen.iter().map(|_| Vec::new()).collect();
     let count = usize::try_from(ticks).unwrap_or(usize::MAX);
@@ -94,6 +94,7 @@ pub fn record(
         let signals = chosen.len();
         return Err(VehicleRunError::Memory { ticks, signals });
     }
+    let mut filtered = Vec::new();
     let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case, run.track());
     let ending = loop {
@@ -102,14 +103,15 @@ pub fn record(
             break Ending::Completed;
         }
         let time_s = nearest_nanosecond(run.time_s());
-        let filtered = filtered.next(run.state());
+        indexer.add(run.state());
+        filtered.clear();
+        filtered.extend(indexer.filtered());
         for (column, (_, source)) in columns.iter_mut().zip(&chosen) {
             column.push(match source {
                 Source::Signal(signal) => signal.value(run.state(), time_s),
                 Source::Filtered(number) => filtered[*number],
             });
         }
-        indexer.add(run.state());
         watch.add(run.state());
         if let Some(ended) = ended {
             break ended;

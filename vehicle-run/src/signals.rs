@@ -21,6 +21,7 @@ enum Source {
     DamperDisplacement(usize),
     DamperVelocity(usize),
     DamperForce(usize),
+    FrictionForce(usize),
 }
 
 /// One recorded signal.
@@ -63,7 +64,8 @@ pub fn slug(name: &str) -> String {
 /// - wheel loads `Q`, positive down on the rail;
 /// - lateral forces `Y` of the rail on the wheel, positive towards the middle of the track;
 /// - `Y/Q`;
-/// - displacements and forces of dampers.
+/// - displacements, velocities and forces of dampers;
+/// - forces of friction elements.
 pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> {
     let mut signals = Vec::new();
     let mut add = |name: String, source: Source| signals.push(Signal { name, source });
@@ -120,6 +122,12 @@ pub fn all<L: CreepLaw, S: PatchSource>(vehicle: &Vehicle<L, S>) -> Vec<Signal> 
             Source::DamperVelocity(damper),
         );
         add(format!("{name}_force_n"), Source::DamperForce(damper));
+    }
+    for (element, name) in vehicle.friction_names().enumerate() {
+        add(
+            format!("{}_force_n", slug(name)),
+            Source::FrictionForce(element),
+        );
     }
     signals
 }
@@ -179,6 +187,7 @@ impl Signal {
             }
             Source::DamperVelocity(damper) => state.damper_velocities_m_per_s()[*damper],
             Source::DamperForce(damper) => state.damper_forces_n()[*damper],
+            Source::FrictionForce(element) => state.friction_forces_n()[*element],
         }
     }
 }

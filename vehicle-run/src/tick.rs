@@ -27,6 +27,8 @@ pub trait VehicleTick {
     fn damper_velocities_m_per_s(&self) -> &[f64];
     /// Force of each damper, N; see [`VehicleState::damper_forces_n`].
     fn damper_forces_n(&self) -> &[f64];
+    /// Force of each friction element, N; see [`VehicleState::friction_forces_n`].
+    fn friction_forces_n(&self) -> &[f64];
 }
 
 impl VehicleTick for VehicleState {
@@ -63,6 +65,9 @@ impl VehicleTick for VehicleState {
     fn damper_forces_n(&self) -> &[f64] {
         self.damper_forces_n()
     }
+    fn friction_forces_n(&self) -> &[f64] {
+        self.friction_forces_n()
+    }
 }
 
 /// Copy of the reported values of one tick, about 10 kB for a locomotive.
@@ -81,6 +86,7 @@ pub struct TickRecord {
     damper_displacements_m: Vec<f64>,
     damper_velocities_m_per_s: Vec<f64>,
     damper_forces_n: Vec<f64>,
+    friction_forces_n: Vec<f64>,
 }
 
 impl TickRecord {
@@ -100,7 +106,14 @@ impl TickRecord {
             damper_displacements_m: state.damper_displacements_m().to_vec(),
             damper_velocities_m_per_s: state.damper_velocities_m_per_s().to_vec(),
             damper_forces_n: state.damper_forces_n().to_vec(),
+            friction_forces_n: state.friction_forces_n().to_vec(),
         }
+    }
+
+    /// Replaces the extremes, by those of several short ticks that together are this one.
+    pub fn with_extremes(mut self, extremes: Vec<Extremes>) -> Self {
+        self.extremes = extremes;
+        self
     }
 
     /// Overwrites the record with a later state of the same run, without allocating.
@@ -125,6 +138,8 @@ impl TickRecord {
             .copy_from_slice(state.damper_velocities_m_per_s());
         self.damper_forces_n
             .copy_from_slice(state.damper_forces_n());
+        self.friction_forces_n
+            .copy_from_slice(state.friction_forces_n());
     }
 }
 
@@ -161,5 +176,8 @@ impl VehicleTick for TickRecord {
     }
     fn damper_forces_n(&self) -> &[f64] {
         &self.damper_forces_n
+    }
+    fn friction_forces_n(&self) -> &[f64] {
+        &self.friction_forces_n
     }
 }

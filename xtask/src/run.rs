@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 /// Result of a command; the error is a message for the developer.
 pub type Outcome<T = ()> = Result<T, String>;
@@ -28,12 +29,14 @@ fn show(arguments: &[&str], variables: &[(&str, &str)], output: Stdio) -> Outcom
     run(command, &format!("cargo {}", arguments.join(" ")))
 }
 
-/// Runs a program and shows its output. Messages call it `line`.
+/// Runs a program, shows its output and how long it took. Messages call it `line`.
 pub fn run(mut command: Command, line: &str) -> Outcome {
     eprintln!("> {line}");
+    let start = Instant::now();
     let status = command
         .status()
         .map_err(|error| format!("cannot run `{line}`: {error}"))?;
+    eprintln!("> {line}: {:.0} s", start.elapsed().as_secs_f64());
     if status.success() {
         Ok(())
     } else {

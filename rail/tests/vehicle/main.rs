@@ -4,6 +4,7 @@ mod between_bodies;
 mod closed_forms;
 mod contacts;
 mod curves;
+mod dipped_joint;
 mod errors;
 mod flange;
 mod friction;

@@ -257,20 +257,21 @@ impl<C: Clock> Pacer<C> {
 
     /// True if the work of a tick that ends at `ended_ns` took longer than the limit.
     fn is_too_slow(&self, timing: TickTiming, ended_ns: u64) -> bool {
-        let work_ns = timing.work_ns(ended_ns);
-        self.stop_above_ns
-            .is_some_and(|limit_ns| work_ns > limit_ns)
+        self.stop(timing, ended_ns).is_some()
+    }
+
+    /// The stop of a run whose tick ends at `ended_ns`, if its work took longer than the limit.
+    fn stop(&self, timing: TickTiming, ended_ns: u64) -> Option<Stop> {
+        let work_ns = timing.work_ns(ended_ns) as f64;
+        Stop::if_above(timing.tick, self.step_s(), work_ns, self.stop_above_ns)
     }
 
     fn record(&mut self, timing: TickTiming, ended_ns: u64) -> FinishedTick {
         let response_ns = ended_ns.saturating_sub(timing.due_ns);
         let work_ns = timing.work_ns(ended_ns);
-        let step_s = self.step_s();
+        let stop = self.stop(timing, ended_ns);
         let report = &mut self.report;
-        if report.stopped.is_none() {
-            report.stopped =
-                Stop::if_above(timing.tick, step_s, work_ns as f64, self.stop_above_ns);
-        }
+        report.stopped = report.stopped.or(stop);
         if report.first_work_ns.len() < FIRST_TICKS {
             report.first_work_ns.push(work_ns);
         }

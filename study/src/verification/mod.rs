@@ -19,9 +19,9 @@ use dashpot_rail::vehicle::Extremes;
 use dashpot_reference::vehicle::{VehicleReference, VehicleSample};
 use dashpot_vehicle_run::VehicleRunError;
 use dashpot_vehicle_run::contact::ContactSetup;
-use dashpot_vehicle_run::{Ending, Run};
+use dashpot_vehicle_run::{Ending, Run, TickRecord};
 
-use tick::{LongTick, ReferenceTick};
+use tick::ReferenceTick;
 
 /// Relative tolerance of the reference solution. A tenth of it changes the wheel loads of a locomotive by 1 N.
 pub const TOLERANCE: f64 = 1e-7;
@@ -58,11 +58,8 @@ pub fn stepped(case: &Case, every: u64) -> Result<(Trace, Ending), VehicleRunErr
             trace.times_s.push(run.time_s());
             let track = (0..bodies).map(|body| state.track_acceleration(body));
             trace.track_accelerations.push(track.collect());
-            trace.add(&LongTick {
-                state,
-                extremes: &extremes,
-            });
-            extremes.clear();
+            let tick = TickRecord::new(run.time_s(), state);
+            trace.add(&tick.with_extremes(std::mem::take(&mut extremes)));
         }
     }
 }

@@ -1,7 +1,7 @@
-//! Ticks in the form in which indices read a vehicle: of the reference solution, and of a run with shorter ticks.
+//! Ticks of the reference solution, in the form in which indices read a vehicle.
 
 use dashpot_rail::contact::WheelsetForces;
-use dashpot_rail::vehicle::{Extremes, VehicleState};
+use dashpot_rail::vehicle::Extremes;
 use dashpot_reference::vehicle::VehicleSample;
 use dashpot_vehicle_run::VehicleTick;
 
@@ -78,47 +78,7 @@ impl VehicleTick for ReferenceTick {
     fn damper_forces_n(&self) -> &[f64] {
         &self.sample.damper_forces_n
     }
-}
-
-/// Vehicle after several short ticks that together are one tick of the case.
-pub(super) struct LongTick<'a> {
-    pub state: &'a VehicleState,
-    /// Extremes over the short ticks.
-    pub extremes: &'a [Extremes],
-}
-
-impl VehicleTick for LongTick<'_> {
-    fn distance_m(&self) -> f64 {
-        self.state.distance_m()
-    }
-    fn speed_m_per_s(&self) -> f64 {
-        self.state.speed_m_per_s()
-    }
-    fn friction_factor(&self) -> f64 {
-        self.state.friction_factor()
-    }
-    fn coordinates(&self) -> &[[f64; 5]] {
-        self.state.coordinates()
-    }
-    fn acceleration(&self, body: usize) -> [f64; 5] {
-        self.state.acceleration(body)
-    }
-    fn unbalanced_m_per_s2(&self) -> f64 {
-        self.state.unbalanced_m_per_s2()
-    }
-    fn contacts(&self) -> &[WheelsetForces] {
-        self.state.contacts()
-    }
-    fn extremes(&self) -> &[Extremes] {
-        self.extremes
-    }
-    fn damper_displacements_m(&self) -> &[f64] {
-        self.state.damper_displacements_m()
-    }
-    fn damper_velocities_m_per_s(&self) -> &[f64] {
-        self.state.damper_velocities_m_per_s()
-    }
-    fn damper_forces_n(&self) -> &[f64] {
-        self.state.damper_forces_n()
+    fn friction_forces_n(&self) -> &[f64] {
+        &self.sample.friction_forces_n
     }
 }

@@ -17,7 +17,7 @@ use ride::Ride;
 pub use ride::{RideError, RideIndices, check_ride};
 use serde::Serialize;
 use sums::Statistics;
-pub(crate) use sums::{Travelled, Windowed};
+pub(crate) use sums::Travelled;
 pub use wheel::WheelIndices;
 pub use wheelset::WheelsetIndices;
 use wheelset::WheelsetSums;
@@ -68,13 +68,13 @@ pub struct Indexer {
     unbalanced: Statistics,
     /// `None` if the ride indices are not defined for this step size.
     ride: Option<Ride>,
-    wheelsets: Vec<WheelsetSums>,
+    pub(super) wheelsets: Vec<WheelsetSums>,
     dampers: Vec<f64>,
 }
 
 /// Length of the ticks of a run.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ticks {
+struct Ticks {
     step_s: f64,
     /// Speed in the current tick, m/s.
     speed_m_per_s: f64,

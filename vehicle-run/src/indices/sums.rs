@@ -22,7 +22,7 @@ pub(crate) struct Windowed {
 
 /// Smallest and largest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Range {
+pub(super) struct Range {
     pub min: f64,
     pub max: f64,
 }

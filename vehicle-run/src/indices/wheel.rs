@@ -50,10 +50,13 @@ pub struct WheelIndices {
 pub(super) struct WheelSums {
     derailment: Statistics,
     derailment_filter: LowPass,
-    filtered_derailment: Windowed,
+    /// Averaged over 2 m.
+    pub filtered_derailment: Windowed,
     load_n: Range,
     load_filter: LowPass,
-    filtered_load_n: Range,
+    /// Filtered load of the last tick, N.
+    pub filtered_load_n: f64,
+    filtered_loads_n: Range,
     mean_load: Windowed,
     ticks: u64,
     lifted: u64,
@@ -81,7 +84,8 @@ impl WheelSums {
             filtered_derailment: Windowed::new(ticks.longest_window()),
             load_n: Range::NONE,
             load_filter: filter,
-            filtered_load_n: Range::NONE,
+            filtered_load_n: 0.0,
+            filtered_loads_n: Range::NONE,
             mean_load: Windowed::new(ticks.longest_window()),
             ticks: 0,
             lifted: 0,
@@ -103,7 +107,8 @@ impl WheelSums {
             .add(self.derailment_filter.next(derailment), window);
         self.load_n.add(loads_n.min);
         self.load_n.add(loads_n.max);
-        self.filtered_load_n.add(self.load_filter.next(load_n));
+        self.filtered_load_n = self.load_filter.next(load_n);
+        self.filtered_loads_n.add(self.filtered_load_n);
         self.mean_load.add(load_n, window);
         self.lifted += u64::from(load_n <= 0.0);
         self.over_nadal.add(derailment > self.nadal, ticks.tick_m());
@@ -127,11 +132,11 @@ impl WheelSums {
             longest_over_nadal_m: self.over_nadal.metres(),
             load_least_n: self.load_n.min,
             load_greatest_n: self.load_n.max,
-            filtered_load_least_n: self.filtered_load_n.min,
-            filtered_load_greatest_n: self.filtered_load_n.max,
+            filtered_load_least_n: self.filtered_loads_n.min,
+            filtered_load_greatest_n: self.filtered_loads_n.max,
             load_static_n: static_n,
             load_limit_n: limit_n,
-            load_over_limit: limit_n.map(|limit_n| self.filtered_load_n.max / limit_n),
+            load_over_limit: limit_n.map(|limit_n| self.filtered_loads_n.max / limit_n),
             unloading_greatest: unloading(self.load_n.min),
             unloading_of_mean_greatest: min_mean_load_n.and_then(unloading),
             lifted_share: self.lifted as f64 / self.ticks as f64,

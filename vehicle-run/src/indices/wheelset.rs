@@ -40,10 +40,11 @@ pub(super) struct WheelsetSums {
     axle_load_n: Option<f64>,
     lateral: Statistics,
     lateral_filter: LowPass,
-    filtered_lateral: Windowed,
+    /// Averaged over 2 m.
+    pub filtered_lateral: Windowed,
     wear: Statistics,
     greatest_wear_n: f64,
-    wheels: [WheelSums; 2],
+    pub wheels: [WheelSums; 2],
 }
 
 impl WheelsetSums {

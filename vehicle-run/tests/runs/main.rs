@@ -1,7 +1,8 @@
-//! Runs of vehicles: coupling with external dampers, and indices.
+//! Runs of vehicles: starts, events, coupling with external dampers, and indices.
 
 mod contacts;
 mod coupled;
 mod events;
+mod start;
 mod vehicle_indices;
 mod wear;

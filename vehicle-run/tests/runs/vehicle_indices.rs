@@ -79,6 +79,9 @@ impl VehicleTick for Made {
     fn damper_forces_n(&self) -> &[f64] {
         &[]
     }
+    fn friction_forces_n(&self) -> &[f64] {
+        &[]
+    }
 }
 
 fn indices(case: &Case, ticks: impl Iterator<Item = Tick>) -> Indices {

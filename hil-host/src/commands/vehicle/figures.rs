@@ -138,6 +138,23 @@ pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
     )
 }
 
+/// Force of friction elements over time, two elements per panel.
+pub(super) fn friction(history: &History, elements: &[&str]) -> Figure {
+    let panels = elements.chunks(2).map(|pair| {
+        let curves = pair.iter().zip([BLUE_LINE, RED_LINE]);
+        let curves = curves.map(|(name, colour)| {
+            let signal = format!("{}_force_n", slug(name));
+            over_time(history, &signal, 1e-3, name, colour)
+        });
+        panel("time, s", "force, kN", curves.collect())
+    });
+    Figure {
+        panels: panels.collect(),
+        height: HEIGHT,
+        cursor_group: Some(TIME),
+    }
+}
+
 /// Force of an external damper, of the same damper simulated internally, and their difference.
 pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
     let over_time = |values: &mut dyn Iterator<Item = f64>, name: &str, colour| {

@@ -37,8 +37,8 @@ use dashpot_recording::columns;
 use dashpot_vehicle_run::damping::DampingInfluence;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
-    Ending, FilteredForces, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch,
-    check_ride, confirmed,
+    Ending, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch, check_ride, confirmed,
+    filtered_names,
 };
 
 /// Simulate a vehicle on a track: time histories, indices and a page.
@@ -293,9 +293,8 @@ fn follow(
     wear: &mut RunWear,
 ) -> Outcome<(History, Report)> {
     let all = all_signals(run, &case.vehicle);
-    let mut filtered = FilteredForces::new(case);
     let names = all.iter().map(|signal| signal.name().to_owned());
-    let names: Vec<String> = names.chain(filtered.names().iter().cloned()).collect();
+    let names: Vec<String> = names.chain(filtered_names(&case.vehicle)).collect();
     let mut history = History::new(names.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case, run.track());
@@ -325,10 +324,10 @@ fn follow(
                     let time_s = super::nearest_nanosecond(record.time_s);
                     row.clear();
                     row.extend(all.iter().map(|signal| signal.value(record, time_s)));
-                    row.extend_from_slice(filtered.next(record));
+                    indexer.add(record);
+                    row.extend(indexer.filtered());
                     written = rows.serialize(&row);
                     history.add(&row);
-                    indexer.add(record);
                     watch.add(record);
                     wear.add(record);
                     if let Some(beside) = beside.as_deref_mut().and_then(Option::as_mut) {

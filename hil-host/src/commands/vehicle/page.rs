@@ -32,6 +32,7 @@ pub(super) fn write(
     let names = vehicle.names();
     let (bodies, wheelsets) = names.split_at(names.len() - vehicle.wheelsets());
     let dampers: Vec<&str> = vehicle.damper_names().collect();
+    let frictions: Vec<&str> = vehicle.friction_names().collect();
     let body = html! {
         h1 { (case.name) }
         p.lead {
@@ -103,6 +104,14 @@ pub(super) fn write(
                 })?)
                 (figure(&figures::characteristics(history, some), &html! {
                     "Force over the mean velocity of each tick."
+                })?)
+            }
+        }
+        @if !frictions.is_empty() {
+            h2 { "Dry friction" }
+            @for some in frictions.chunks(LOOPS) {
+                (figure(&figures::friction(history, some), &html! {
+                    "Between the two levels of its limit an element sticks, and on them it slides."
                 })?)
             }
         }
