@@ -51,11 +51,15 @@ fn draw_column(area: &Area<'_>, speed: &str, [orvd, dashpot]: &[Histories; 2]) {
         })
         .collect();
     let areas = area.split_by_breakpoints([] as [i32; 0], &breaks[..3]);
-    let quantities: [(&str, &str, fn(&Histories) -> &[f64]); 2] = [
-        ("lateral displacement", "mm", |run| &run.lateral_mm[0]),
-        ("yaw", "mrad", |run| &run.yaw_mrad[0]),
+    let quantities = [
+        (
+            "lateral displacement",
+            "mm",
+            [orvd, dashpot].map(|run| &run.lateral_mm[0]),
+        ),
+        ("yaw", "mrad", [orvd, dashpot].map(|run| &run.yaw_mrad[0])),
     ];
-    for ((name, unit, history), areas) in quantities.into_iter().zip(areas.chunks(2)) {
+    for ((name, unit, [a, b]), areas) in quantities.into_iter().zip(areas.chunks(2)) {
         let points = |values: &mut dyn Iterator<Item = f64>| -> Vec<(f64, f64)> {
             let times = orvd.time_s.iter().copied();
             times
@@ -63,7 +67,6 @@ fn draw_column(area: &Area<'_>, speed: &str, [orvd, dashpot]: &[Histories; 2]) {
                 .filter(|(time_s, _)| SHOWN_S.contains(time_s))
                 .collect()
         };
-        let (a, b) = (history(orvd), history(dashpot));
         let both = [
             ("ORVD", ORVD, 4, points(&mut a.iter().copied())),
             ("Dashpot", DASHPOT, 1, points(&mut b.iter().copied())),

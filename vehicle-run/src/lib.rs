@@ -10,7 +10,6 @@ mod coupled;
 pub mod damping;
 mod ending;
 mod error;
-mod filtered;
 pub mod hunting;
 mod indices;
 mod influences;
@@ -33,10 +32,9 @@ pub use confirmation::confirmed;
 pub use coupled::{Coupled, CoupledCase, CoupledVariable};
 pub use ending::{Ending, Place};
 pub use error::VehicleRunError;
-pub use filtered::filtered_names;
 pub use indices::{
     BodyIndices, FILTER_HZ, Indexer, Indices, Judged, Nadal, NadalWheel, RideError, RideIndices,
-    UnbalancedIndices, WINDOW_M, WheelIndices, WheelsetIndices, check_ride,
+    UnbalancedIndices, WINDOW_M, WheelIndices, WheelsetIndices, check_ride, filtered_names,
 };
 pub use input::Input;
 pub use outside::{OutsideError, outside_index};

@@ -1,6 +1,7 @@
 //! Indices of a run: accelerations, ride, safety against derailment, wear, damper forces.
 
 mod body;
+mod filtered;
 mod limits;
 mod nadal;
 mod ride;
@@ -11,6 +12,7 @@ mod wheelset;
 pub use body::{BodyIndices, UnbalancedIndices};
 use body::{BodySums, unbalanced};
 use dashpot_rail::vehicle::Standstill;
+pub use filtered::filtered_names;
 pub use limits::Judged;
 pub use nadal::{Nadal, NadalWheel};
 use ride::Ride;
@@ -68,7 +70,7 @@ pub struct Indexer {
     unbalanced: Statistics,
     /// `None` if the ride indices are not defined for this step size.
     ride: Option<Ride>,
-    pub(super) wheelsets: Vec<WheelsetSums>,
+    wheelsets: Vec<WheelsetSums>,
     dampers: Vec<f64>,
 }
 

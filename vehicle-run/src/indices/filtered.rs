@@ -3,7 +3,7 @@
 use dashpot_rail::vehicle::VehicleParameters;
 
 use super::Indexer;
-use super::signals::{SIDES, slug};
+use crate::signals::{SIDES, slug};
 
 /// Names of the filtered forces of a vehicle: of each wheelset the lateral force on the track, and of each of its
 /// wheels `Y/Q` and the load. Each ends in the unit.
