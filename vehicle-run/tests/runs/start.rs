@@ -6,7 +6,7 @@ use dashpot_vehicle_run::{Run, Warning, recorded};
 /// Warnings of a coach on a track, with the start that the case states or with the default.
 fn warnings(track: &str, start: &str) -> Vec<Warning> {
     let text = format!(
-        "vehicle = \"coach\"\ntrack = \"{track}\"\nspeed_km_h = 100\nduration_s = 0.01\n{start}"
+        "name = \"start\"\nvehicle = \"coach\"\ntrack = \"{track}\"\nspeed_km_h = 100\nduration_s = 0.01\n{start}"
     );
     let case: Case = CaseOptions::parse("case.toml", &text)
         .unwrap()
@@ -34,7 +34,11 @@ fn by_default_a_vehicle_starts_on_ideal_track() {
 #[test]
 fn a_start_on_irregular_rails_is_a_warning() {
     let found = warnings("straight", "start_m = 100");
-    let [warning @ Warning::StartOnIrregularity { distance_m, .. }] = &found[..] else {
+    let [
+        warning @ Warning::StartOnIrregularity { distance_m, .. },
+        ..,
+    ] = &found[..]
+    else {
         panic!("{found:?}");
     };
     assert!((distance_m - 110.78).abs() < 1e-9, "{distance_m}");
@@ -53,6 +57,7 @@ fn a_start_in_a_curve_is_a_warning() {
         warning @ Warning::StartInCurve {
             curvature_per_m, ..
         },
+        ..,
     ] = &found[..]
     else {
         panic!("{found:?}");
