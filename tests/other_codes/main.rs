@@ -1,7 +1,8 @@
 //! Compares runs of vehicles with runs of other codes, in docs/other-codes.md.
 //!
 //! `DASHPOT_BLESS=1 cargo test -p dashpot --test other_codes` writes the table, the figure, and the inputs for the
-//! other code. After a change of the inputs, the other code has to run again: `data/published/orvd/README.md` states how.
+//! other code. After a change of the inputs, the other code has to run again: `data/published/orvd/README.md` states
+//! how.
 
 mod comparison;
 mod figure;

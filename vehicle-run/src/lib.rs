@@ -24,7 +24,7 @@ pub mod spectra;
 mod start;
 mod tick;
 pub mod validity;
-mod warning;
+pub mod warning;
 pub mod wear;
 
 pub use accelerometer::Accelerometer;

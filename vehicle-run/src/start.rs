@@ -3,14 +3,8 @@
 use dashpot_files::case::Case;
 use dashpot_rail::track::Track;
 
-use super::Warning;
 use super::signals::SIDES;
-
-/// Deviation of a rail at the start above which a warning is given, m. The default rails answer it with 6 kN.
-pub const WARN_START_DEVIATION_M: f64 = 1e-4;
-
-/// Velocity of this deviation above which a warning is given, m/s.
-pub const WARN_START_RATE_M_PER_S: f64 = 0.02;
+use super::warning::{WARN_START_DEVIATION_M, WARN_START_RATE_M_PER_S, Warning};
 
 /// Returns a warning for the first wheelset that starts in a curve or on irregular rails.
 pub(super) fn warning(case: &Case, track: &Track) -> Option<Warning> {

@@ -4,20 +4,14 @@ use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::Standstill;
 
 use super::signals::SIDES;
+use super::warning::{WARN_LIFT_S, WARN_LOAD_RATIO};
 use super::{VehicleTick, Warning, start};
 use dashpot_files::case::Case;
 use dashpot_files::nearest_nanosecond;
 
-/// Wheel load, as a multiple of the load at standstill, above which a warning is given: the model's contact and track
-/// are elastic, and its normal damping was measured at small impacts.
-pub const WARN_LOAD_RATIO: f64 = 10.0;
-
 /// Wheel load, as a multiple of the load at standstill, that ends the run: the mean pressure of the elastic contact
 /// then exceeds 3 GPa, the hardness of rail steel.
 pub const END_LOAD_RATIO: f64 = 50.0;
-
-/// Duration of wheel lift above which a warning is given, s.
-pub const WARN_LIFT_S: f64 = 0.05;
 
 /// Monitors every wheel tick by tick, without allocating in a tick.
 #[derive(Debug, Clone)]

@@ -1,10 +1,21 @@
-//! Warnings: results that the model does not stand behind.
+//! Warnings: results that the model does not stand behind, and the values from which on they are given.
 
 use std::fmt;
 
 use serde::Serialize;
 
-use super::validity::{WARN_LIFT_S, WARN_LOAD_RATIO};
+/// Wheel load, as a multiple of the load at standstill, above which a warning is given: the model's contact and track
+/// are elastic, and its normal damping was measured at small impacts.
+pub const WARN_LOAD_RATIO: f64 = 10.0;
+
+/// Duration of wheel lift above which a warning is given, s.
+pub const WARN_LIFT_S: f64 = 0.05;
+
+/// Deviation of a rail at the start above which a warning is given, m. The default rails answer it with 6 kN.
+pub const WARN_START_DEVIATION_M: f64 = 1e-4;
+
+/// Velocity of this deviation above which a warning is given, m/s.
+pub const WARN_START_RATE_M_PER_S: f64 = 0.02;
 
 /// Result that the model does not stand behind.
 #[derive(Debug, Clone, PartialEq, Serialize)]
