@@ -14,7 +14,7 @@ const SUPPORT: RailSupport = RailSupport::new(60.0)
 #[test]
 fn rails_move_by_force_over_stiffness() {
     let parameters = locomotive();
-    let vehicle = Vehicle::on_rails(&parameters, contact(5.0), 1e-3, Some(SUPPORT)).unwrap();
+    let vehicle = Vehicle::on_rails(&parameters, contact(0.3), 1e-3, Some(SUPPORT)).unwrap();
     let straight = vehicle.at_rest(&Track::default(), 0.0, 20.0).unwrap();
     let standing: Vec<[[f64; 3]; 2]> = straight
         .contacts()
@@ -55,7 +55,7 @@ fn rails_move_by_force_over_stiffness() {
 fn very_stiff_rails_behave_as_rigid_rails() {
     let (parameters, track) = (locomotive(), curve(600.0));
     let lateral = |support: Option<RailSupport>| {
-        let vehicle = Vehicle::on_rails(&parameters, contact(5.0), 1e-3, support).unwrap();
+        let vehicle = Vehicle::on_rails(&parameters, contact(0.3), 1e-3, support).unwrap();
         let mut state = vehicle.at_rest(&track, 0.0, 100.0 / 3.6).unwrap();
         run(&vehicle, &mut state, &track, 6.0);
         let contact = &state.contacts()[0];
@@ -138,9 +138,17 @@ fn a_wheelset_bounces_on_its_rails_as_two_masses_do() {
 fn an_invalid_support_is_rejected() {
     let mut support = SUPPORT;
     support.vertical_mass_kg = -1.0;
-    let error = Vehicle::on_rails(&locomotive(), contact(5.0), 1e-3, Some(support)).unwrap_err();
+    let error = Vehicle::on_rails(&locomotive(), contact(0.3), 1e-3, Some(support)).unwrap_err();
     assert_eq!(
         error.to_string(),
         "rails: vertical_mass_kg = -1, allowed: 1 to 100000"
     );
+}
+
+#[test]
+fn a_tick_of_1_ms_has_four_steps_on_rigid_rails_and_seven_on_the_default_ones() {
+    for (support, steps) in [(None, 4.0), (Some(RailSupport::BALLASTED), 7.0)] {
+        let vehicle = Vehicle::on_rails(&locomotive(), contact(0.3), 1e-3, support).unwrap();
+        assert_eq!((1e-3 / vehicle.inner_step_s()).round(), steps);
+    }
 }
