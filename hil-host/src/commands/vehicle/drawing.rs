@@ -118,9 +118,13 @@ pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
                     circle cx=(px(sheet.x(at))) cy=(px(sheet.y(height + 0.25))) r="6" fill="#c62828" {}
                 }
             }
-            text x=(px(sheet.width - MARGIN)) y=(px(sheet.y(-0.95))) text-anchor="end" { "direction of travel →" }
-            text x=(px(MARGIN)) y=(px(sheet.y(-0.95))) {
-                "blue: vertical dampers; red: lateral and longitudinal dampers"
+            text x=(px(sheet.width - MARGIN)) y=(px(sheet.y(SKY_M - 0.32))) text-anchor="end" {
+                "direction of travel →"
+            }
+            @if parameters.dampers().next().is_some() {
+                text x=(px(MARGIN)) y=(px(sheet.y(-0.95))) {
+                    "blue: vertical dampers; red: lateral and longitudinal dampers"
+                }
             }
         }
     }
