@@ -1,8 +1,12 @@
 //! Flexible rails broke the step: a mass of 60 kg under each wheel oscillates on the contact faster than a step of 0.25
 //! ms follows, so most runs with flange impacts diverged or left the tables.
 
+use std::sync::Arc;
+
+use dashpot_files::case::Case;
 use dashpot_rail::track::{Generation, Layout, Part, Seeds, Spectrum, Track};
-use dashpot_rail::vehicle::{RailSupport, Vehicle, VehicleError, VehicleParameters, VehicleState};
+use dashpot_rail::vehicle::{RailSupport, VehicleError, VehicleParameters};
+use dashpot_vehicle_run::{Ending, Run, VehicleRunError};
 use fastrand::Rng;
 
 use crate::support::{contact, locomotive};
@@ -23,31 +27,35 @@ fn track(seed: u64) -> Track {
     .unwrap()
 }
 
-/// Steps a vehicle and returns its greatest wheel load, N; NaN if the state diverges.
+/// Runs a vehicle and returns its greatest wheel load, N; NaN if the run ends early.
 fn greatest_load_n(
     vehicle: &VehicleParameters,
     support: RailSupport,
     normal_damping_s_per_m: f64,
-    tick_s: f64,
-    (seed, start_m, seconds): (u64, f64, f64),
-) -> Result<f64, VehicleError> {
-    let contact = contact(normal_damping_s_per_m);
-    let vehicle = Vehicle::on_rails(vehicle, contact, tick_s, Some(support))?;
-    let track = track(seed);
-    let mut state: VehicleState = vehicle.at_rest(&track, start_m, SPEED_M_PER_S)?;
+    step_s: f64,
+    (seed, duration_s): (u64, f64),
+) -> Result<f64, VehicleRunError> {
+    let case = Case {
+        vehicle: vehicle.clone(),
+        rails: Some(support),
+        speed_m_per_s: SPEED_M_PER_S,
+        duration_s,
+        step_s,
+        ..Case::load("straight-180").expect("a shipped case")
+    };
+    let contacts = vec![contact(normal_damping_s_per_m); vehicle.wheelsets.len()];
+    let mut run = Run::on(&case, contacts, Arc::new(track(seed)))?;
     let mut greatest_n = 0.0_f64;
-    for _ in 0..(seconds / tick_s) as usize {
-        vehicle.step(&mut state, &track);
-        if state.is_diverged() {
-            return Ok(f64::NAN);
+    loop {
+        match run.step()? {
+            None => {}
+            Some(Ending::Completed) => return Ok(greatest_n),
+            Some(_) => return Ok(f64::NAN),
         }
-        let loads = state
-            .extremes()
-            .iter()
-            .flat_map(|extremes| extremes.greatest_loads_n);
+        let extremes = run.state().extremes().iter();
+        let loads = extremes.flat_map(|extremes| extremes.greatest_loads_n);
         greatest_n = loads.fold(greatest_n, f64::max);
     }
-    Ok(greatest_n)
 }
 
 /// The support of the reported case.
@@ -58,11 +66,10 @@ const REPORTED: RailSupport = RailSupport::new(60.0)
 #[test]
 fn light_rails_carry_a_hunting_locomotive() {
     for seed in 1..=8 {
-        let load_n =
-            greatest_load_n(&locomotive(), REPORTED, 0.3, 1e-3, (seed, -15.0, 5.0)).unwrap();
+        let load_n = greatest_load_n(&locomotive(), REPORTED, 0.3, 1e-3, (seed, 5.0)).unwrap();
         assert!(load_n < 350e3, "seed {seed}: {load_n}");
     }
-    let load_n = greatest_load_n(&locomotive(), REPORTED, 5.0, 1e-3, (2, -15.0, 5.0)).unwrap();
+    let load_n = greatest_load_n(&locomotive(), REPORTED, 5.0, 1e-3, (2, 5.0)).unwrap();
     assert!(load_n < 350e3, "{load_n}");
 }
 
@@ -79,7 +86,7 @@ fn every_accepted_support_carries_the_locomotive() {
             .with_lateral(between(1e6, 1e12), between(1e2, 1e9))
             .with_vertical(between(1e7, 1e12), between(1e2, 1e9));
         let (damping, tick_s) = (between(1e-3, 100.0), between(20e-6, 2e-3));
-        match greatest_load_n(&healthy, support, damping, tick_s, (draw, -15.0, 1.2)) {
+        match greatest_load_n(&healthy, support, damping, tick_s, (draw, 1.2)) {
             Ok(load_n) => {
                 accepted += 1;
                 assert!(
@@ -87,7 +94,7 @@ fn every_accepted_support_carries_the_locomotive() {
                     "{support:?}, {damping} s/m, {tick_s} s: {load_n} N"
                 );
             }
-            Err(VehicleError::ContactTooFast { needed_s, least_s }) => {
+            Err(VehicleRunError::Vehicle(VehicleError::ContactTooFast { needed_s, least_s })) => {
                 assert!(needed_s < least_s);
             }
             Err(other) => panic!("{other}"),

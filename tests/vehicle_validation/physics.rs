@@ -1,8 +1,7 @@
 //! The digest of physics in every row of a study: the SHA-256 of the forces of all presets and of the indices of a few
-//! runs. The runs cover every element of a vehicle, elastically supported rails, a damper that changes during the run,
-//! both laws of a damper and every index.
+//! runs (`tests/physics`).
 //!
-//! It is the same for every width of vectors.
+//! It is the same for every width of vectors, and on a 64-bit Arm processor (`tests/on_target/aarch64.rs`).
 //!
 //! `DASHPOT_BLESS=1` writes it into `study/src/sweep/physics.rs`, and into the kept rows that new
 //! runs reproduce bit by bit.
@@ -10,63 +9,24 @@
 use std::collections::BTreeSet;
 
 use dashpot::document;
-use dashpot_core::Damper;
-use dashpot_files::damper::{self, PRESETS};
-use dashpot_files::study::StudyParameters;
+use dashpot_physics::STUDY;
 use dashpot_rail::vehicle::Law;
 use dashpot_rail::with_narrowest_vectors;
-use dashpot_study::sweep::{OBSERVED, PHYSICS, ROW_DIGEST, Shared, Study, digest_of_cells, row};
-use dashpot_testbench::excitation::Excitation;
+use dashpot_study::sweep::{OBSERVED, PHYSICS, ROW_DIGEST, Study, digest_of_cells};
 
 use crate::rows::Kept;
 use crate::{STUDIES, first_difference};
 
-const STUDY: &str = "tests/vehicle_validation/physics/study.toml";
 const SOURCE: &str = "study/src/sweep/physics.rs";
-
-/// Number of ticks of the synthetic ride that drives each preset.
-const TICKS: usize = 3000;
 
 fn study() -> Study {
     let path = document::in_repository(STUDY);
-    let parameters = StudyParameters::load(&path.to_string_lossy()).expect("the study of physics");
-    Study::new(parameters).expect("the study of physics")
-}
-
-/// Bits of the model's results with the vectors of this thread.
-fn results() -> Vec<String> {
-    let mut results = Vec::new();
-    let bits = |number: f64| format!("{:016x}", number.to_bits());
-    let motion = Excitation::Ride.displacements_m(1e-3);
-    for (name, _) in PRESETS {
-        let parameters = damper::load(name, &[]).expect("a preset");
-        let single: Damper<f32> = parameters.build(1e-3).expect("a preset");
-        let double: Damper<f64> = parameters.build(1e-3).expect("a preset");
-        let start = motion[0];
-        let (mut in_single, mut in_double) = (single.at_rest(start as f32), double.at_rest(start));
-        for displacement_m in motion.iter().take(TICKS) {
-            let force = single.step(&mut in_single, *displacement_m as f32);
-            results.push(bits(f64::from(force)));
-            results.push(bits(double.step(&mut in_double, *displacement_m)));
-        }
-    }
-    let (study, shared) = (study(), Shared::default());
-    for number in 0..study.cases() {
-        let row = row(&study, number, &shared, &|| false)
-            .expect("a run")
-            .expect("a case");
-        assert_eq!(row.ending, "completed", "case {number}");
-        for (index, value) in study.observed.iter().zip(&row.observed) {
-            let value = value.unwrap_or_else(|| panic!("case {number}: no {}", index.name));
-            results.push(bits(value));
-        }
-    }
-    results
+    dashpot_physics::study(&path.to_string_lossy())
 }
 
 /// Digest of the model's results with the vectors of this thread.
 fn computed() -> String {
-    digest_of_cells(results().iter().map(String::as_str))
+    dashpot_physics::digest(&study())
 }
 
 #[test]
@@ -141,5 +101,5 @@ fn the_runs_have_every_element_and_every_index() {
     let elements = case.vehicle.elements.iter();
     let laws: BTreeSet<&str> = elements.map(|element| element.law.name()).collect();
     assert_eq!(laws, Law::NAMES.iter().copied().collect());
-    assert!(case.rails.is_some() && !case.faults.is_empty());
+    assert!(case.rails.is_some() && !case.faults.is_empty() && !case.events.is_empty());
 }

@@ -70,6 +70,7 @@ fn a_braked_vehicle_stands_in_the_curve_as_a_slower_one() {
     let braked = case("curve-r600", braking);
     let (high, low) = (120.0 / 3.6, 100.0 / 3.6);
     let expected_m = 2.0 * high + 0.5 * (high + low) * (100.0 / 9.0) + low * (23.0 - 100.0 / 9.0);
+    let expected_m = braked.start_m + expected_m;
     assert!((braked.end_m() - expected_m).abs() < 1e-9);
     let run = after(&braked);
     assert!((run.state().distance_m() - expected_m).abs() < 1e-6);

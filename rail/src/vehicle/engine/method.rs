@@ -172,9 +172,9 @@ mod tests {
         let substeps = |tick_s: f64, rail: OnContact| {
             Method::new(tick_s, &[rail]).map(|method| method.substeps)
         };
-        assert_eq!(substeps(1e-3, rail), Ok(6));
+        assert_eq!(substeps(1e-3, rail), Ok(9));
         rail.mass_kg = 245.0;
-        assert_eq!(substeps(1e-3, rail), Ok(4));
+        assert_eq!(substeps(1e-3, rail), Ok(5));
         // 500 kN s/m brake the rail with a time constant of 0.49 ms.
         rail.damping_n_s_per_m = 500e3;
         assert_eq!(substeps(1e-3, rail), Ok(35));
