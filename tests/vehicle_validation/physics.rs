@@ -1,7 +1,7 @@
 //! The digest of physics in every row of a study: the SHA-256 of the forces of all presets and of the indices of a few
 //! runs (`tests/physics`).
 //!
-//! It is the same for every width of vectors, and on a 64-bit Arm processor (`tests/on_target/aarch64.rs`).
+//! It is the same for every width of vectors.
 //!
 //! `DASHPOT_BLESS=1` writes it into `study/src/sweep/physics.rs`, and into the kept rows that new
 //! runs reproduce bit by bit.
