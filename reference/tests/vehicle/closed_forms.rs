@@ -1,40 +1,22 @@
 //! A curve without a transition excites a body on springs.
 
-use dashpot_rail::track::Part;
-use dashpot_rail::vehicle::{GRAVITY_M_PER_S2, VehicleParameters};
+use dashpot_rail::vehicle::GRAVITY_M_PER_S2;
 use dashpot_reference::vehicle::VehicleReference;
 
-use crate::common::{contact, on_track, spring, times, track};
+use crate::common::{
+    CURVE_M, RADIUS, SPRINGS, X, Y, abrupt_curve, contact, on_track, springs_on_track, times,
+};
 
 const SPEED: f64 = 20.0;
-const RADIUS: f64 = 800.0;
-const SPRINGS: [f64; 3] = [2e6, 1.5e6, 1e6];
-const X: f64 = 4.0;
-const Y: f64 = 1.0;
-
-/// Springs at the height of the centre of gravity.
-fn body_on_springs() -> VehicleParameters {
-    let places = [(X, Y), (X, -Y), (-X, Y), (-X, -Y)];
-    let spring_at = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
-    on_track(places.into_iter().map(spring_at).collect())
-}
 
 /// Yaw: the frame rotates at `V/R`, so `psi = -V/(R w) sin w t`. Lateral and roll: a step of `-m V^2/R`. The weight
 /// couples the two motions by `-m g/2`.
 #[test]
 fn free_oscillations_after_an_abrupt_curve() {
-    let vehicle = body_on_springs();
+    let vehicle = on_track(springs_on_track());
     let contact = contact(0.4);
-    let parts = [
-        Part::Straight { length_m: 10.0 },
-        Part::Circular {
-            radius_m: RADIUS,
-            length_m: 500.0,
-            cant_m: 0.0,
-        },
-    ];
-    let track = track(&parts, vec![]);
-    let start_s = 10.0 / SPEED;
+    let track = abrupt_curve();
+    let start_s = CURVE_M / SPEED;
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, SPEED, 0.0).unwrap();
     let samples = reference.run(&times(0.013, 150), 1e-10).unwrap();
 
@@ -69,7 +51,7 @@ fn free_oscillations_after_an_abrupt_curve() {
 
 #[test]
 fn invalid_times_and_tolerances_are_refused() {
-    let (vehicle, contact) = (body_on_springs(), contact(0.4));
+    let (vehicle, contact) = (on_track(springs_on_track()), contact(0.4));
     let track = crate::common::straight(vec![]);
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, 20.0, 0.0).unwrap();
     for (times, tolerance) in [

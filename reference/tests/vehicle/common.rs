@@ -40,6 +40,18 @@ pub fn spring(
     Element::new(format!("spring {at:?}"), between.map(end), law)
 }
 
+/// Springs of a body at (+-X, +-Y), at the height of its centre of gravity.
+pub const SPRINGS: [f64; 3] = [2e6, 1.5e6, 1e6];
+pub const X: f64 = 4.0;
+pub const Y: f64 = 1.0;
+
+/// Four springs between the track and the body.
+pub fn springs_on_track() -> Vec<Element> {
+    let places = [(X, Y), (X, -Y), (-X, Y), (-X, -Y)];
+    let spring_at = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
+    places.into_iter().map(spring_at).collect()
+}
+
 pub fn on_track(elements: Vec<Element>) -> VehicleParameters {
     VehicleParameters::new("body on springs")
         .with_bodies([body()])
@@ -77,6 +89,20 @@ pub fn track(parts: &[Part], defects: Vec<Defect>) -> Track {
         defects,
     )
     .unwrap()
+}
+
+/// Distance at which the [`abrupt_curve`] starts, m, and its radius, m.
+pub const CURVE_M: f64 = 10.0;
+pub const RADIUS: f64 = 800.0;
+
+/// A curve without a transition.
+pub fn abrupt_curve() -> Track {
+    let circle = Part::Circular {
+        radius_m: RADIUS,
+        length_m: 500.0,
+        cant_m: 0.0,
+    };
+    track(&[Part::Straight { length_m: CURVE_M }, circle], vec![])
 }
 
 pub fn straight(defects: Vec<Defect>) -> Track {

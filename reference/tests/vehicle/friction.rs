@@ -1,16 +1,14 @@
 //! A body that yaws on springs and dry friction, against the exact motion between sticking and sliding.
 
-use dashpot_rail::track::Part;
 use dashpot_rail::vehicle::{Direction, Element, End, Law};
 use dashpot_reference::vehicle::VehicleReference;
 
-use crate::common::{contact, on_track, spring, times, track};
+use crate::common::{
+    CURVE_M, RADIUS, SPRINGS, X, abrupt_curve, contact, on_track, springs_on_track, times,
+};
 
 const SPEED: f64 = 20.0;
-const RADIUS: f64 = 800.0;
-/// Springs at (+-X, +-1) and friction at (0, +-1), at the height of the centre of gravity.
-const X: f64 = 4.0;
-const SPRINGS: [f64; 3] = [2e6, 1.5e6, 1e6];
+/// Stiffness of the springs of two friction elements at (0, +-1), at the height of the centre of gravity.
 const SERIES: f64 = 20e6;
 const YAW_INERTIA: f64 = 900e3;
 
@@ -104,9 +102,7 @@ impl Oscillator {
 #[test]
 fn a_body_with_friction_yaws_until_it_sticks() {
     let friction_n = 8e3;
-    let places = [(X, 1.0), (X, -1.0), (-X, 1.0), (-X, -1.0)];
-    let spring_at = |(x, y)| spring([None, Some("body")], [x, y, 1.5], SPRINGS, [0.0; 3]);
-    let mut elements: Vec<Element> = places.into_iter().map(spring_at).collect();
+    let mut elements = springs_on_track();
     for y in [1.0, -1.0] {
         let at = [0.0, y, 1.5];
         let law = Law::Friction {
@@ -119,15 +115,7 @@ fn a_body_with_friction_yaws_until_it_sticks() {
         elements.push(Element::new(format!("friction {y}"), ends, law));
     }
     let vehicle = on_track(elements);
-    let parts = [
-        Part::Straight { length_m: 10.0 },
-        Part::Circular {
-            radius_m: RADIUS,
-            length_m: 500.0,
-            cant_m: 0.0,
-        },
-    ];
-    let (contact, track) = (contact(0.4), track(&parts, vec![]));
+    let (contact, track) = (contact(0.4), abrupt_curve());
     let mut reference = VehicleReference::new(&vehicle, &contact, &track, SPEED, 0.0).unwrap();
     let times = times(0.013, 250);
     let samples = reference.run(&times, 1e-10).unwrap();
@@ -137,7 +125,7 @@ fn a_body_with_friction_yaws_until_it_sticks() {
         series: 2.0 * SERIES,
         limit: 2.0 * friction_n,
     };
-    let start_s = 10.0 / SPEED;
+    let start_s = CURVE_M / SPEED;
     let mut phases = vec![Phase {
         start: start_s,
         at: [0.0, -SPEED / RADIUS],
