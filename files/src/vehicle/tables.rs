@@ -183,19 +183,29 @@ fn end(on: &str, at_m: [f64; 3]) -> End {
     }
 }
 
+/// Equal elements at several positions.
 fn elements(name: &str, between: &[String; 2], at_m: &[[f64; 3]], law: &Law) -> Vec<Element> {
-    let [from, to] = between;
-    at_m.iter()
-        .enumerate()
+    numbered_elements(name, between, at_m, |_| law.clone())
+}
+
+/// Elements at several positions, with a law for each number from 1 on.
+fn numbered_elements(
+    name: &str,
+    [from, to]: &[String; 2],
+    at_m: &[[f64; 3]],
+    law: impl Fn(usize) -> Law,
+) -> Vec<Element> {
+    let numbered = (1..).zip(at_m);
+    numbered
         .map(|(number, at)| {
             let ends = [end(from, *at), end(to, *at)];
-            Element::new(format!("{name} {}", number + 1), ends, law.clone())
+            Element::new(format!("{name} {number}"), ends, law(number))
         })
         .collect()
 }
 
 impl FrictionTable {
-    /// Laws of its elements, which differ in the spring that they follow.
+    /// Its elements, which differ in the spring that they follow.
     fn elements(&self) -> Result<Vec<Element>, &'static str> {
         let of_load = match (self.friction_coefficient, &self.load_of) {
             (Some(coefficient), Some(springs)) => Some((coefficient, springs)),
@@ -207,21 +217,20 @@ impl FrictionTable {
             (None, None) => None,
             _ => return Err("friction_coefficient and load_of, allowed: both or neither"),
         };
-        let [from, to] = &self.between;
-        let element = |(number, at): (usize, &[f64; 3])| {
-            let number = number + 1;
-            let law = Law::Friction {
-                direction: self.direction.into(),
-                stiffness_n_per_m: self.stiffness_n_per_m,
-                friction_n: self.friction_n.unwrap_or(0.0),
-                load: of_load.map(|(coefficient, springs)| {
-                    FrictionLoad::new(coefficient, format!("{springs} {number}"))
-                }),
-            };
-            let ends = [end(from, *at), end(to, *at)];
-            Element::new(format!("{} {number}", self.name), ends, law)
+        let law = |number| Law::Friction {
+            direction: self.direction.into(),
+            stiffness_n_per_m: self.stiffness_n_per_m,
+            friction_n: self.friction_n.unwrap_or(0.0),
+            load: of_load.map(|(coefficient, springs)| {
+                FrictionLoad::new(coefficient, format!("{springs} {number}"))
+            }),
         };
-        Ok(self.at_m.iter().enumerate().map(element).collect())
+        Ok(numbered_elements(
+            &self.name,
+            &self.between,
+            &self.at_m,
+            law,
+        ))
     }
 }
 
