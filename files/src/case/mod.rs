@@ -51,8 +51,8 @@ const SHIPPED: Shipped = Shipped {
     texts: &CASES,
 };
 
-/// Default distance of the vehicle's middle along the track at the start, m: vehicles of up to 30 m stand in front of
-/// everything that begins at 0.
+/// Default position of the vehicle's middle at the start, m along the track. Everything on a track begins at 0 or
+/// later, so a vehicle of up to 30 m starts on straight and even track.
 pub const START_M: f64 = -15.0;
 
 /// Default normal damping, s/m: the middle of the range for steel, 0.12 to 0.48 s/m (Hunt and Crossley, Journal of

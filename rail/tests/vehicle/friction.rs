@@ -165,7 +165,7 @@ fn friction_needs_a_spring_that_carries_weight_and_a_tick_that_follows_it() {
         "friction: friction follows the load of spring, which is not a spring with vertical stiffness; allowed: body \
          spring 1 1, body spring 1 -1, body spring -1 1, body spring -1 -1"
     );
-    // A spring between two bodies of which only the other springs carry the upper one.
+    // The second body stands on another spring, so the spring between the bodies carries no weight.
     let idle = |vehicle: &mut VehicleParameters| {
         let on_both = |name: &str, from: End, stiffness: f64| {
             let at = [0.0, 0.0, 1.5];
