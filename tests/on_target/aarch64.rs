@@ -1,20 +1,23 @@
-//! Force bits on a 64-bit Arm processor, where a bank uses other vector instructions than on x86-64.
+//! Bits on a 64-bit Arm processor, whose vector instructions are others than those of x86-64.
 
+use std::path::PathBuf;
 use std::process::Command;
 
+use dashpot::document;
 use dashpot::target::experiments;
+use dashpot_physics::STUDY;
 use xtask::aarch64;
 use xtask::processor::AARCH64;
 use xtask::tools::{AARCH64_GCC, AARCH64_LIBC, QEMU_AARCH64, have, have_library};
 
+/// Sperling's indices use a Fourier transform that has other instructions on each processor; their last digits differ.
+const OTHER_BITS: &str = "sperling";
+
 #[test]
-fn a_64_bit_arm_has_the_hosts_bits() {
-    let what = "force bits on a 64-bit Arm processor";
-    if !have_library(AARCH64, what) || !have(&[AARCH64_GCC, AARCH64_LIBC, QEMU_AARCH64], what) {
+fn a_64_bit_arm_has_the_hosts_forces() {
+    let Some(program) = built("dashpot-experiment", "force bits on a 64-bit Arm processor") else {
         return;
-    }
-    succeed(aarch64::cargo("build").args(["--release", "--package", "dashpot-experiment"]));
-    let program = aarch64::release("dashpot-experiment");
+    };
     for experiment in experiments(0.1) {
         let found = experiment.digest_by(&mut aarch64::program(&program));
         let (element, excitation) = (experiment.element, experiment.excitation.name());
@@ -22,7 +25,36 @@ fn a_64_bit_arm_has_the_hosts_bits() {
     }
 }
 
-fn succeed(command: &mut Command) {
+#[test]
+fn a_64_bit_arm_has_the_golden_bits() {
+    let what = "contact, vehicle and indices on a 64-bit Arm processor";
+    let Some(program) = built("dashpot-physics", what) else {
+        return;
+    };
+    // An empty folder for the contact tables, so that they are computed there too.
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut program = aarch64::program(&program);
+    program.arg(document::in_repository(STUDY));
+    let found = succeed(program.env("XDG_CACHE_HOME", folder.path()));
+    let equal = |text: &str| -> Vec<String> {
+        let lines = text.lines().filter(|line| !line.starts_with(OTHER_BITS));
+        lines.map(str::to_owned).collect()
+    };
+    let golden = document::read("tests/golden/physics.txt");
+    assert_eq!(equal(&found), equal(&golden));
+}
+
+/// Builds a program for the processor, if its tools are present. Otherwise says that `what` is not tested.
+fn built(name: &str, what: &str) -> Option<PathBuf> {
+    if !have_library(AARCH64, what) || !have(&[AARCH64_GCC, AARCH64_LIBC, QEMU_AARCH64], what) {
+        return None;
+    }
+    succeed(aarch64::cargo("build").args(["--release", "--package", name]));
+    Some(aarch64::release(name))
+}
+
+/// Returns what the command prints.
+fn succeed(command: &mut Command) -> String {
     let output = command
         .output()
         .unwrap_or_else(|error| panic!("{command:?}: {error}"));
@@ -32,4 +64,5 @@ fn succeed(command: &mut Command) {
         "{command:?}: {}\n{printed}",
         output.status
     );
+    String::from_utf8_lossy(&output.stdout).into_owned()
 }

@@ -17,6 +17,7 @@ pub mod requests;
 pub mod search;
 pub mod searched_motion;
 pub mod signed_image;
+pub mod speed;
 pub mod standalone;
 pub mod standalone_count;
 pub mod target;

@@ -1,15 +1,16 @@
 //! The digest of physics in every row of a study: the SHA-256 of the forces of all presets and of the indices of a few
 //! runs (`tests/physics`).
 //!
-//! It is the same for every width of vectors.
+//! It is the same for every width of vectors. `tests/golden/physics.txt` has a digest of each part of the results,
+//! which shows what a change of the model changes.
 //!
-//! `DASHPOT_BLESS=1` writes it into `study/src/sweep/physics.rs`, and into the kept rows that new
-//! runs reproduce bit by bit.
+//! `DASHPOT_BLESS=1` writes the digest into `study/src/sweep/physics.rs`, and into the kept rows that new runs
+//! reproduce bit by bit, and the digests of the parts into their file.
 
 use std::collections::BTreeSet;
 
 use dashpot::document;
-use dashpot_physics::STUDY;
+use dashpot_physics::{Results, STUDY};
 use dashpot_rail::vehicle::Law;
 use dashpot_rail::with_narrowest_vectors;
 use dashpot_study::sweep::{OBSERVED, PHYSICS, ROW_DIGEST, Study, digest_of_cells};
@@ -19,24 +20,28 @@ use crate::{STUDIES, first_difference};
 
 const SOURCE: &str = "study/src/sweep/physics.rs";
 
+const PARTS: &str = "tests/golden/physics.txt";
+
 fn study() -> Study {
     let path = document::in_repository(STUDY);
     dashpot_physics::study(&path.to_string_lossy())
 }
 
-/// Digest of the model's results with the vectors of this thread.
-fn computed() -> String {
-    dashpot_physics::digest(&study())
+/// Results of the model with the vectors of this thread.
+fn computed() -> Results {
+    Results::new(&study())
 }
 
 #[test]
 fn the_digest_of_physics_is_that_of_the_model() {
-    let computed = computed();
+    let results = computed();
     assert_eq!(
         with_narrowest_vectors(self::computed),
-        computed,
+        results,
         "the width of vectors must not change a bit"
     );
+    document::compare(PARTS, &results.text());
+    let computed = results.physics;
     if computed == PHYSICS {
         return;
     }

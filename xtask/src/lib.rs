@@ -1,6 +1,7 @@
 //! Developer commands, and code that they share with the tests of other packages.
 
 pub mod aarch64;
+pub mod bench;
 pub mod c_library;
 pub mod ci;
 pub mod firmware;

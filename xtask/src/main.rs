@@ -4,15 +4,13 @@ use std::process::ExitCode;
 
 use xtask::c_library::{self, Options, Platform};
 use xtask::ci::ci;
-use xtask::run::{Outcome, cargo, cargo_output_to_stderr, repository, version_of};
-use xtask::rust_version::numbers;
+use xtask::run::{Outcome, cargo, repository};
 use xtask::search;
-use xtask::setup::install_for_target;
 use xtask::test_run::test;
 use xtask::timings::{Build, timings};
 use xtask::vehicle_validation::vehicle_validation;
 use xtask::wheel::wheel;
-use xtask::{firmware, mutants, nightly, python, slurm, timings as compiler};
+use xtask::{bench, firmware, mutants, nightly, python, slurm, timings as compiler};
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -27,8 +25,9 @@ Commands:
                          package and check the bounds of the command's build
   firmware               build the images for the target
   target [--format json] measure the core on emulated processors against its budget
-  bench                  measure time per step, compared with a plain Newton step and with a bare table look-up
-  bench --instructions   count instructions per step (needs Valgrind and gungraun-runner)
+  bench                  measure times and instructions, and print one table: ours, a yardstick from the same run,
+                         their ratio and the goal (docs/performance.md explains it; about twenty minutes)
+  bench --instructions   count only instructions on this machine (needs Valgrind and gungraun-runner)
   c-library [--target NAME]... [--output FOLDER]
                          build the C library into an install tree for each target: cortex-m4f, cortex-m7, cortex-m33,
                          x86-64, aarch64. Without --target, build all that this machine can. The default folder is
@@ -54,9 +53,6 @@ Commands:
 Example: cargo xtask test
 Exit code: 0 done, 1 a check failed, 2 usage error.";
 
-/// Version of `gungraun` in Cargo.toml; its runner must have the same version.
-const GUNGRAUN: &str = "0.20";
-
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     if compiler::is_compiler() {
@@ -73,16 +69,8 @@ fn main() -> ExitCode {
         ["target"] => measure_target(false),
         ["target", "--format", "json"] => measure_target(true),
         ["target", "--format", "text"] => measure_target(false),
-        ["bench"] => cargo(&[
-            "bench",
-            "--package",
-            "dashpot",
-            "--bench",
-            "step",
-            "--bench",
-            "vehicle",
-        ]),
-        ["bench", "--instructions"] => count_instructions(),
+        ["bench"] => bench::bench(),
+        ["bench", "--instructions"] => bench::count_instructions(),
         ["c-library", ref options @ ..] => match Options::parse(options) {
             Ok(options) => c_library(&options),
             Err(message) => return usage_error(&message),
@@ -170,28 +158,9 @@ fn c_library(options: &Options) -> Outcome {
     Ok(())
 }
 
-/// Runs the test that checks the budget and prints what it measured.
+/// Prints what the test that checks the budget measured.
 fn measure_target(json: bool) -> Outcome {
-    install_for_target();
-    let path = repository().join("target/target_figures.json");
-    let _ = std::fs::remove_file(&path);
-    let checked = cargo_output_to_stderr(
-        &[
-            "test",
-            "--package",
-            "dashpot",
-            "--test",
-            "on_target",
-            "processors",
-        ],
-        &[("DASHPOT_TARGET_REPORT", &path.to_string_lossy())],
-    );
-    let report = std::fs::read_to_string(&path).unwrap_or_default();
-    if report.is_empty() {
-        return checked.and(Err(
-            "nothing was measured; the lines above name what is missing".into(),
-        ));
-    }
+    let (report, checked) = bench::measure_target();
     if json {
         print!("{report}");
     } else {
@@ -201,26 +170,4 @@ fn measure_target(json: bool) -> Outcome {
         }
     }
     checked
-}
-
-fn count_instructions() -> Outcome {
-    version_of("valgrind", &["--version"])
-        .map_err(|error| format!("{error}; install Valgrind, e.g. apt-get install valgrind"))?;
-    let install = format!("cargo install gungraun-runner --version '^{GUNGRAUN}'");
-    let runner = version_of("gungraun-runner", &["--version"])
-        .map_err(|error| format!("{error}; {install}"))?;
-    if !numbers(&runner).starts_with(&numbers(GUNGRAUN)) {
-        return Err(format!(
-            "gungraun-runner is {runner}, the bench needs {GUNGRAUN}: {install}"
-        ));
-    }
-    cargo(&[
-        "bench",
-        "--package",
-        "dashpot",
-        "--features",
-        "gungraun",
-        "--bench",
-        "instructions",
-    ])
 }

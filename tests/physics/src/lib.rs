@@ -1,19 +1,19 @@
-//! Bits of the model's results: the forces of all presets, and every index of a few runs of vehicles.
+//! Bits of the model's results: forces of dampers and banks, of the contact, the state of a vehicle, and every index of
+//! a few runs of vehicles.
 //!
 //! The runs cover every element of a vehicle, elastically supported rails, events, a damper that changes during the
 //! run, and both laws of a damper.
 
-use dashpot_core::Damper;
-use dashpot_files::damper::{self, PRESETS};
+mod contact;
+mod damper;
+mod indices;
+mod vehicle;
+
 use dashpot_files::study::StudyParameters;
-use dashpot_study::sweep::{Shared, Study, digest_of_cells, row};
-use dashpot_testbench::excitation::Excitation;
+use dashpot_study::sweep::{Study, digest_of_cells};
 
 /// The study of the runs, in the repository.
 pub const STUDY: &str = "tests/physics/study/study.toml";
-
-/// Number of ticks of the synthetic ride that drives each preset.
-const TICKS: usize = 3000;
 
 /// Loads the study of the runs from its file.
 ///
@@ -24,52 +24,72 @@ pub fn study(path: &str) -> Study {
     Study::new(parameters).expect("the study of physics")
 }
 
-/// Digest of the results.
-///
-/// # Panics
-/// If a run ends early or an index is missing.
-pub fn digest(study: &Study) -> String {
-    let mut results = forces();
-    results.extend(indices(study));
-    digest_of_cells(results.iter().map(String::as_str))
+/// Results of the model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Results {
+    /// Digest of the forces of all presets and of every index of every run, which every row of a study contains.
+    pub physics: String,
+    /// Digest of each part.
+    pub parts: Vec<Part>,
+}
+
+/// Results of one kind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// What the results are.
+    pub name: String,
+    /// Digest of their bits.
+    pub digest: String,
+}
+
+impl Results {
+    /// Computes all results.
+    ///
+    /// # Panics
+    /// If a run ends early or an index is missing.
+    pub fn new(study: &Study) -> Self {
+        let forces = damper::forces();
+        let indices = indices::of_runs(study);
+        // Cells of a row are in the order of the runs, those of a part in the order of the indices.
+        let mut cells = forces.both();
+        cells.extend(indices.iter().flat_map(|run| run.iter().cloned()));
+        let of_index = |index: usize| indices.iter().map(move |run| run[index].as_str());
+        let mut parts = vec![
+            part("damper, f32", forces.single.iter().map(String::as_str)),
+            part("damper, f64", forces.double.iter().map(String::as_str)),
+        ];
+        for (name, bits) in [
+            ("bank, f32", damper::bank::<f32>()),
+            ("bank, f64", damper::bank::<f64>()),
+            ("contact", contact::forces()),
+            ("vehicle", vehicle::state()),
+        ] {
+            parts.push(part(name, bits.iter().map(String::as_str)));
+        }
+        let names = study.observed.iter().map(|index| index.name).enumerate();
+        parts.extend(names.map(|(index, name)| part(name, of_index(index))));
+        Self {
+            physics: digest_of_cells(cells.iter().map(String::as_str)),
+            parts,
+        }
+    }
+
+    /// One line for each part: its name and its digest.
+    pub fn text(&self) -> String {
+        let parts = self.parts.iter();
+        parts
+            .map(|part| format!("{}; {}\n", part.name, part.digest))
+            .collect()
+    }
+}
+
+fn part<'a>(name: &str, bits: impl Iterator<Item = &'a str>) -> Part {
+    Part {
+        name: name.to_owned(),
+        digest: digest_of_cells(bits),
+    }
 }
 
 fn bits(number: f64) -> String {
     format!("{:016x}", number.to_bits())
-}
-
-/// Forces of all presets in single and in double precision.
-fn forces() -> Vec<String> {
-    let motion = Excitation::Ride.displacements_m(1e-3);
-    let mut results = Vec::new();
-    for (name, _) in PRESETS {
-        let parameters = damper::load(name, &[]).expect("a preset");
-        let single: Damper<f32> = parameters.build(1e-3).expect("a preset");
-        let double: Damper<f64> = parameters.build(1e-3).expect("a preset");
-        let start = motion[0];
-        let (mut in_single, mut in_double) = (single.at_rest(start as f32), double.at_rest(start));
-        for displacement_m in motion.iter().take(TICKS) {
-            let force = single.step(&mut in_single, *displacement_m as f32);
-            results.push(bits(f64::from(force)));
-            results.push(bits(double.step(&mut in_double, *displacement_m)));
-        }
-    }
-    results
-}
-
-/// Every index of every run.
-fn indices(study: &Study) -> Vec<String> {
-    let shared = Shared::default();
-    let mut results = Vec::new();
-    for number in 0..study.cases() {
-        let row = row(study, number, &shared, &|| false)
-            .expect("a run")
-            .expect("a case");
-        assert_eq!(row.ending, "completed", "case {number}");
-        for (index, value) in study.observed.iter().zip(&row.observed) {
-            let value = value.unwrap_or_else(|| panic!("case {number}: no {}", index.name));
-            results.push(bits(value));
-        }
-    }
-    results
 }

@@ -1,15 +1,15 @@
-//! Prints the digest of the model's results on this processor: `dashpot-physics STUDY`.
+//! Prints the digests of the model's results on this processor: `dashpot-physics STUDY`.
 
 use std::process::ExitCode;
+
+use dashpot_physics::Results;
 
 fn main() -> ExitCode {
     let Some(path) = std::env::args().nth(1) else {
         eprintln!("usage error: dashpot-physics STUDY");
         return ExitCode::from(2);
     };
-    println!(
-        "{}",
-        dashpot_physics::digest(&dashpot_physics::study(&path))
-    );
+    let results = Results::new(&dashpot_physics::study(&path));
+    print!("{}", results.text());
     ExitCode::SUCCESS
 }
