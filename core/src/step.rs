@@ -20,7 +20,7 @@ use crate::status::Status;
 use crate::unusual;
 
 /// Largest ratio of the correction to the change of the stretch in the step (1). A larger one could cancel the damping.
-const MAX_CORRECTION: f64 = 0.125;
+pub(crate) const MAX_CORRECTION: f64 = 0.125;
 
 impl<T: Real> Damper<T> {
     /// Returns the force (N) at this tick for the displacement (m) of the tick.
