@@ -179,13 +179,9 @@ macro_rules! group {
                 whole([$bins(self.0), $bins(self.1)])
             }
             #[inline(always)]
-            fn knots_passed(self, knots: [[$float; 4]; GROUP]) -> [usize; GROUP] {
-                let [_, next, second, _] = Self::transpose(knots);
-                let [next, second] =
-                    [next, second].map(|knot| self.bits(knot, |v, knot| v.simd_gt(knot)));
-                core::array::from_fn(|lane| {
-                    (next >> lane & 1) as usize + (second >> lane & 1) as usize
-                })
+            fn exceeds(self, limit: Self) -> [bool; GROUP] {
+                let bits = self.bits(limit, |v, limit| v.simd_gt(limit));
+                core::array::from_fn(|lane| bits >> lane & 1 != 0)
             }
             #[inline(always)]
             fn sign_bits(self) -> [usize; GROUP] {
@@ -245,10 +241,10 @@ mod tests {
         assert_eq!(group.reaches(limits), any.map(|x| x.reaches(limit)[0]));
 
         let positive = [1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5].map(T::from_f64);
-        let knots = [1.0, 2.0, 3.0, 0.0].map(T::from_f64);
-        let passed = T::Group::new(positive).knots_passed([knots; GROUP]);
-        assert_eq!(passed, [0, 0, 0, 1, 1, 2, 2, 2]);
-        assert_eq!(passed, positive.map(|x| x.knots_passed([knots])[0]));
+        let knot = T::from_f64(2.0);
+        let passed = T::Group::new(positive).exceeds(T::Group::new([knot; GROUP]));
+        assert_eq!(passed, [0, 0, 0, 1, 1, 1, 1, 1].map(|passed| passed == 1));
+        assert_eq!(passed, positive.map(|x| x.exceeds(knot)[0]));
     }
 
     #[test]
