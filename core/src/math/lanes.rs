@@ -41,8 +41,8 @@ pub(crate) trait Lanes<T, const L: usize>:
     fn with_sign_of(self, direction: Self) -> Self;
     /// Index of the table's bin for each positive number; a valid index for any other number.
     fn bins(self) -> [usize; L];
-    /// Number of knots that each positive number exceeds, counting only the second and the third knot.
-    fn knots_passed(self, knots: [[T; 4]; L]) -> [usize; L];
+    /// True for each lane whose positive number exceeds the positive limit; any result for other numbers.
+    fn exceeds(self, limit: Self) -> [bool; L];
     /// Sign bit of each lane, 0 or 1.
     fn sign_bits(self) -> [usize; L];
 }
@@ -118,12 +118,10 @@ macro_rules! single_lane {
                 [(self.to_bits() >> bin_shift($float::MANTISSA_DIGITS)) as usize % BINS]
             }
             #[inline(always)]
-            fn knots_passed(self, [[_, next, second, _]]: [[$float; 4]; 1]) -> [usize; 1] {
-                // The bits of positive numbers are in the same order as the numbers.
-                let passed = |knot: $float| {
-                    (knot.to_bits().wrapping_sub(self.to_bits()) >> ($bits::BITS - 1)) as usize
-                };
-                [passed(next) + passed(second)]
+            fn exceeds(self, limit: Self) -> [bool; 1] {
+                // The bits of positive numbers are in the same order as the numbers, so the top bit of their difference
+                // tells. Shifted, it is the distance to the next piece; a comparison takes two instructions more.
+                [limit.to_bits().wrapping_sub(self.to_bits()) >> ($bits::BITS - 1) != 0]
             }
             #[inline(always)]
             fn sign_bits(self) -> [usize; 1] {
