@@ -2,6 +2,7 @@
 
 use super::Bank;
 use super::vector::{Vector, Vectors};
+use crate::bins::BINS;
 use crate::damper::Damper;
 use crate::parameters::MAX_FORCE_N;
 use crate::real::Real;
@@ -9,7 +10,7 @@ use crate::stages::GAMMA;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::step::MAX_CORRECTION;
-use crate::table::{PIECES, Piece};
+use crate::table::{FLOW, KNOTS, POTENTIAL, ROWS_PER_PIECE, STIFFNESS};
 use crate::unusual;
 
 /// Dampers of a group: `N` vectors of `W` lanes.
@@ -59,18 +60,18 @@ pub(super) fn step<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
         simd,
         dampers,
         #[inline(always)]
-        |damper| {
+        |damper, row| {
             let k = &damper.scalars;
-            [k.move_bound, k.position_rounder, k.rest_rounder, k.step_s]
+            *row = [k.move_bound, k.position_rounder, k.rest_rounder, k.step_s];
         },
     );
     let [_, _, displacement_bound, stretch_bound] = columns(
         simd,
         dampers,
         #[inline(always)]
-        |damper| {
+        |damper, row| {
             let k = &damper.scalars;
-            [k.half_force_limit, k.held, k.displacement_bound, k.stretch_bound]
+            *row = [k.half_force_limit, k.held, k.displacement_bound, k.stretch_bound];
         },
     );
 
@@ -98,9 +99,9 @@ pub(super) fn step<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
         simd,
         dampers,
         #[inline(always)]
-        |damper| {
+        |damper, row| {
             let k = &damper.scalars;
-            [k.offset, k.first_knot, k.half_clearance, k.half_force_limit]
+            *row = [k.offset, k.first_knot, k.half_clearance, k.half_force_limit];
         },
     );
     let force_limit = half_limit + half_limit;
@@ -109,17 +110,17 @@ pub(super) fn step<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     let reach = start + gamma * travel;
     let beyond = (reach.abs() - offset).max(zero);
     let first = locate(simd, dampers, beyond + first_knot, reach);
-    let first_flow = first.flow(simd, dampers);
+    let [first_flow] = first.cubics(simd, [FLOW]);
     let reach = start + travel - splat(simd, 1.0 - GAMMA) * first_flow;
     let beyond = (reach.abs() - offset).max(zero);
     let last = locate(simd, dampers, beyond + first_knot, reach);
-    let last_flow = last.flow(simd, dampers);
+    let [last_flow, end_potential, stiffness] =
+        last.cubics(simd, [FLOW, POTENTIAL, STIFFNESS]);
     let bend = gamma * (last_flow - first_flow);
     let quadrature = first_flow + bend;
     let change = travel - quadrature;
     let end = start + change;
 
-    let end_potential = last.potential(simd, dampers);
     let area = end_potential - potential + bend * bend;
     let max_correction = (change * splat(simd, MAX_CORRECTION)).abs();
     let correction = (area / change - quadrature)
@@ -130,7 +131,7 @@ pub(super) fn step<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
 
     let stretch = ((end + rest_rounder) - correction) - rest_rounder;
     let potential = end_potential - last_flow * correction;
-    let magnitude = (stretch.abs() - half_clearance).max(zero) * last.stiffness(simd, dampers);
+    let magnitude = (stretch.abs() - half_clearance).max(zero) * stiffness;
     let limited = magnitude.min(force_limit).max(zero).min(splat(simd, MAX_FORCE_N));
     let force = limited.with_sign_of(stretch);
 
@@ -196,15 +197,15 @@ fn vectors<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
 fn columns<L, T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     simd: V::Simd,
     lanes: &[[L; W]; N],
-    row: impl Fn(&L) -> [T; 4],
+    copy: impl Fn(&L, &mut [T; 4]),
 ) -> [Vectors<V, N>; 4] {
     let mut columns = [Vectors([V::splat(simd, 0.0); N]); 4];
     for vector in 0..N {
         let mut rows = [[T::ZERO; 4]; W];
         for lane in 0..W {
-            rows[lane] = row(&lanes[vector][lane]);
+            copy(&lanes[vector][lane], &mut rows[lane]);
         }
-        let found = V::columns(simd, rows);
+        let found = V::columns(simd, &rows);
         for column in 0..4 {
             columns[column].0[vector] = found[column];
         }
@@ -217,105 +218,83 @@ fn state_numbers<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     simd: V::Simd,
     states: &[[DamperState<T>; W]; N],
 ) -> [Vectors<V, N>; 4] {
-    columns(simd, states, DamperState::numbers)
+    columns(
+        simd,
+        states,
+        #[inline(always)]
+        |state, row| *row = [state.displacement, state.stretch, state.potential, state.force],
+    )
+}
+
+/// A piece and the next one.
+type Window<T> = [[T; 4]; 2 * ROWS_PER_PIECE];
+
+/// Returns the pieces from an entry of the table's bins on. No check remains in the compiled code.
+#[inline(always)]
+fn window<T: Real>(damper: &Damper<T>, entry: u8) -> &Window<T> {
+    let rows = damper.table.pieces.as_flattened();
+    let start = ROWS_PER_PIECE / 2 * usize::from(entry);
+    let window = rows[start..start + 2 * ROWS_PER_PIECE].first_chunk();
+    window.expect("two pieces")
 }
 
 /// The piece of each lane's table that contains the reach of a stage, and the reach beyond its knot (m).
-struct Located<V, const W: usize, const N: usize> {
-    pieces: [[usize; W]; N],
+struct Located<'a, T, V, const W: usize, const N: usize> {
+    windows: [[&'a Window<T>; W]; N],
+    /// First row of the piece in its window.
+    rows: [[usize; W]; N],
     z: Vectors<V, N>,
 }
 
 /// See [`crate::table::locate`].
 #[inline(always)]
-fn locate<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
+fn locate<'a, T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     simd: V::Simd,
-    dampers: &Dampers<'_, T, W, N>,
+    dampers: &Dampers<'a, T, W, N>,
     reach: Vectors<V, N>,
     direction: Vectors<V, N>,
-) -> Located<V, W, N> {
-    let mut pieces = [[0; W]; N];
+) -> Located<'a, T, V, W, N> {
+    let mut windows = [[window(dampers[0][0], 0); W]; N];
+    let mut rows = [[0; W]; N];
+    let mut z = reach;
     for vector in 0..N {
-        let entries = reach.0[vector].entries(direction.0[vector]);
+        let reach = reach.0[vector];
+        let entries = reach.entries(direction.0[vector]);
+        let mut knots = [[T::ZERO; 4]; W];
         for lane in 0..W {
-            let bins = dampers[vector][lane].table.bins.as_flattened();
-            pieces[vector][lane] = usize::from(bins[entries[lane] % bins.len()]);
+            let damper = dampers[vector][lane];
+            let entry = damper.table.bins.as_flattened()[entries[lane] % (2 * BINS)];
+            let window = window(damper, entry);
+            knots[lane] = window[KNOTS];
+            windows[vector][lane] = window;
         }
+        let [knot, next, ..] = V::columns(simd, &knots);
+        let passed = reach.is_above(next);
+        z.0[vector] = reach - V::select(passed, next, knot);
+        rows[vector] = V::rows_of_piece(passed);
     }
-    let [mut knot, next, second, _]: [Vectors<V, N>; 4] = pieces_columns(
-        simd,
-        dampers,
-        &pieces,
-        #[inline(always)]
-        |piece| {
-            let [next, second] = piece.next_knots;
-            [piece.knot, next, second, piece.padding]
-        },
-    );
-    for vector in 0..N {
-        let after_next = reach.0[vector].is_above(next.0[vector]);
-        let after_second = reach.0[vector].is_above(second.0[vector]);
-        let first = V::select(after_next, next.0[vector], knot.0[vector]);
-        knot.0[vector] = V::select(after_second, second.0[vector], first);
-        let (one, two) = (V::counts(after_next), V::counts(after_second));
-        for lane in 0..W {
-            pieces[vector][lane] += one[lane] + two[lane];
-        }
-    }
-    Located {
-        pieces,
-        z: reach - knot,
-    }
+    Located { windows, rows, z }
 }
 
-/// Vectors of four numbers of a piece of each lane.
-#[inline(always)]
-fn pieces_columns<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
-    simd: V::Simd,
-    dampers: &Dampers<'_, T, W, N>,
-    pieces: &[[usize; W]; N],
-    row: impl Fn(&Piece<T>) -> [T; 4],
-) -> [Vectors<V, N>; 4] {
-    let mut columns = [Vectors([V::splat(simd, 0.0); N]); 4];
-    for vector in 0..N {
-        let mut rows = [[T::ZERO; 4]; W];
-        for lane in 0..W {
-            let all = &dampers[vector][lane].table.pieces;
-            rows[lane] = row(&all[pieces[vector][lane] % (2 * PIECES)]);
+impl<T: Real, V: Vector<T, W>, const W: usize, const N: usize> Located<'_, T, V, W, N> {
+    /// Evaluates the cubics in the given rows of each lane's piece; see [`crate::table::cubic`].
+    #[inline(always)]
+    fn cubics<const C: usize>(&self, simd: V::Simd, cubics: [usize; C]) -> [Vectors<V, N>; C] {
+        let mut results = [self.z; C];
+        for vector in 0..N {
+            let mut numbers = [[[T::ZERO; 4]; W]; C];
+            for lane in 0..W {
+                let window = self.windows[vector][lane];
+                for cubic in 0..C {
+                    numbers[cubic][lane] = window[self.rows[vector][lane] + cubics[cubic]];
+                }
+            }
+            let z = self.z.0[vector];
+            for cubic in 0..C {
+                let [c0, c1, c2, c3] = V::columns(simd, &numbers[cubic]);
+                results[cubic].0[vector] = (c3 * z + c2) * (z * z) + (c1 * z + c0);
+            }
         }
-        let found = V::columns(simd, rows);
-        for column in 0..4 {
-            columns[column].0[vector] = found[column];
-        }
+        results
     }
-    columns
-}
-
-macro_rules! cubic {
-    ($($name:ident),*) => {$(
-        /// See [`crate::table::cubic`].
-        #[inline(always)]
-        fn $name<T: Real>(
-            &self,
-            simd: V::Simd,
-            dampers: &Dampers<'_, T, W, N>,
-        ) -> Vectors<V, N>
-        where
-            V: Vector<T, W>,
-        {
-            let [c0, c1, c2, c3]: [Vectors<V, N>; 4] = pieces_columns(
-                simd,
-                dampers,
-                &self.pieces,
-                #[inline(always)]
-                |piece| piece.$name,
-            );
-            let z = self.z;
-            (c3 * z + c2) * (z * z) + (c1 * z + c0)
-        }
-    )*};
-}
-
-impl<V, const W: usize, const N: usize> Located<V, W, N> {
-    cubic!(flow, potential, stiffness);
 }

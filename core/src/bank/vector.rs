@@ -6,9 +6,12 @@
 use core::ops::{Add, BitOr, Div, Mul, Neg, Sub};
 
 use fearless_simd::prelude::*;
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::x86::Avx2;
 use fearless_simd::{f32x4, f32x8, f64x4, u32x8, u64x4};
 
 use crate::bins::{BINS, bin_shift};
+use crate::table::ROWS_PER_PIECE;
 
 /// Vector of `W` numbers.
 pub(super) trait Vector<T, const W: usize>:
@@ -20,7 +23,7 @@ pub(super) trait Vector<T, const W: usize>:
     + Neg<Output = Self>
 {
     /// Token of the vector instructions.
-    type Simd: Simd;
+    type Simd: Halves;
     /// Truth of each lane.
     type Mask: Copy + BitOr<Output = Self::Mask>;
 
@@ -28,7 +31,7 @@ pub(super) trait Vector<T, const W: usize>:
     fn splat(simd: Self::Simd, value: f64) -> Self;
     fn array(self) -> [T; W];
     /// Vector `i` of the result contains number `i` of every row.
-    fn columns(simd: Self::Simd, rows: [[T; 4]; W]) -> [Self; 4];
+    fn columns(simd: Self::Simd, rows: &[[T; 4]; W]) -> [Self; 4];
     /// Inverse of [`Vector::columns`].
     fn rows(columns: [Self; 4]) -> [[T; 4]; W];
     fn abs(self) -> Self;
@@ -47,8 +50,8 @@ pub(super) trait Vector<T, const W: usize>:
     fn is_beyond(self, doubled_bits: Self) -> Self::Mask;
     /// One bit for each lane.
     fn bits(mask: Self::Mask) -> u64;
-    /// One for each true lane, else zero.
-    fn counts(mask: Self::Mask) -> [usize; W];
+    /// Rows of a piece for each true lane, else zero.
+    fn rows_of_piece(mask: Self::Mask) -> [usize; W];
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
     /// Index of the entry of the table's bins: two for each bin, the second for a negative direction.
     fn entries(self, direction: Self) -> [usize; W];
@@ -56,7 +59,7 @@ pub(super) trait Vector<T, const W: usize>:
 
 macro_rules! vector {
     ($float:ident, $width:literal, $vector:ident, $words:ident, $word:ident, $split:ident) => {
-        impl<S: Simd> Vector<$float, $width> for $vector<S> {
+        impl<S: Halves> Vector<$float, $width> for $vector<S> {
             type Simd = S;
             type Mask = <Self as SimdBase<S>>::Mask;
 
@@ -73,7 +76,7 @@ macro_rules! vector {
                 self.into()
             }
             #[inline(always)]
-            fn columns(simd: S, rows: [[$float; 4]; $width]) -> [Self; 4] {
+            fn columns(simd: S, rows: &[[$float; 4]; $width]) -> [Self; 4] {
                 $split::columns(simd, rows)
             }
             #[inline(always)]
@@ -133,13 +136,13 @@ macro_rules! vector {
                 mask.to_bitmask()
             }
             #[inline(always)]
-            fn counts(mask: Self::Mask) -> [usize; $width] {
-                let truths: [_; $width] = mask.to_vector().into();
-                let mut counts = [0; $width];
+            fn rows_of_piece(mask: Self::Mask) -> [usize; $width] {
+                let bits = mask.to_bitmask();
+                let mut rows = [0; $width];
                 for lane in 0..$width {
-                    counts[lane] = truths[lane].wrapping_neg() as usize;
+                    rows[lane] = ROWS_PER_PIECE * (bits >> lane & 1) as usize;
                 }
-                counts
+                rows
             }
             #[inline(always)]
             fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self {
@@ -170,39 +173,31 @@ mod eight {
     use super::*;
 
     #[inline(always)]
-    pub(super) fn columns<S: Simd>(
-        simd: S,
-        [a, b, c, d, e, f, g, h]: [[f32; 4]; 8],
-    ) -> [f32x8<S>; 4] {
-        let low = transpose([load(simd, a), load(simd, b), load(simd, c), load(simd, d)]);
-        let high = transpose([load(simd, e), load(simd, f), load(simd, g), load(simd, h)]);
-        [
-            low[0].combine(high[0]),
-            low[1].combine(high[1]),
-            low[2].combine(high[2]),
-            low[3].combine(high[3]),
-        ]
+    pub(super) fn columns<S: Halves>(simd: S, rows: &[[f32; 4]; 8]) -> [f32x8<S>; 4] {
+        let [a, b, c, d, e, f, g, h] = rows;
+        simd.transposed([
+            load(simd, a).combine(load(simd, e)),
+            load(simd, b).combine(load(simd, f)),
+            load(simd, c).combine(load(simd, g)),
+            load(simd, d).combine(load(simd, h)),
+        ])
     }
 
     #[inline(always)]
-    pub(super) fn rows<S: Simd>([a, b, c, d]: [f32x8<S>; 4]) -> [[f32; 4]; 8] {
-        let (a, b, c, d) = (a.split(), b.split(), c.split(), d.split());
-        let [e, f, g, h] = transpose([a.1, b.1, c.1, d.1]);
-        let [a, b, c, d] = transpose([a.0, b.0, c.0, d.0]);
-        [a.into(), b.into(), c.into(), d.into(), e.into(), f.into(), g.into(), h.into()]
+    pub(super) fn rows<S: Halves>(columns: [f32x8<S>; 4]) -> [[f32; 4]; 8] {
+        let columns = columns[0].token().transposed(columns);
+        let mut rows = [[0.0; 4]; 8];
+        for row in 0..4 {
+            let (low, high) = columns[row].split();
+            low.store_slice(&mut rows[row]);
+            high.store_slice(&mut rows[row + 4]);
+        }
+        rows
     }
 
     #[inline(always)]
-    fn load<S: Simd>(simd: S, row: [f32; 4]) -> f32x4<S> {
-        row.simd_into(simd)
-    }
-
-    #[inline(always)]
-    fn transpose<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
-        let (even, odd) = (a.interleave(c), b.interleave(d));
-        let (first, second) = even.0.interleave(odd.0);
-        let (third, last) = even.1.interleave(odd.1);
-        [first, second, third, last]
+    fn load<S: Simd>(simd: S, row: &[f32; 4]) -> f32x4<S> {
+        f32x4::from_slice(simd, row)
     }
 }
 
@@ -211,23 +206,24 @@ mod four {
     use super::*;
 
     #[inline(always)]
-    pub(super) fn columns<S: Simd>(simd: S, [a, b, c, d]: [[f64; 4]; 4]) -> [f64x4<S>; 4] {
-        transpose([load(simd, a), load(simd, b), load(simd, c), load(simd, d)])
+    pub(super) fn columns<S: Simd>(simd: S, rows: &[[f64; 4]; 4]) -> [f64x4<S>; 4] {
+        let [a, b, c, d] = rows;
+        transposed([load(simd, a), load(simd, b), load(simd, c), load(simd, d)])
     }
 
     #[inline(always)]
     pub(super) fn rows<S: Simd>(columns: [f64x4<S>; 4]) -> [[f64; 4]; 4] {
-        let [a, b, c, d] = transpose(columns);
+        let [a, b, c, d] = transposed(columns);
         [a.into(), b.into(), c.into(), d.into()]
     }
 
     #[inline(always)]
-    fn load<S: Simd>(simd: S, row: [f64; 4]) -> f64x4<S> {
-        row.simd_into(simd)
+    fn load<S: Simd>(simd: S, row: &[f64; 4]) -> f64x4<S> {
+        f64x4::from_slice(simd, row)
     }
 
     #[inline(always)]
-    fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
+    fn transposed<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
         let (a, b, c, d) = (a.split(), b.split(), c.split(), d.split());
         let (top, top_right) = (a.0.interleave(b.0), a.1.interleave(b.1));
         let (low, low_right) = (c.0.interleave(d.0), c.1.interleave(d.1));
@@ -239,6 +235,70 @@ mod four {
         ]
     }
 }
+
+/// Tokens that transpose within the halves of vectors.
+pub(crate) trait Halves: Simd {
+    /// Transposes the low halves of four vectors, and their high halves.
+    #[inline(always)]
+    fn transposed(self, [a, b, c, d]: [f32x8<Self>; 4]) -> [f32x8<Self>; 4] {
+        let (a, b, c, d) = (a.split(), b.split(), c.split(), d.split());
+        let low = transposed([a.0, b.0, c.0, d.0]);
+        let high = transposed([a.1, b.1, c.1, d.1]);
+        [
+            low[0].combine(high[0]),
+            low[1].combine(high[1]),
+            low[2].combine(high[2]),
+            low[3].combine(high[3]),
+        ]
+    }
+}
+
+#[inline(always)]
+fn transposed<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
+    let (even, odd) = (a.interleave(c), b.interleave(d));
+    let (first, second) = even.0.interleave(odd.0);
+    let (third, last) = even.1.interleave(odd.1);
+    [first, second, third, last]
+}
+
+#[cfg(target_arch = "aarch64")]
+impl Halves for fearless_simd::aarch64::Neon {}
+
+#[cfg(target_arch = "x86_64")]
+impl Halves for fearless_simd::x86::Sse2 {}
+
+#[cfg(target_arch = "x86_64")]
+impl Halves for Avx2 {
+    #[inline(always)]
+    fn transposed(self, [a, b, c, d]: [f32x8<Self>; 4]) -> [f32x8<Self>; 4] {
+        transposed_avx2(self, a, b, c, d)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fearless_simd::kernel!(
+    /// [`Halves::transposed`] with the instructions that work on both halves.
+    #[inline(always)]
+    fn transposed_avx2(
+        avx2: Avx2,
+        a: f32x8<Avx2>,
+        b: f32x8<Avx2>,
+        c: f32x8<Avx2>,
+        d: f32x8<Avx2>,
+    ) -> [f32x8<Avx2>; 4] {
+        use core::arch::x86_64::{_mm256_shuffle_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps};
+        let low = _mm256_unpacklo_ps(a.into(), b.into());
+        let high = _mm256_unpackhi_ps(a.into(), b.into());
+        let low_right = _mm256_unpacklo_ps(c.into(), d.into());
+        let high_right = _mm256_unpackhi_ps(c.into(), d.into());
+        [
+            _mm256_shuffle_ps::<0x44>(low, low_right).simd_into(avx2),
+            _mm256_shuffle_ps::<0xEE>(low, low_right).simd_into(avx2),
+            _mm256_shuffle_ps::<0x44>(high, high_right).simd_into(avx2),
+            _mm256_shuffle_ps::<0xEE>(high, high_right).simd_into(avx2),
+        ]
+    }
+);
 
 /// `N` vectors. The processor works on one while another waits for a result.
 #[derive(Clone, Copy)]

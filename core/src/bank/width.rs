@@ -3,6 +3,8 @@
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use fearless_simd::{Level, Simd, f32x8, f64x4};
 
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::vector::Halves;
 use super::Bank;
 use crate::real::Real;
 
@@ -77,13 +79,13 @@ fn baseline() -> fearless_simd::aarch64::Neon {
 pub(crate) trait Groups: Sized {
     /// Steps the dampers in whole groups; returns the other dampers.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    fn step_groups<S: Simd>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
+    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
 }
 
 impl Groups for f32 {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
-    fn step_groups<S: Simd>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
+    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
         let left = bank.step_groups::<f32x8<S>, 8, 2>(simd);
         left.step_groups::<f32x8<S>, 8, 1>(simd)
     }
@@ -92,7 +94,7 @@ impl Groups for f32 {
 impl Groups for f64 {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
-    fn step_groups<S: Simd>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
+    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
         bank.step_groups::<f64x4<S>, 4, 2>(simd)
     }
 }
