@@ -226,23 +226,33 @@ fn state_numbers<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     )
 }
 
-/// A piece and the next one.
-type Window<T> = [[T; 4]; 2 * ROWS_PER_PIECE];
+/// Number of numbers of a piece.
+pub(super) const NUMBERS_PER_PIECE: usize = 4 * ROWS_PER_PIECE;
+
+/// Numbers of a piece and of the next one.
+type Window<T> = [T; 2 * NUMBERS_PER_PIECE];
 
 /// Returns the pieces from an entry of the table's bins on. No check remains in the compiled code.
 #[inline(always)]
 fn window<T: Real>(damper: &Damper<T>, entry: u8) -> &Window<T> {
-    let rows = damper.table.pieces.as_flattened();
-    let start = ROWS_PER_PIECE / 2 * usize::from(entry);
-    let window = rows[start..start + 2 * ROWS_PER_PIECE].first_chunk();
+    let numbers = damper.table.pieces.as_flattened().as_flattened();
+    let start = NUMBERS_PER_PIECE / 2 * usize::from(entry);
+    let window = numbers[start..start + 2 * NUMBERS_PER_PIECE].first_chunk();
     window.expect("two pieces")
+}
+
+/// Returns a row of the piece that starts at a number of the window. No check remains in the compiled code.
+#[inline(always)]
+fn row<T: Real>(window: &Window<T>, piece: usize, row: usize) -> &[T; 4] {
+    let start = (piece & NUMBERS_PER_PIECE) + 4 * row;
+    window[start..start + 4].first_chunk().expect("four numbers")
 }
 
 /// The piece of each lane's table that contains the reach of a stage, and the reach beyond its knot (m).
 struct Located<'a, T, V, const W: usize, const N: usize> {
     windows: [[&'a Window<T>; W]; N],
-    /// First row of the piece in its window.
-    rows: [[usize; W]; N],
+    /// First number of the piece in its window.
+    pieces: [[usize; W]; N],
     z: Vectors<V, N>,
 }
 
@@ -255,7 +265,7 @@ fn locate<'a, T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     direction: Vectors<V, N>,
 ) -> Located<'a, T, V, W, N> {
     let mut windows = [[window(dampers[0][0], 0); W]; N];
-    let mut rows = [[0; W]; N];
+    let mut pieces = [[0; W]; N];
     let mut z = reach;
     for vector in 0..N {
         let reach = reach.0[vector];
@@ -265,15 +275,15 @@ fn locate<'a, T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
             let damper = dampers[vector][lane];
             let entry = damper.table.bins.as_flattened()[entries[lane] % (2 * BINS)];
             let window = window(damper, entry);
-            knots[lane] = window[KNOTS];
+            knots[lane] = *row(window, 0, KNOTS);
             windows[vector][lane] = window;
         }
         let [knot, next, ..] = V::columns(simd, &knots);
         let passed = reach.is_above(next);
         z.0[vector] = reach - V::select(passed, next, knot);
-        rows[vector] = V::rows_of_piece(passed);
+        pieces[vector] = V::numbers_of_piece(passed);
     }
-    Located { windows, rows, z }
+    Located { windows, pieces, z }
 }
 
 impl<T: Real, V: Vector<T, W>, const W: usize, const N: usize> Located<'_, T, V, W, N> {
@@ -284,9 +294,9 @@ impl<T: Real, V: Vector<T, W>, const W: usize, const N: usize> Located<'_, T, V,
         for vector in 0..N {
             let mut numbers = [[[T::ZERO; 4]; W]; C];
             for lane in 0..W {
-                let window = self.windows[vector][lane];
+                let (window, piece) = (self.windows[vector][lane], self.pieces[vector][lane]);
                 for cubic in 0..C {
-                    numbers[cubic][lane] = window[self.rows[vector][lane] + cubics[cubic]];
+                    numbers[cubic][lane] = *row(window, piece, cubics[cubic]);
                 }
             }
             let z = self.z.0[vector];

@@ -11,7 +11,7 @@ use fearless_simd::x86::Avx2;
 use fearless_simd::{f32x4, f32x8, f64x4, u32x8, u64x4};
 
 use crate::bins::{BINS, bin_shift};
-use crate::table::ROWS_PER_PIECE;
+use super::group::NUMBERS_PER_PIECE;
 
 /// Vector of `W` numbers.
 pub(super) trait Vector<T, const W: usize>:
@@ -50,8 +50,8 @@ pub(super) trait Vector<T, const W: usize>:
     fn is_beyond(self, doubled_bits: Self) -> Self::Mask;
     /// One bit for each lane.
     fn bits(mask: Self::Mask) -> u64;
-    /// Rows of a piece for each true lane, else zero.
-    fn rows_of_piece(mask: Self::Mask) -> [usize; W];
+    /// [`NUMBERS_PER_PIECE`] for each true lane, else zero.
+    fn numbers_of_piece(mask: Self::Mask) -> [usize; W];
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
     /// Index of the entry of the table's bins: two for each bin, the second for a negative direction.
     fn entries(self, direction: Self) -> [usize; W];
@@ -136,13 +136,14 @@ macro_rules! vector {
                 mask.to_bitmask()
             }
             #[inline(always)]
-            fn rows_of_piece(mask: Self::Mask) -> [usize; $width] {
-                let bits = mask.to_bitmask();
-                let mut rows = [0; $width];
+            fn numbers_of_piece(mask: Self::Mask) -> [usize; $width] {
+                let numbers: $words<S> = mask.to_vector().bitcast();
+                let words: [$word; $width] = (numbers & NUMBERS_PER_PIECE as $word).into();
+                let mut numbers = [0; $width];
                 for lane in 0..$width {
-                    rows[lane] = ROWS_PER_PIECE * (bits >> lane & 1) as usize;
+                    numbers[lane] = words[lane] as usize;
                 }
-                rows
+                numbers
             }
             #[inline(always)]
             fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self {

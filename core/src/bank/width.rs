@@ -1,16 +1,37 @@
 //! Width of the vectors of a bank.
 
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Simd, x86::Avx2};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use fearless_simd::{Level, Simd, f32x8, f64x4};
+use fearless_simd::{Level, f32x8, f64x4};
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::vector::Halves;
 use super::Bank;
 use crate::real::Real;
 
-/// Width of the vectors in which a bank is stepped: a token that proves that the processor has the instructions.
+/// Vector instructions with which a bank is stepped: a token that proves that the processor has them.
 ///
-/// The bits of forces and states are the same for every width.
+/// The bits of forces and states are the same for every width. Make the token once and keep it.
+///
+/// ```
+/// # #[cfg(feature = "builder")] {
+/// use dashpot_core::parameters::{DamperParameters, Mount};
+/// use dashpot_core::{Damper, VectorWidth, step_bank_with};
+///
+/// # #[cfg(feature = "std")]
+/// let width = VectorWidth::detect();
+/// # #[cfg(not(feature = "std"))]
+/// # let width = VectorWidth::BASELINE;
+/// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
+/// let damper: Damper<f32> = parameters.build(1e-3)?;
+/// let mut states = [damper.at_rest(0.0); 16];
+/// let mut forces = [0.0; 16];
+/// step_bank_with(width, &[&damper; 16], &mut states, &[1e-4; 16], &mut forces);
+/// assert_eq!(forces[15], damper.step(&mut damper.at_rest(0.0), 1e-4));
+/// # }
+/// # Ok::<(), dashpot_core::BuildError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct VectorWidth(Width);
 
@@ -18,20 +39,45 @@ pub struct VectorWidth(Width);
 enum Width {
     Baseline,
     #[cfg(target_arch = "x86_64")]
-    Avx2(fearless_simd::x86::Avx2),
+    Avx2(Avx2),
 }
 
 impl VectorWidth {
-    /// Vectors that every processor of the architecture has.
+    /// Vectors that every processor of the architecture has: SSE2 on x86-64, NEON on 64-bit Arm. On other processors
+    /// dampers are stepped one by one.
     pub const BASELINE: Self = Self(Width::Baseline);
 
     /// Finds the widest vectors of this processor.
     #[cfg(feature = "std")]
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if let Some(avx2) = fearless_simd::Level::new().as_avx2() {
+        if let Some(avx2) = Level::new().as_avx2() {
             return Self(Width::Avx2(avx2));
         }
+        Self::BASELINE
+    }
+
+    /// Name of the instruction set: `AVX2`, `SSE2`, `NEON` or `none`.
+    ///
+    /// ```
+    /// use dashpot_core::VectorWidth;
+    ///
+    /// assert!(["SSE2", "NEON", "none"].contains(&VectorWidth::BASELINE.name()));
+    /// ```
+    pub const fn name(self) -> &'static str {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Width::Avx2(_) => "AVX2",
+            Width::Baseline if cfg!(target_arch = "x86_64") => "SSE2",
+            Width::Baseline if cfg!(target_arch = "aarch64") => "NEON",
+            Width::Baseline => "none",
+        }
+    }
+}
+
+impl Default for VectorWidth {
+    /// [`VectorWidth::BASELINE`].
+    fn default() -> Self {
         Self::BASELINE
     }
 }
@@ -54,7 +100,7 @@ impl VectorWidth {
 /// A separate function, which enables the instructions.
 #[cfg(target_arch = "x86_64")]
 #[inline(never)]
-fn wide<T: Real>(avx2: fearless_simd::x86::Avx2, bank: Bank<'_, T>) -> Bank<'_, T> {
+fn wide<T: Real>(avx2: Avx2, bank: Bank<'_, T>) -> Bank<'_, T> {
     avx2.vectorize(
         #[inline(always)]
         || T::step_groups(avx2, bank),
