@@ -36,7 +36,23 @@ impl<T: Real> Damper<T> {
     /// restarts at rest and latches [`Status::CORRUPTED`].
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
-        let [force] = step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
+        let (dampers, states) = ([self], core::array::from_mut(state));
+        let travel = displacement - states[0].displacement;
+        if is_usual::<T, T, 1>(dampers, states, displacement, travel) {
+            let [force] = advance::<T, T, 1>(dampers, states, travel);
+            force
+        } else {
+            self.unusual_step(state, displacement)
+        }
+    }
+
+    /// Steps with an unusual input or state. It has the arguments and the result of [`Damper::step`], so a step jumps
+    /// here without a stack frame of its own.
+    #[cold]
+    #[inline(never)]
+    fn unusual_step(&self, state: &mut DamperState<T>, displacement: T) -> T {
+        let travel = unusual::travel(self, state, displacement);
+        let [force] = advance::<T, T, 1>([self], core::array::from_mut(state), travel);
         force
     }
 
@@ -66,7 +82,7 @@ impl<T: Real> Damper<T> {
     }
 }
 
-/// Steps `L` dampers; returns their forces (N).
+/// Steps a group of `L` dampers; returns their forces (N).
 #[inline(always)]
 pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
     dampers: [&Damper<T>; L],
@@ -98,12 +114,12 @@ fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
         .zip(states)
         .all(|(damper, state)| damper.revision == state.revision);
     known
+        && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
         && travel.all_within(dampers.map(|damper| &damper.scalars.move_bound))
         && displacement.all_within(dampers.map(|damper| &damper.scalars.displacement_bound))
-        && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
 }
 
-/// Steps a damper whose input or state is unusual. This separate copy lets the usual step call no function.
+/// Steps a group in which an input or a state is unusual. This separate copy lets the usual step call no function.
 #[cold]
 #[inline(never)]
 fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(

@@ -5,6 +5,8 @@
 //! The exponent and the leading bits of the fraction of the reach select a bin, with 128 bins for each doubling. A bin
 //! contains the piece at its lower border. At most one knot lies within a bin, so one comparison finds the piece.
 
+use core::hint::select_unpredictable;
+
 use crate::bins::{BINS, bin_shift};
 use crate::checksum;
 use crate::math::Lanes;
@@ -190,15 +192,17 @@ pub(crate) fn locate<T: Copy, V: Lanes<T, L>, const L: usize>(
 ) -> ([&Piece<T>; L], V) {
     let (bins, sides) = (reach.bins(), direction.sign_bits());
     let first: [usize; L] = core::array::from_fn(|lane| {
-        usize::from(tables[lane].bins[bins[lane] % BINS][sides[lane] % 2])
+        // In this order the address takes one addition and the load a shift.
+        let entries = &tables[lane].bins.as_flattened()[sides[lane] % 2..];
+        usize::from(entries[2 * (bins[lane] % BINS)])
     });
-    // A slice that starts at the first piece, from which the second is taken: its address is then one addition.
     let rows: [&[[T; 4]]; L] = core::array::from_fn(|lane| {
         &tables[lane].pieces.as_flattened()[ROWS_PER_PIECE / 2 * first[lane]..]
     });
     let passed = reach.exceeds(V::new(rows.map(|rows| rows[KNOTS][1])));
     let pieces = core::array::from_fn(|lane| {
-        let rows = &rows[lane][ROWS_PER_PIECE * usize::from(passed[lane])..];
+        // One conditional addition to the address; a product with `passed` takes two instructions more.
+        let rows = select_unpredictable(passed[lane], &rows[lane][ROWS_PER_PIECE..], rows[lane]);
         rows.first_chunk().unwrap_or(&tables[lane].pieces[0])
     });
     let knot = V::new(pieces.map(|piece: &Piece<T>| piece[KNOTS][0]));

@@ -71,10 +71,11 @@ macro_rules! single_lane {
             fn abs(self) -> Self {
                 $float::abs(self)
             }
-            // Each variant is one instruction on its processors. The variants differ only for NaN and signed zeros.
+            // Each variant takes the fewest instructions on its processors. The variants differ only for NaN and signed
+            // zeros.
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                if cfg!(target_arch = "arm") {
+                if cfg!(has_maximum) {
                     $float::max(self, other)
                 } else if self > other {
                     self
@@ -84,7 +85,7 @@ macro_rules! single_lane {
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                if cfg!(target_arch = "arm") {
+                if cfg!(has_maximum) {
                     $float::min(self, other)
                 } else if self < other {
                     self
@@ -119,9 +120,8 @@ macro_rules! single_lane {
             }
             #[inline(always)]
             fn exceeds(self, limit: Self) -> [bool; 1] {
-                // The bits of positive numbers are in the same order as the numbers, so the top bit of their difference
-                // tells. Shifted, it is the distance to the next piece; a comparison takes two instructions more.
-                [limit.to_bits().wrapping_sub(self.to_bits()) >> ($bits::BITS - 1) != 0]
+                // The bits of positive numbers are in the same order as the numbers.
+                [self.to_bits() > limit.to_bits()]
             }
             #[inline(always)]
             fn sign_bits(self) -> [usize; 1] {
