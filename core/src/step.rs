@@ -82,19 +82,17 @@ impl<T: Real> Damper<T> {
     }
 }
 
-/// Steps a group of `L` dampers; returns their forces (N).
-#[inline(always)]
-pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
-    dampers: [&Damper<T>; L],
-    states: &mut [DamperState<T>; L],
-    displacements: [T; L],
-) -> [T; L] {
-    let displacement = V::new(displacements);
-    let travel = displacement - V::new(states.each_ref().map(|state| state.displacement));
-    if is_usual(dampers, states, displacement, travel) {
-        advance(dampers, states, travel)
+/// Travel (m) of a damper in a group in which an input or a state is unusual, as its own step takes it.
+pub(crate) fn travel<T: Real>(
+    damper: &Damper<T>,
+    state: &mut DamperState<T>,
+    displacement: T,
+) -> T {
+    let travel = displacement - state.displacement;
+    if is_usual::<T, T, 1>([damper], core::array::from_mut(state), displacement, travel) {
+        travel
     } else {
-        unusual_step::<T, V, L>(dampers, states, displacements)
+        unusual::travel(damper, state, displacement)
     }
 }
 
@@ -117,21 +115,6 @@ fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
         && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
         && travel.all_within(dampers.map(|damper| &damper.scalars.move_bound))
         && displacement.all_within(dampers.map(|damper| &damper.scalars.displacement_bound))
-}
-
-/// Steps a group in which an input or a state is unusual. This separate copy lets the usual step call no function.
-#[cold]
-#[inline(never)]
-fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(
-    dampers: [&Damper<T>; L],
-    states: &mut [DamperState<T>; L],
-    displacements: [T; L],
-) -> [T; L] {
-    let mut travels = displacements;
-    for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travels) {
-        *travel = unusual::travel(damper, state, *travel);
-    }
-    advance(dampers, states, V::new(travels))
 }
 
 /// Moves the ends of `L` dampers by the given travels (m) and returns the forces (N).

@@ -9,9 +9,8 @@ use crate::real::Real;
 use crate::stages::GAMMA;
 use crate::state::DamperState;
 use crate::status::Status;
-use crate::step::MAX_CORRECTION;
+use crate::step::{self, MAX_CORRECTION};
 use crate::table::{FLOW, KNOTS, POTENTIAL, ROWS_PER_PIECE, STIFFNESS};
-use crate::unusual;
 
 /// Dampers of a group: `N` vectors of `W` lanes.
 type Dampers<'a, T, const W: usize, const N: usize> = [[&'a Damper<T>; W]; N];
@@ -34,7 +33,7 @@ impl<'a, T: Real> Bank<'a, T> {
         let forces = forces.as_chunks_mut().0.as_chunks_mut().0;
         let groups = dampers.iter().zip(states).zip(displacements).zip(forces);
         for (((dampers, states), displacements), forces) in groups {
-            step::<T, V, W, N>(simd, dampers, states, displacements, forces);
+            step_group::<T, V, W, N>(simd, dampers, states, displacements, forces);
         }
         Self {
             dampers: dampers_left,
@@ -47,7 +46,7 @@ impl<'a, T: Real> Bank<'a, T> {
 
 /// Steps `N` times `W` dampers.
 #[inline(always)]
-pub(super) fn step<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
+fn step_group<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     simd: V::Simd,
     dampers: &Dampers<'_, T, W, N>,
     states: &mut [[DamperState<T>; W]; N],
@@ -167,7 +166,7 @@ fn travels<T: Real, const W: usize, const N: usize>(
     let mut travels = *displacements;
     let lanes = dampers.as_flattened().iter().zip(states.as_flattened_mut());
     for ((damper, state), travel) in lanes.zip(travels.as_flattened_mut()) {
-        *travel = unusual::travel(damper, state, *travel);
+        *travel = step::travel(damper, state, *travel);
     }
     travels
 }
