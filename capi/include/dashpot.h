@@ -57,7 +57,7 @@
 /**
  * Size of a dashpot_damper (bytes).
  */
-#define DASHPOT_DAMPER_SIZE 12352
+#define DASHPOT_DAMPER_SIZE 12480
 
 /**
  * Alignment of a dashpot_damper (bytes).
@@ -67,7 +67,7 @@
 /**
  * Size of a dashpot_damper (words).
  */
-#define DASHPOT_DAMPER_WORDS 3088
+#define DASHPOT_DAMPER_WORDS 3120
 
 /**
  * Size of a dashpot_state (bytes).
@@ -123,7 +123,7 @@
 /**
  * Number of calls of `dashpot_check_slice` that check a whole damper.
  */
-#define DASHPOT_CHECK_SLICES 769
+#define DASHPOT_CHECK_SLICES 777
 
 /**
  * A displacement was not finite, out of range, or too far away to catch up with. The last good one was held.

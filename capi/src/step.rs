@@ -1,13 +1,20 @@
 //! The step of one damper and of several.
 
-use core::ptr;
+use core::{ptr, slice};
 
-use dashpot_core::{Damper, DamperState};
+use dashpot_core::{Damper, DamperState, VectorWidth, step_bank_with};
 
 use crate::damper::made;
 use crate::error::DashpotError;
 use crate::pointer::{Memory, check, check_count, exclusive, shared};
 use crate::types::{DashpotDamper, DashpotState};
+
+/// Dampers that are stepped together. Where the core has no vectors, stepping them one by one needs no copies.
+const GROUP: usize = if cfg!(any(target_arch = "x86_64", target_arch = "aarch64")) {
+    16
+} else {
+    1
+};
 
 /// Refuses uninitialised memory. A state that this damper stepped last is recognised by its revision.
 fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), DashpotError> {
@@ -58,6 +65,9 @@ pub unsafe extern "C" fn dashpot_step(
 /// Steps several dampers. The forces are bit-identical to those of `dashpot_step`. After an error, no damper has
 /// stepped.
 ///
+/// On x86-64 and 64-bit Arm, dampers are stepped in groups of 16 and 8 with the vector instructions that every such
+/// processor has, SSE2 or NEON. The library does not look for wider ones, since that needs an operating system.
+///
 /// @param dampers          `count` pointers to dampers; one damper can serve several states
 /// @param states           `count` states, changed
 /// @param displacements_m  `count` displacements (m)
@@ -96,15 +106,28 @@ pub unsafe extern "C" fn dashpot_step_bank(
             // with this statement.
             check_state(damper, unsafe { shared(states.add(index).cast()) }?)?;
         }
-        for index in 0..count {
-            // SAFETY: the elements are within the caller's arrays and checked, and the caller keeps the contract. Each
-            // displacement is read before its force is written, so displacements and forces can be the same array.
+        let mut start = 0;
+        while start < count {
+            let group = GROUP.min(count - start);
+            // SAFETY: the elements are within the caller's arrays and checked, and the caller keeps the contract. The
+            // displacements are copied before the forces are written, so both can be the same array.
             unsafe {
-                let damper = made(*dampers.add(index))?;
-                let state: &mut DamperState<f32> = exclusive(states.add(index).cast())?;
-                let force = damper.step(state, displacements_m.add(index).read());
-                forces_n.add(index).write(force);
+                let first = made(*dampers.add(start))?;
+                let mut together = [first; GROUP];
+                let mut displacements = [0.0; GROUP];
+                for index in 0..group {
+                    together[index] = made(*dampers.add(start + index))?;
+                    displacements[index] = displacements_m.add(start + index).read();
+                }
+                step_bank_with(
+                    VectorWidth::BASELINE,
+                    &together[..group],
+                    slice::from_raw_parts_mut(states.add(start).cast(), group),
+                    &displacements,
+                    slice::from_raw_parts_mut(forces_n.add(start), group),
+                );
             }
+            start += group;
         }
         Ok(())
     };

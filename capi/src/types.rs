@@ -53,7 +53,7 @@ pub struct DashpotCheck {
 }
 
 /// Number of calls of `dashpot_check_slice` that check a whole damper.
-pub const DASHPOT_CHECK_SLICES: u32 = 769;
+pub const DASHPOT_CHECK_SLICES: u32 = 777;
 
 // The storage in C has the layout of the types of the core.
 const _: () = {

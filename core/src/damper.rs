@@ -6,8 +6,6 @@ use crate::revision;
 use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
-#[cfg(feature = "builder")]
-use crate::table::Piece;
 use crate::table::Table;
 
 /// A built damper: constants for one step size, shared by any number of states.
@@ -110,8 +108,8 @@ impl<T: Real> Damper<T> {
         }
     }
 
-    /// Bins of the reach: for each bin, the index of the piece at its lower border, in extension and in compression.
-    /// The pieces of compression follow those of extension.
+    /// Bins of the reach: for each bin, twice the index of the piece at its lower border, in extension and in
+    /// compression. The pieces of compression follow those of extension. At most one knot lies within a bin.
     ///
     /// A step in another language needs these bins and [`Damper::to_words`].
     pub fn bins(&self) -> &[[u8; 2]] {
@@ -144,7 +142,7 @@ impl<T: Real> Damper<T> {
     /// True if every scalar and every number of the table is finite.
     #[cfg(feature = "builder")]
     pub(crate) fn is_finite(&self) -> bool {
-        let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
+        let numbers = self.table.built_numbers();
         let scalars = self.scalars.as_array();
         scalars
             .iter()

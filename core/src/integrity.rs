@@ -106,6 +106,7 @@ mod tests {
     use super::{Check, Corrupted, SLICES};
     use crate::damper::Damper;
     use crate::status::Status;
+    use crate::table::FLOW;
 
     fn damper() -> Damper<f32> {
         crate::example::reduced_vertical()
@@ -142,7 +143,7 @@ mod tests {
     #[test]
     fn a_round_finds_a_change_of_the_table_or_of_the_scalars() {
         let mut table = damper();
-        let slope = &mut table.table.pieces[9].flow[1];
+        let slope = &mut table.table.pieces[9][FLOW][1];
         *slope = f32::from_bits(slope.to_bits() ^ 1);
         let mut scalars = damper();
         let offset = &mut scalars.scalars.offset;

@@ -40,7 +40,7 @@ mod table;
 pub mod telemetry;
 mod unusual;
 
-pub use bank::step_bank;
+pub use bank::{VectorWidth, step_bank, step_bank_with};
 #[cfg(feature = "builder")]
 pub use build::CheckedParameters;
 pub use checksum::crc_32;

@@ -3,8 +3,8 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::bank::Groups;
 use crate::math::Lanes;
-use crate::math::group::{self, GROUP};
 use crate::table::Table;
 
 /// Scalar of a damper, implemented only for `f32` and `f64`.
@@ -56,10 +56,7 @@ pub trait Real:
 
 /// Operations of a scalar for the step and the builder. The trait is private, so other crates can neither call them nor
 /// implement [`Real`].
-pub(crate) trait Scalar: Lanes<Self, 1> {
-    /// Numbers of a group of dampers.
-    type Group: Lanes<Self, GROUP>;
-
+pub(crate) trait Scalar: Lanes<Self, 1> + Groups {
     /// Distance from 1 to the next larger number.
     #[cfg(feature = "builder")]
     const EPSILON: f64;
@@ -87,7 +84,7 @@ pub(crate) trait Scalar: Lanes<Self, 1> {
 }
 
 macro_rules! real {
-    ($float:ident, $group:ident) => {
+    ($float:ident) => {
         impl Real for $float {
             const NAME: &'static str = stringify!($float);
             const ZERO: Self = 0.0;
@@ -112,8 +109,6 @@ macro_rules! real {
         }
 
         impl Scalar for $float {
-            type Group = group::$group;
-
             #[cfg(feature = "builder")]
             const EPSILON: f64 = $float::EPSILON as f64;
             const MANTISSA_DIGITS: u32 = $float::MANTISSA_DIGITS;
@@ -141,5 +136,5 @@ macro_rules! real {
     };
 }
 
-real!(f32, F32);
-real!(f64, F64);
+real!(f32);
+real!(f64);

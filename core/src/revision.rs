@@ -3,7 +3,7 @@
 use crate::real::Real;
 use crate::scalars::Scalars;
 #[cfg(feature = "builder")]
-use crate::table::{Piece, Table};
+use crate::table::Table;
 
 /// Initial value of the hash.
 pub(crate) const START: u32 = 0x811c_9dc5;
@@ -23,7 +23,7 @@ fn of_word(hash: u32, word: u64) -> u32 {
 /// Hash of a table.
 #[cfg(feature = "builder")]
 pub(crate) fn of_table<T: Real>(table: &Table<T>) -> u32 {
-    let numbers = table.pieces.iter().flat_map(Piece::numbers);
+    let numbers = table.built_numbers();
     of_words(START, numbers.map(|value| value.to_bits_u64()))
 }
 

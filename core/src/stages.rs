@@ -3,7 +3,7 @@
 use crate::damper::Damper;
 use crate::math::Lanes;
 use crate::real::Real;
-use crate::table::{Piece, Table, cubic, locate};
+use crate::table::{FLOW, POTENTIAL, Piece, STIFFNESS, Table, cubic, locate};
 
 /// Coefficient gamma, the weight of the implicit part of each stage.
 pub(crate) const GAMMA: f64 = 1.0 - core::f64::consts::FRAC_1_SQRT_2;
@@ -48,7 +48,7 @@ impl<'a, T: Real, V: Lanes<T, L>, const L: usize> Stages<'a, T, V, L> {
         // The maximum with a constant takes one instruction with every compiler; with a variable it can take eight.
         let beyond = (reach.abs() - self.offset).max(V::splat(0.0));
         let (pieces, z) = locate(self.tables, beyond + self.first_knot, reach);
-        let flow = cubic(pieces.map(|piece| piece.flow), z);
+        let flow = cubic(pieces.map(|piece| piece[FLOW]), z);
         Stage { flow, pieces, z }
     }
 
@@ -64,13 +64,13 @@ impl<T: Real, V: Lanes<T, L>, const L: usize> Stage<'_, T, V, L> {
     /// Flow potential times the step (m^2).
     #[inline(always)]
     pub(crate) fn potential(&self) -> V {
-        cubic(self.pieces.map(|piece| piece.potential), self.z)
+        cubic(self.pieces.map(|piece| piece[POTENTIAL]), self.z)
     }
 
     /// Ratio of the force to the stretch beyond the clearance (N/m).
     #[inline(always)]
     pub(crate) fn stiffness(&self) -> V {
-        cubic(self.pieces.map(|piece| piece.stiffness), self.z)
+        cubic(self.pieces.map(|piece| piece[STIFFNESS]), self.z)
     }
 }
 

@@ -20,7 +20,7 @@ use crate::status::Status;
 use crate::unusual;
 
 /// Largest ratio of the correction to the change of the stretch in the step (1). A larger one could cancel the damping.
-const MAX_CORRECTION: f64 = 0.125;
+pub(crate) const MAX_CORRECTION: f64 = 0.125;
 
 impl<T: Real> Damper<T> {
     /// Returns the force (N) at this tick for the displacement (m) of the tick.
@@ -36,7 +36,23 @@ impl<T: Real> Damper<T> {
     /// restarts at rest and latches [`Status::CORRUPTED`].
     #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
-        let [force] = step::<T, T, 1>([self], core::array::from_mut(state), [displacement]);
+        let (dampers, states) = ([self], core::array::from_mut(state));
+        let travel = displacement - states[0].displacement;
+        if is_usual::<T, T, 1>(dampers, states, displacement, travel) {
+            let [force] = advance::<T, T, 1>(dampers, states, travel);
+            force
+        } else {
+            self.unusual_step(state, displacement)
+        }
+    }
+
+    /// Steps with an unusual input or state. It has the arguments and the result of [`Damper::step`], so a step jumps
+    /// here without a stack frame of its own.
+    #[cold]
+    #[inline(never)]
+    fn unusual_step(&self, state: &mut DamperState<T>, displacement: T) -> T {
+        let travel = unusual::travel(self, state, displacement);
+        let [force] = advance::<T, T, 1>([self], core::array::from_mut(state), travel);
         force
     }
 
@@ -66,19 +82,17 @@ impl<T: Real> Damper<T> {
     }
 }
 
-/// Steps `L` dampers; returns their forces (N).
-#[inline(always)]
-pub(crate) fn step<T: Real, V: Lanes<T, L>, const L: usize>(
-    dampers: [&Damper<T>; L],
-    states: &mut [DamperState<T>; L],
-    displacements: [T; L],
-) -> [T; L] {
-    let displacement = V::new(displacements);
-    let travel = displacement - V::new(states.each_ref().map(|state| state.displacement));
-    if is_usual(dampers, states, displacement, travel) {
-        advance(dampers, states, travel)
+/// Travel (m) of a damper in a group in which an input or a state is unusual, as its own step takes it.
+pub(crate) fn travel<T: Real>(
+    damper: &Damper<T>,
+    state: &mut DamperState<T>,
+    displacement: T,
+) -> T {
+    let travel = displacement - state.displacement;
+    if is_usual::<T, T, 1>([damper], core::array::from_mut(state), displacement, travel) {
+        travel
     } else {
-        unusual_step::<T, V, L>(dampers, states, displacements)
+        unusual::travel(damper, state, displacement)
     }
 }
 
@@ -98,24 +112,9 @@ fn is_usual<T: Real, V: Lanes<T, L>, const L: usize>(
         .zip(states)
         .all(|(damper, state)| damper.revision == state.revision);
     known
+        && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
         && travel.all_within(dampers.map(|damper| &damper.scalars.move_bound))
         && displacement.all_within(dampers.map(|damper| &damper.scalars.displacement_bound))
-        && stretch.all_within(dampers.map(|damper| &damper.scalars.stretch_bound))
-}
-
-/// Steps a damper whose input or state is unusual. This separate copy lets the usual step call no function.
-#[cold]
-#[inline(never)]
-fn unusual_step<T: Real, V: Lanes<T, L>, const L: usize>(
-    dampers: [&Damper<T>; L],
-    states: &mut [DamperState<T>; L],
-    displacements: [T; L],
-) -> [T; L] {
-    let mut travels = displacements;
-    for ((damper, state), travel) in dampers.iter().zip(&mut *states).zip(&mut travels) {
-        *travel = unusual::travel(damper, state, *travel);
-    }
-    advance(dampers, states, V::new(travels))
 }
 
 /// Moves the ends of `L` dampers by the given travels (m) and returns the forces (N).

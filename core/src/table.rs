@@ -3,8 +3,9 @@
 //! The knots are at the corners of the law, with more between them where the law is curved, so they are not equally
 //! spaced. The reach of a stage is its stretch plus gamma times its flow. Bins find the piece that contains a reach.
 //! The exponent and the leading bits of the fraction of the reach select a bin, with 128 bins for each doubling. A bin
-//! contains the index of the piece at its lower border. At most [`KNOTS_PER_BIN`] knots lie within a bin, so that many
-//! comparisons find the piece.
+//! contains the piece at its lower border. At most one knot lies within a bin, so one comparison finds the piece.
+
+use core::hint::select_unpredictable;
 
 use crate::bins::{BINS, bin_shift};
 use crate::checksum;
@@ -13,8 +14,29 @@ use crate::math::Lanes;
 /// Number of pieces per side (extension or compression).
 pub(crate) const PIECES: usize = 64;
 
-/// Largest number of knots within a bin.
-pub(crate) const KNOTS_PER_BIN: usize = 2;
+/// Number of pieces after those of both sides. All their numbers are zero. With them every value of a bin, and the
+/// piece after it, is within the table, so the step checks no index.
+const SPARE_PIECES: usize = 2;
+
+/// Cubics and knot of a piece, in [`ROWS_PER_PIECE`] rows.
+///
+/// A cubic is a row of the coefficients of 1, z, z^2, z^3, where z is the reach beyond the knot. A piece has sixteen
+/// numbers, so one shift computes its address.
+pub(crate) type Piece<T> = [[T; 4]; ROWS_PER_PIECE];
+
+/// Number of rows of a piece.
+pub(crate) const ROWS_PER_PIECE: usize = 4;
+/// Row of a piece: flow `v_h` times the step (m). It has the sign of the stretch.
+pub(crate) const FLOW: usize = 0;
+/// Row of a piece: flow potential times the step (m^2), positive.
+pub(crate) const POTENTIAL: usize = 1;
+/// Row of a piece: ratio of the force to the stretch beyond the clearance (N/m).
+pub(crate) const STIFFNESS: usize = 2;
+/// Row of a piece: start of the piece (m), start of the next piece (m), two unused numbers.
+pub(crate) const KNOTS: usize = 3;
+
+/// Number of numbers of a piece that a build computes, which come first: three cubics and the knot.
+pub(crate) const BUILT_NUMBERS: usize = 13;
 
 const _: () = {
     assert!(
@@ -22,20 +44,16 @@ const _: () = {
         "fewer pieces do not reach the accuracy of docs/numerics.md"
     );
     assert!(
-        (2 * PIECES).is_power_of_two(),
-        "a bit mask keeps indices within bounds"
+        2 * 2 * PIECES <= 256,
+        "twice the index of a piece must fit into a byte"
     );
     assert!(
-        2 * PIECES <= 256,
-        "the index of a piece must fit into a byte"
-    );
-    assert!(
-        KNOTS_PER_BIN == 2,
-        "the step compares the reach with two knots of a bin, to find the piece"
+        u8::MAX as usize / 2 + 2 < 2 * PIECES + SPARE_PIECES,
+        "the rows after any value of a bin must be within the table"
     );
     assert!(
         size_of::<Piece<f32>>() == 64,
-        "a shift by 6 bits computes the address of a piece"
+        "a shift by 5 bits of twice its index computes the address of a piece"
     );
 };
 
@@ -44,56 +62,26 @@ pub(crate) const INDEX_SLICES: usize = 2 * BINS / BINS_PER_SLICE;
 const BINS_PER_SLICE: usize = 64;
 
 /// Number of rows of a table: those of the bins, then those of the pieces, with four numbers in each row.
-pub(crate) const ROWS: usize = BIN_ROWS + 4 * 2 * PIECES;
+pub(crate) const ROWS: usize = BIN_ROWS + ROWS_PER_PIECE * (2 * PIECES + SPARE_PIECES);
 const BIN_ROWS: usize = BINS / BINS_PER_ROW;
 const BINS_PER_ROW: usize = 8;
-
-/// Cubics of one piece: coefficients of 1, z, z^2, z^3, where z is the reach beyond the knot.
-///
-/// A piece has sixteen numbers, so one shift computes its address.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(C)]
-pub(crate) struct Piece<T> {
-    /// Flow `v_h` times the step (m). It has the sign of the stretch.
-    pub(crate) flow: [T; 4],
-    /// Flow potential times the step (m^2), positive.
-    pub(crate) potential: [T; 4],
-    /// Ratio of the force to the stretch beyond the clearance (N/m).
-    pub(crate) stiffness: [T; 4],
-    /// Start of the piece (m).
-    pub(crate) knot: T,
-    /// Starts of the next pieces (m).
-    pub(crate) next_knots: [T; KNOTS_PER_BIN],
-    pub(crate) padding: T,
-}
-
-impl<T> Piece<T> {
-    /// Iterates over the numbers that a build computes, in order of declaration.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = &T> {
-        let coefficients = self
-            .flow
-            .iter()
-            .chain(&self.potential)
-            .chain(&self.stiffness);
-        coefficients.chain([&self.knot])
-    }
-
-    /// Iterates over the numbers of [`Piece::numbers`] for writing.
-    pub(crate) fn numbers_mut(&mut self) -> impl Iterator<Item = &mut T> {
-        let coefficients = self.flow.iter_mut().chain(&mut self.potential);
-        coefficients
-            .chain(&mut self.stiffness)
-            .chain([&mut self.knot])
-    }
-}
 
 /// Pieces of extension, then of compression, with their bins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub(crate) struct Table<T> {
-    /// Each bin has an entry for extension and one for compression, so that one address serves both.
+    pub(crate) pieces: [Piece<T>; 2 * PIECES + SPARE_PIECES],
+    /// Twice the index of the piece at the lower border of each bin. A bin has an entry for extension and one for
+    /// compression, so that one address serves both.
     pub(crate) bins: [[u8; 2]; BINS],
-    pub(crate) pieces: [Piece<T>; 2 * PIECES],
+}
+
+impl<T> Table<T> {
+    /// Iterates over the numbers that a build computes, piece by piece.
+    pub(crate) fn built_numbers(&self) -> impl Iterator<Item = &T> {
+        let pieces = self.pieces.iter().take(2 * PIECES);
+        pieces.flat_map(|piece| piece.as_flattened().iter().take(BUILT_NUMBERS))
+    }
 }
 
 macro_rules! table {
@@ -101,14 +89,7 @@ macro_rules! table {
         impl Table<$float> {
             /// A table of zeros.
             pub(crate) const ZERO: Self = Self {
-                pieces: [Piece {
-                    flow: [0.0; 4],
-                    potential: [0.0; 4],
-                    stiffness: [0.0; 4],
-                    knot: 0.0,
-                    next_knots: [0.0; KNOTS_PER_BIN],
-                    padding: 0.0,
-                }; 2 * PIECES],
+                pieces: [[[0.0; 4]; ROWS_PER_PIECE]; 2 * PIECES + SPARE_PIECES],
                 bins: [[0; 2]; BINS],
             };
 
@@ -132,15 +113,15 @@ macro_rules! table {
                 } else {
                     piece
                 };
-                let first = self.pieces[start].knot.to_bits();
+                let first = self.pieces[start][KNOTS][0].to_bits();
                 let last = bin + BINS_PER_SLICE;
                 while bin < last {
                     let border = first.wrapping_add(WIDTH * bin as $word);
-                    while piece + 1 < end && self.pieces[piece + 1].knot.to_bits() <= border {
+                    while piece + 1 < end && self.pieces[piece + 1][KNOTS][0].to_bits() <= border {
                         piece += 1;
                     }
                     let index = (border / WIDTH) as usize % BINS;
-                    self.bins[index][side] = piece as u8;
+                    self.bins[index][side] = 2 * piece as u8;
                     bin += 1;
                 }
                 piece
@@ -150,17 +131,13 @@ macro_rules! table {
             const fn link_knots(&mut self, start: usize, end: usize) -> usize {
                 let mut piece = start;
                 while piece < end {
-                    let mut next = 0;
-                    while next < KNOTS_PER_BIN {
-                        let after = piece + next + 1;
-                        self.pieces[piece].next_knots[next] = if after < end {
-                            self.pieces[after].knot
-                        } else {
-                            $float::MAX
-                        };
-                        next += 1;
-                    }
-                    piece += 1;
+                    let after = piece + 1;
+                    self.pieces[piece][KNOTS][1] = if after < end {
+                        self.pieces[after][KNOTS][0]
+                    } else {
+                        $float::MAX
+                    };
+                    piece = after;
                 }
                 start
             }
@@ -188,14 +165,8 @@ macro_rules! table {
                     return checksum::continued(crc, &bytes);
                 }
                 let row = row - BIN_ROWS;
-                let piece = &self.pieces[row / 4 % (2 * PIECES)];
-                let [next, second] = piece.next_knots;
-                let numbers = match row % 4 {
-                    0 => piece.flow,
-                    1 => piece.potential,
-                    2 => piece.stiffness,
-                    _ => [piece.knot, next, second, piece.padding],
-                };
+                let piece = &self.pieces[row / ROWS_PER_PIECE % (2 * PIECES + SPARE_PIECES)];
+                let numbers = piece[row % ROWS_PER_PIECE];
                 const BYTES: usize = size_of::<$word>();
                 let mut bytes = [0; 4 * BYTES];
                 let mut byte = 0;
@@ -221,17 +192,20 @@ pub(crate) fn locate<T: Copy, V: Lanes<T, L>, const L: usize>(
 ) -> ([&Piece<T>; L], V) {
     let (bins, sides) = (reach.bins(), direction.sign_bits());
     let first: [usize; L] = core::array::from_fn(|lane| {
-        usize::from(tables[lane].bins[bins[lane] % BINS][sides[lane] % 2])
+        // In this order the address takes one addition and the load a shift.
+        let entries = &tables[lane].bins.as_flattened()[sides[lane] % 2..];
+        usize::from(entries[2 * (bins[lane] % BINS)])
     });
-    let passed = reach.knots_passed(core::array::from_fn(|lane| {
-        let piece = &tables[lane].pieces[first[lane] % (2 * PIECES)];
-        let [next, second] = piece.next_knots;
-        [piece.knot, next, second, piece.padding]
-    }));
+    let rows: [&[[T; 4]]; L] = core::array::from_fn(|lane| {
+        &tables[lane].pieces.as_flattened()[ROWS_PER_PIECE / 2 * first[lane]..]
+    });
+    let passed = reach.exceeds(V::new(rows.map(|rows| rows[KNOTS][1])));
     let pieces = core::array::from_fn(|lane| {
-        &tables[lane].pieces[(first[lane] + passed[lane]) % (2 * PIECES)]
+        // One conditional addition to the address; a product with `passed` takes two instructions more.
+        let rows = select_unpredictable(passed[lane], &rows[lane][ROWS_PER_PIECE..], rows[lane]);
+        rows.first_chunk().unwrap_or(&tables[lane].pieces[0])
     });
-    let knot = V::new(pieces.map(|piece: &Piece<T>| piece.knot));
+    let knot = V::new(pieces.map(|piece: &Piece<T>| piece[KNOTS][0]));
     (pieces, reach - knot)
 }
 
@@ -245,15 +219,15 @@ pub(crate) fn cubic<T: Copy, V: Lanes<T, L>, const L: usize>(coefficients: [[T; 
 
 #[cfg(test)]
 mod tests {
-    use super::{PIECES, Table, locate};
+    use super::{KNOTS, PIECES, Table, locate};
 
     /// The knots of a side grow by the same factor, from 1 m on.
     fn table(growth: [f64; 2]) -> Table<f64> {
         let mut table = Table::<f64>::ZERO;
-        for (side, growth) in table.pieces.chunks_mut(PIECES).zip(growth) {
+        for (side, growth) in table.pieces.chunks_exact_mut(PIECES).zip(growth) {
             let mut knot = 1.0;
             for piece in side {
-                piece.knot = knot;
+                piece[KNOTS][0] = knot;
                 knot *= growth;
             }
         }
@@ -263,18 +237,21 @@ mod tests {
 
     #[test]
     fn every_reach_is_located_in_its_own_piece() {
-        // A bin is at least 1/256 of its reach wide and may contain two knots.
-        for growth in [[1.1, 1.12], [1.004, 1.005]] {
+        // A bin is at most 1/128 of its reach wide and contains at most one knot.
+        for growth in [[1.1, 1.12], [1.008, 1.009]] {
             let table = table(growth);
             for (side, direction) in [(0, 1.0), (1, -1.0)] {
                 for number in 0..PIECES {
                     let piece = &table.pieces[side * PIECES + number];
                     for share in [0.01, 0.5, 0.99] {
-                        let beyond = share * (growth[side] - 1.0) * piece.knot;
-                        let reach = piece.knot + beyond;
+                        let beyond = share * (growth[side] - 1.0) * piece[KNOTS][0];
+                        let reach = piece[KNOTS][0] + beyond;
                         let ([found], z) = locate::<f64, f64, 1>([&table], reach, direction);
-                        assert_eq!(found.knot, piece.knot, "side {side}, share {share}");
-                        assert_eq!(z, reach - piece.knot);
+                        assert_eq!(
+                            found[KNOTS][0], piece[KNOTS][0],
+                            "side {side}, share {share}"
+                        );
+                        assert_eq!(z, reach - piece[KNOTS][0]);
                         assert!(core::ptr::eq(found, piece));
                     }
                 }

@@ -1,13 +1,13 @@
 //! Steps a damper, or a bank of dampers, through a motion held in memory; the result is bit-identical to stepping tick
 //! by tick.
 
-use dashpot_core::{Damper, DamperState, Real, step_bank};
-
-/// Dampers stepped together: as many as fit into the widest SIMD vectors.
-const LANES: usize = 8;
+use dashpot_core::{Damper, DamperState, Real, VectorWidth, step_bank_with};
 
 /// Ticks between two checks for cancellation.
 const TICKS_PER_CHECK: usize = 1 << 16;
+
+/// Steps of single dampers that take the time of a bank's step per damper.
+const STEPS_PER_BANK_STEP: usize = 8;
 
 /// Steps `damper` through `displacements` (m) and writes the forces (N); returns false if cancelled.
 ///
@@ -60,35 +60,16 @@ pub fn follow_bank<T: Real>(
     forces: &mut [T],
     is_cancelled: &dyn Fn() -> bool,
 ) -> bool {
+    let width = VectorWidth::detect();
     let count = dampers.len().max(1);
     let rows = displacements.chunks_exact(count);
     for (tick, (displacements, forces)) in rows.zip(forces.chunks_exact_mut(count)).enumerate() {
-        if tick.is_multiple_of(TICKS_PER_CHECK / LANES) && is_cancelled() {
+        if tick.is_multiple_of(TICKS_PER_CHECK / STEPS_PER_BANK_STEP) && is_cancelled() {
             return false;
         }
-        step_row(dampers, states, displacements, forces);
+        step_bank_with(width, dampers, states, displacements, forces);
     }
     true
-}
-
-fn step_row<T: Real>(
-    dampers: &[&Damper<T>],
-    states: &mut [DamperState<T>],
-    displacements: &[T],
-    forces: &mut [T],
-) {
-    let (groups, alone) = dampers.as_chunks::<LANES>();
-    let (states, states_alone) = states.as_chunks_mut();
-    let (displacements, displacements_alone) = displacements.as_chunks();
-    let (forces, forces_alone) = forces.as_chunks_mut();
-    let together = groups.iter().zip(states).zip(displacements).zip(forces);
-    for (((dampers, states), displacements), forces) in together {
-        step_bank(dampers, states, displacements, forces);
-    }
-    let alone = alone.iter().zip(states_alone).zip(displacements_alone);
-    for (((damper, state), displacement), force) in alone.zip(forces_alone) {
-        *force = damper.step(state, *displacement);
-    }
 }
 
 #[cfg(test)]

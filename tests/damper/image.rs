@@ -33,6 +33,29 @@ fn every_preset_comes_back() {
     }
 }
 
+/// One comparison finds the piece of a reach only if no bin has two knots. A bin is named by the exponent and seven bits
+/// of the fraction.
+#[test]
+fn no_bin_has_two_knots() {
+    const WORDS_OF_PIECE: usize = 13;
+    for (name, preset, overrides) in dashpot::accuracy::DAMPERS {
+        for step_s in dashpot::accuracy::STEPS_S {
+            let built: Damper<f64> = damper(preset, overrides).build(step_s).expect("a preset");
+            let words = built.to_words();
+            let pieces: Vec<&[u64]> = words[TABLE..].chunks_exact(WORDS_OF_PIECE).collect();
+            for side in pieces.chunks(pieces.len() / 2) {
+                let knots = side.iter().map(|piece| piece[WORDS_OF_PIECE - 1]);
+                let bins: Vec<u64> = knots
+                    .filter(|knot| *knot != f64::MAX.to_bits())
+                    .map(|knot| knot >> (52 - 7))
+                    .collect();
+                assert!(bins.len() > 1, "{name}, {step_s} s");
+                assert!(bins.is_sorted_by(|a, b| a < b), "{name}, {step_s} s: {bins:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_damper_changed_live_comes_back() {
     let mut damper = single();
@@ -45,7 +68,7 @@ fn the_layout_is_as_documented() {
     assert_eq!(crc_32(b"123456789"), 0xcbf4_3926); // the published check value
     let (image, words) = (image(), single().to_words());
     assert_eq!(image.len(), Damper::<f32>::IMAGE_BYTES);
-    assert_eq!(&image[..8], b"DASH\xff\xfe\x03\x00");
+    assert_eq!(&image[..8], b"DASH\xff\xfe\x04\x00");
     assert_eq!(image[8..12], 4_u32.to_le_bytes());
     assert_eq!(image[12..16], (image.len() as u32).to_le_bytes());
     let end = image.len() - 4;

@@ -7,7 +7,7 @@ use crate::bins::DOUBLINGS;
 use crate::math::root::bracketed_root;
 use crate::real::Real;
 use crate::stages::GAMMA;
-use crate::table::{KNOTS_PER_BIN, PIECES, Piece};
+use crate::table::{FLOW, KNOTS, PIECES, POTENTIAL, Piece, STIFFNESS};
 
 /// A span is not divided if the relative error of its cubics is at most this (1).
 const TOLERANCE: f64 = 1e-9;
@@ -30,15 +30,15 @@ pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Pi
     let mut potential = 0.0;
     let spans = spans::<T>(stage);
     for (span, piece) in spans.iter().zip(knot_of.by_ref()) {
-        piece.knot = T::from_f64(span.start().reach);
-        let knot = piece.knot.to_f64();
+        piece[KNOTS][0] = T::from_f64(span.start().reach);
+        let knot = piece[KNOTS][0].to_f64();
         let flow = span.cubic(knot, |sample| direction * sample.flow);
         let stiffness = span.cubic(knot, |sample| sample.stiffness);
         let (cubic, end) = span.potential(stage, knot, potential);
         potential = end;
-        piece.flow = flow.map(T::from_f64);
-        piece.stiffness = stiffness.map(T::from_f64);
-        piece.potential = cubic.map(T::from_f64);
+        piece[FLOW] = flow.map(T::from_f64);
+        piece[STIFFNESS] = stiffness.map(T::from_f64);
+        piece[POTENTIAL] = cubic.map(T::from_f64);
     }
     let Some(end) = spans.last().map(Span::end) else {
         return;
@@ -48,10 +48,10 @@ pub(super) fn write<T: Real>(stage: &Stage<'_>, direction: f64, pieces: &mut [Pi
     for piece in knot_of {
         // Once the element yields, more reach means only more flow, so this piece is exact for any reach.
         let linear = [direction * flow, direction / GAMMA, 0.0, 0.0];
-        piece.knot = knot;
-        piece.flow = linear.map(T::from_f64);
-        piece.stiffness = constant((1.0 + YIELD_MARGIN) * end.stiffness);
-        piece.potential = constant(potential);
+        piece[KNOTS][0] = knot;
+        piece[FLOW] = linear.map(T::from_f64);
+        piece[STIFFNESS] = constant((1.0 + YIELD_MARGIN) * end.stiffness);
+        piece[POTENTIAL] = constant(potential);
         // The step never reaches the remaining pieces.
         knot = T::MAX;
     }
@@ -89,7 +89,7 @@ fn spans<T: Real>(stage: &Stage<'_>) -> Spans {
 
 /// Returns the forces (N) that need a knot, in ascending order: start, corners and end of the branch.
 ///
-/// A corner gets no knot if its bin is already full or another knot is too close. The table then smooths the corner
+/// A corner gets no knot if its bin has one already or another knot is too close. The table then smooths the corner
 /// over less than one bin.
 fn corners<T: Real>(stage: &Stage<'_>) -> Vec<f64, 10> {
     let (start, end) = (stage.branch.friction(), end(stage));
@@ -117,17 +117,11 @@ fn end(stage: &Stage<'_>) -> f64 {
     })
 }
 
-/// True if the bin of `reach` (m) has room for a knot there and no other knot is too close.
-fn fits<T: Real>(knots: impl Iterator<Item = f64>, reach: f64) -> bool {
+/// True if the bin of `reach` (m) has no knot yet and no knot is too close.
+fn fits<T: Real>(mut knots: impl Iterator<Item = f64>, reach: f64) -> bool {
     let knot = T::from_f64(reach);
-    let mut within = 0;
-    for other in knots {
+    knots.all(|other| {
         let is_apart = (other - reach).abs() > MIN_SEPARATION * reach;
-        let other = T::from_f64(other);
-        if other == knot || !is_apart {
-            return false;
-        }
-        within += usize::from(other.bins() == knot.bins());
-    }
-    within < KNOTS_PER_BIN
+        is_apart && T::from_f64(other).bins() != knot.bins()
+    })
 }

@@ -110,11 +110,8 @@ impl CheckedParameters {
         let reach = 1.5 * (1.2 * yields[0].max(yields[1]) + 0.2 * max_move) + max_move;
         let first_knot = first_knot(reach);
         let mut table = T::ZERO_TABLE;
-        let (extension, compression) = table.pieces.split_at_mut(PIECES);
-        for (branch, direction, pieces) in [
-            (&branches[0], 1.0, extension),
-            (&branches[1], -1.0, compression),
-        ] {
+        let sides = table.pieces.chunks_exact_mut(PIECES);
+        for ((branch, direction), pieces) in branches.iter().zip([1.0, -1.0]).zip(sides) {
             knots::write(&Stage::new(branch, step_s, first_knot), direction, pieces);
         }
         T::index(&mut table);

@@ -2,14 +2,14 @@
 
 use crate::damper::Damper;
 use crate::scalars::{SCALARS, Scalars};
-use crate::table::{PIECES, Piece, Table};
+use crate::table::{BUILT_NUMBERS, FLOW, KNOTS, PIECES, POTENTIAL, STIFFNESS, Table};
 
 /// Number of words of a damper: scalars, two revisions and the pieces of the table.
 const WORDS: usize = TABLE + 2 * PIECES * PIECE;
 /// Number of words before the table.
 pub(crate) const TABLE: usize = SCALARS + 2;
 /// Number of words of a piece.
-pub(crate) const PIECE: usize = 13;
+pub(crate) const PIECE: usize = BUILT_NUMBERS;
 
 macro_rules! words {
     ($float:ident, $word:ident) => {
@@ -53,10 +53,10 @@ macro_rules! words {
                 while index < 2 * PIECES {
                     let from = TABLE + PIECE * index;
                     let piece = &mut table.pieces[index];
-                    piece.flow = cubic(words, from);
-                    piece.potential = cubic(words, from + 4);
-                    piece.stiffness = cubic(words, from + 8);
-                    piece.knot = $float::from_bits(words[from + 12]);
+                    piece[FLOW] = cubic(words, from);
+                    piece[POTENTIAL] = cubic(words, from + 4);
+                    piece[STIFFNESS] = cubic(words, from + 8);
+                    piece[KNOTS][0] = $float::from_bits(words[from + 12]);
                     index += 1;
                 }
                 table.index();
@@ -74,7 +74,7 @@ macro_rules! words {
             /// Returns the words of this damper, from which [`Self::from_words`] restores it exactly.
             pub fn to_words(&self) -> [$word; WORDS] {
                 let revisions = [self.revision, self.table_revision].map($word::from);
-                let numbers = self.table.pieces.iter().flat_map(Piece::numbers);
+                let numbers = self.table.built_numbers();
                 let scalars = self.scalars.as_array().map($float::to_bits);
                 let all = scalars.into_iter().chain(revisions).chain(numbers.map(|number| number.to_bits()));
                 let mut words = [0; WORDS];
@@ -105,7 +105,7 @@ impl Damper<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::{PIECES, WORDS};
+    use super::{KNOTS, PIECES, WORDS};
     use crate::Damper;
 
     /// Tests with words that are all different and not NaN: 1.0 and the following numbers.
@@ -124,7 +124,7 @@ mod tests {
             assert_eq!((0.5 * damper.force_limit_n()).to_bits(), words[7]);
             assert_eq!(damper.revision(), words[11] as u32);
             assert_eq!(
-                damper.table.pieces[2 * PIECES - 1].knot.to_bits(),
+                damper.table.pieces[2 * PIECES - 1][KNOTS][0].to_bits(),
                 words[WORDS - 1]
             );
         };

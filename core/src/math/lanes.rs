@@ -41,8 +41,8 @@ pub(crate) trait Lanes<T, const L: usize>:
     fn with_sign_of(self, direction: Self) -> Self;
     /// Index of the table's bin for each positive number; a valid index for any other number.
     fn bins(self) -> [usize; L];
-    /// Number of knots that each positive number exceeds, counting only the second and the third knot.
-    fn knots_passed(self, knots: [[T; 4]; L]) -> [usize; L];
+    /// True for each lane whose positive number exceeds the positive limit; any result for other numbers.
+    fn exceeds(self, limit: Self) -> [bool; L];
     /// Sign bit of each lane, 0 or 1.
     fn sign_bits(self) -> [usize; L];
 }
@@ -71,10 +71,11 @@ macro_rules! single_lane {
             fn abs(self) -> Self {
                 $float::abs(self)
             }
-            // Each variant is one instruction on its processors. The variants differ only for NaN and signed zeros.
+            // Each variant takes the fewest instructions on its processors. The variants differ only for NaN and signed
+            // zeros.
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                if cfg!(target_arch = "arm") {
+                if cfg!(has_maximum) {
                     $float::max(self, other)
                 } else if self > other {
                     self
@@ -84,7 +85,7 @@ macro_rules! single_lane {
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                if cfg!(target_arch = "arm") {
+                if cfg!(has_maximum) {
                     $float::min(self, other)
                 } else if self < other {
                     self
@@ -118,12 +119,9 @@ macro_rules! single_lane {
                 [(self.to_bits() >> bin_shift($float::MANTISSA_DIGITS)) as usize % BINS]
             }
             #[inline(always)]
-            fn knots_passed(self, [[_, next, second, _]]: [[$float; 4]; 1]) -> [usize; 1] {
+            fn exceeds(self, limit: Self) -> [bool; 1] {
                 // The bits of positive numbers are in the same order as the numbers.
-                let passed = |knot: $float| {
-                    (knot.to_bits().wrapping_sub(self.to_bits()) >> ($bits::BITS - 1)) as usize
-                };
-                [passed(next) + passed(second)]
+                [self.to_bits() > limit.to_bits()]
             }
             #[inline(always)]
             fn sign_bits(self) -> [usize; 1] {

@@ -24,12 +24,22 @@ const PIECE_WORDS: usize = 13;
 /// Pieces per side (extension, compression).
 const PIECES: usize = 64;
 
-/// Numbers per piece in C.
-const PIECE_NUMBERS: usize = 16;
+/// Pieces of zeros after those of both sides. With them every value of a bin, and the piece after it, is within the
+/// table.
+const SPARE_PIECES: usize = 2;
+
+/// Rows per piece in C: the cubics, and the knots.
+const PIECE_ROWS: usize = 4;
+
+/// Numbers per row in C.
+const ROW_NUMBERS: usize = 4;
+
+/// Rows in C.
+const ROWS: usize = PIECE_ROWS * (2 * PIECES + SPARE_PIECES);
 
 /// Size of the table in bytes, without the damper's scalars.
 pub(super) fn bytes<T: Word>(damper: &Damper<T>) -> usize {
-    2 * PIECES * PIECE_NUMBERS * size_of::<T>() + size_of_val(damper.bins())
+    ROWS * ROW_NUMBERS * size_of::<T>() + size_of_val(damper.bins())
 }
 
 /// Returns the declarations for the header.
@@ -50,8 +60,7 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
     let (scalars, rest) = words.split_at(SCALARS);
     let (revisions, pieces) = rest.split_at(REVISIONS);
     let mut text = format!(
-        "\nstatic const {prefix}_piece {name}_pieces[{}] = {{\n",
-        2 * PIECES
+        "\nstatic const {prefix}_row {name}_rows[{ROWS}] = {{\n",
     );
     for side in pieces.chunks(PIECES * PIECE_WORDS) {
         let pieces: Vec<&[u64]> = side.chunks(PIECE_WORDS).collect();
@@ -61,19 +70,20 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
         };
         for (index, piece) in pieces.iter().enumerate() {
             let cubics = piece
-                .chunks_exact(4)
-                .map(|cubic| format!("{{{}}}", list::<T>(cubic)));
+                .chunks_exact(ROW_NUMBERS)
+                .map(|cubic| format!("{{{{{}}}}}", list::<T>(cubic)));
             // Writing to a String does not fail.
             let _ = writeln!(
                 text,
-                "    {{{},\n     {}, {{{}, {}}}, 0}},",
-                cubics.collect::<Vec<_>>().join(",\n     "),
+                "    {},\n    {{{{{}, {}, 0, 0}}}},",
+                cubics.collect::<Vec<_>>().join(",\n    "),
                 knot(index),
                 knot(index + 1),
-                knot(index + 2),
             );
         }
     }
+    let zeros = ["    {{0, 0, 0, 0}}"; PIECE_ROWS * SPARE_PIECES];
+    let _ = writeln!(text, "{}", zeros.join(",\n"));
     let bins = damper.bins();
     let _ = write!(
         text,
@@ -103,7 +113,7 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
     for revision in revisions {
         let _ = writeln!(text, "    UINT32_C({revision:#010x}),");
     }
-    let _ = write!(text, "    {name}_pieces,\n    {name}_bins\n}};\n");
+    let _ = write!(text, "    {name}_rows,\n    {name}_bins\n}};\n");
     text
 }
 

@@ -112,6 +112,14 @@ enum {
     /* Pieces and bins per side. */
     PREFIX_PIECES = 64,
     PREFIX_BINS = 2048,
+    /* Rows of a piece: three cubics in z, the reach beyond the knot of the piece (coefficients of 1, z, z^2, z^3), and
+     * the knots. Two pieces of zeros follow those of both sides. */
+    PREFIX_FLOW = 0,            /* times the step (m), with the sign of the stretch */
+    PREFIX_POTENTIAL = 1,       /* flow potential times the step (m^2), positive */
+    PREFIX_STIFFNESS = 2,       /* force over stretch beyond the clearance (N/m) */
+    PREFIX_KNOTS = 3,           /* where the piece and the next one begin (m), two unused numbers */
+    PREFIX_ROWS_PER_PIECE = 4,
+    PREFIX_ROWS = PREFIX_ROWS_PER_PIECE * (2 * PREFIX_PIECES + 2),
     /* Leading bits of a number's fraction that contribute to the index of a bin. */
     PREFIX_BIN_FRACTION_BITS = 7,
     /* Sizes of a number, of its fraction, and of the fraction's bits below those that give the index of a bin. */
@@ -127,14 +135,9 @@ typedef union prefix_word {
     prefix_bits bits;
 } prefix_word;
 
-/* Cubics of one piece in z, the reach beyond its knot: coefficients of 1, z, z^2, z^3. */
-struct prefix_piece {
-    prefix_real flow[4];        /* flow times the step (m), with the sign of the stretch */
-    prefix_real potential[4];   /* flow potential times the step (m^2), positive */
-    prefix_real stiffness[4];   /* force over stretch beyond the clearance (N/m) */
-    prefix_real knot;           /* where the piece begins (m) */
-    prefix_real next_knots[2];  /* where the next pieces begin (m) */
-    prefix_real padding;        /* makes sixteen numbers, so that one shift computes the address of a piece */
+/* Four numbers of a table. */
+struct prefix_row {
+    prefix_real numbers[4];
 };
 
 PREFIX_INLINE prefix_bits prefix_bits_of(prefix_real value)
@@ -231,8 +234,9 @@ PREFIX_INLINE prefix_real prefix_subtract_product(prefix_real sum, prefix_real a
 
 /* c0 + c1 z + c2 z^2 + c3 z^3, evaluated in pairs: one more product than Horner's scheme, but a shorter dependency
  * chain. */
-PREFIX_INLINE prefix_real prefix_cubic(const prefix_real c[4], prefix_real z)
+PREFIX_INLINE prefix_real prefix_cubic(const prefix_row *row, prefix_real z)
 {
+    const prefix_real *const c = row->numbers;
     const prefix_real low = prefix_add_product(c[0], c[1], z);
     const prefix_real high = prefix_add_product(c[2], c[3], z);
 
@@ -242,19 +246,20 @@ PREFIX_INLINE prefix_real prefix_cubic(const prefix_real c[4], prefix_real z)
 /* Solution of an implicit stage. */
 typedef struct prefix_stage {
     prefix_real flow_m;  /* times the step */
-    const prefix_piece *piece;
+    const prefix_row *piece;
     prefix_real z_m;     /* in the piece */
 } prefix_stage;
 
-/* 1 if a positive number has reached a knot, else 0. Positive numbers have the same order as their bits. */
-PREFIX_INLINE prefix_bits prefix_passed(prefix_bits reach, prefix_real knot)
+/* 1 if a positive number exceeds a knot, else 0, without a branch. Positive numbers have the same order as their
+ * bits. */
+PREFIX_INLINE prefix_bits prefix_exceeds(prefix_bits reach, prefix_real knot)
 {
     return (prefix_bits)(prefix_bits_of(knot) - reach) >> (PREFIX_REAL_BITS - 1);
 }
 
 /* Finds the stage whose stretch and flow sum to `reach` (m). The exponent and leading bits of the reach beyond the
- * offset give the index of a bin, and the bin gives the piece at its lower border; at most two knots lie within a bin.
- * Every number can be looked up safely. */
+ * offset give the index of a bin, and the bin gives the piece at its lower border; at most one knot lies within a bin.
+ * Every number can be looked up safely: any bin and the piece after it are within the table. */
 PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, prefix_stage *stage)
 {
     /* The same as max(|reach| - offset, 0) + knot, but needs no constant zero. */
@@ -263,13 +268,11 @@ PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, 
     const prefix_bits bits = prefix_bits_of(place);
     const unsigned side = (unsigned)(prefix_bits_of(reach) >> (PREFIX_REAL_BITS - 1));
     const unsigned bin = (unsigned)(bits >> PREFIX_BIN_SHIFT) % PREFIX_BINS;
-    const unsigned first = damper->bins[bin][side] % (2U * PREFIX_PIECES);
-    const prefix_real *next = damper->pieces[first].next_knots;
-    const unsigned passed = (unsigned)(prefix_passed(bits, next[0]) + prefix_passed(bits, next[1]));
+    const prefix_row *const first = &damper->rows[PREFIX_ROWS_PER_PIECE / 2 * damper->bins[bin][side]];
 
-    stage->piece = &damper->pieces[(first + passed) % (2U * PREFIX_PIECES)];
-    stage->z_m = place - stage->piece->knot;
-    stage->flow_m = prefix_cubic(stage->piece->flow, stage->z_m);
+    stage->piece = first + PREFIX_ROWS_PER_PIECE * prefix_exceeds(bits, first[PREFIX_KNOTS].numbers[1]);
+    stage->z_m = place - stage->piece[PREFIX_KNOTS].numbers[0];
+    stage->flow_m = prefix_cubic(&stage->piece[PREFIX_FLOW], stage->z_m);
 }
 
 /* Force magnitude (N) at a stretch (m), from the stiffness of the stage that ended there; it may exceed the limit. */
@@ -308,7 +311,7 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
     end = start + change;
 
     /* Mean flow over the straight path, from the potential; the slope gives the part off the path. */
-    end_potential = prefix_cubic(last.piece->potential, last.z_m);
+    end_potential = prefix_cubic(&last.piece[PREFIX_POTENTIAL], last.z_m);
     area = prefix_add_product(end_potential - state->potential_m2, bend, bend);
     most = prefix_magnitude(change * PREFIX_LARGEST_CORRECTION);
     correction = prefix_larger(prefix_smaller(area / change - quadrature, most), -most);
@@ -319,7 +322,7 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
     }
 
     stretch = ((end + damper->rest_rounder_m) - correction) - damper->rest_rounder_m;
-    magnitude = prefix_force(damper, stretch, prefix_cubic(last.piece->stiffness, last.z_m));
+    magnitude = prefix_force(damper, stretch, prefix_cubic(&last.piece[PREFIX_STIFFNESS], last.z_m));
     limit = damper->force_limit_n;
     limited = magnitude;
     status_word = state->status_word;
@@ -504,8 +507,8 @@ static void prefix_take_force(const prefix_damper *damper, prefix_state *state, 
         prefix_solve(damper, reach, &stage);
         stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
         state->stretch_m = stretch;
-        state->potential_m2 = prefix_cubic(stage.piece->potential, stage.z_m);
-        if (prefix_force(damper, stretch, prefix_cubic(stage.piece->stiffness, stage.z_m)) < target) {
+        state->potential_m2 = prefix_cubic(&stage.piece[PREFIX_POTENTIAL], stage.z_m);
+        if (prefix_force(damper, stretch, prefix_cubic(&stage.piece[PREFIX_STIFFNESS], stage.z_m)) < target) {
             low = middle;
         } else {
             high = middle;
@@ -697,7 +700,7 @@ static void prefix_copy(prefix_damper *to, const prefix_damper *from)
     to->stretch_bound = from->stretch_bound;
     to->revision = from->revision;
     to->table_revision = from->table_revision;
-    to->pieces = from->pieces;
+    to->rows = from->rows;
     to->bins = from->bins;
 }
 

@@ -29,8 +29,8 @@ typedef enum prefix_result {
     PREFIX_IMPOSSIBLE_VALUES = 3   /* the saved bytes contain numbers that no step of this damper could produce */
 } prefix_result;
 
-/* Piece of the table, stored in flash. */
-typedef struct prefix_piece prefix_piece;
+/* Four numbers of the table, stored in flash. */
+typedef struct prefix_row prefix_row;
 
 /* A damper for one step size, shared by any number of states. Only a change of the clearance changes it. */
 typedef struct prefix_damper {
@@ -47,8 +47,8 @@ typedef struct prefix_damper {
     prefix_bits stretch_bound;       /* largest stretch after a step: its bits (m), doubled */
     uint32_t revision;               /* identifies the damper */
     uint32_t table_revision;
-    const prefix_piece *pieces;      /* pieces of extension, then of compression */
-    const uint8_t (*bins)[2];        /* the piece at the lower border of each bin, for both sides */
+    const prefix_row *rows;          /* four rows a piece: pieces of extension, then of compression */
+    const uint8_t (*bins)[2];        /* twice the index of the piece at the lower border of each bin, for both sides */
 } prefix_damper;
 
 /* State of one damper: plain data that you can save and restore by copying. Read the members, but do not write them. */

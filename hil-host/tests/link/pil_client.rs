@@ -93,7 +93,7 @@ fn every_refusal_has_a_sentence() {
         (Refusal::Range, "a clearance of 0 to 0.1 m"),
         (
             Refusal::Image(ImageError::Version(1)),
-            "format version 1, must be 3",
+            "format version 1, must be 4",
         ),
         (
             Refusal::Image(ImageError::Checksum),

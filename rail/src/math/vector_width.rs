@@ -2,6 +2,7 @@
 
 use std::cell::Cell;
 
+use dashpot_core::VectorWidth;
 use fearless_simd::Level;
 
 thread_local! {
@@ -28,6 +29,15 @@ pub fn with_narrowest_vectors<R>(work: impl FnOnce() -> R) -> R {
     }
     let _restore = Restore(IS_BASELINE.replace(true));
     work()
+}
+
+/// The vectors with which this thread steps dampers.
+pub(crate) fn width() -> VectorWidth {
+    if IS_BASELINE.get() {
+        VectorWidth::BASELINE
+    } else {
+        VectorWidth::detect()
+    }
 }
 
 /// The instruction set that this thread uses.

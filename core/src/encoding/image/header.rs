@@ -7,8 +7,9 @@ use super::ImageError;
 
 const MAGIC: [u8; 4] = *b"DASH";
 const BYTE_ORDER: u16 = 0xfeff;
-/// Version of the format. It changes whenever the meaning of the words changes.
-pub(super) const VERSION: u16 = 3;
+/// Version of the format. It changes whenever the meaning of the words changes, or what the table requires of
+/// them: since version 4 at most one knot lies within a bin.
+pub(super) const VERSION: u16 = 4;
 
 /// Header before the words.
 #[derive(Clone, Copy, FromBytes, IntoBytes, Immutable, KnownLayout, Unaligned)]

@@ -90,7 +90,7 @@ macro_rules! loading {
                     Stage::Write { piece } => {
                         match (Words::<BYTES>::of(image).piece(piece), self.table.pieces.get_mut(piece)) {
                             (Some(words), Some(target)) => {
-                                for (number, word) in target.numbers_mut().zip(words) {
+                                for (number, word) in target.as_flattened_mut().iter_mut().zip(words) {
                                     *number = $float::from_le_bytes(*word);
                                 }
                                 Stage::Write { piece: piece + 1 }

@@ -16,12 +16,12 @@ enum {
     IMAGE_WORDS = SCALARS + 2 + 2 * DAMPER_PIECES * WORDS_OF_PIECE,
     HEADER_BYTES = 16,
     IMAGE_BYTES = HEADER_BYTES + IMAGE_WORDS * DAMPER_REAL_BYTES + 4,
-    IMAGE_VERSION = 3
+    IMAGE_VERSION = 4
 };
 
 /* Table in memory. */
 typedef struct table {
-    damper_piece pieces[2 * DAMPER_PIECES];
+    damper_row rows[DAMPER_ROWS];
     uint8_t bins[DAMPER_BINS][2];
 } table;
 
@@ -46,30 +46,33 @@ static damper_real word(const uint8_t *image, unsigned number)
         (damper_bits)damper_get(image + HEADER_BYTES + number * DAMPER_REAL_BYTES, DAMPER_REAL_BYTES));
 }
 
+/* Numbers of a row of a piece. */
+static damper_real *row(table *this, unsigned piece, unsigned number)
+{
+    return this->rows[DAMPER_ROWS_PER_PIECE * piece + number].numbers;
+}
+
 /* Finds the piece at the lower border of each bin of a side. The knots increase; the first is a power of two. */
 static void index_side(table *this, unsigned side)
 {
     const unsigned end = (side + 1) * DAMPER_PIECES;
     const damper_bits width = (damper_bits)1 << DAMPER_BIN_SHIFT;
-    const damper_bits first = damper_bits_of(this->pieces[side * DAMPER_PIECES].knot);
-    unsigned piece, next, bin;
+    const damper_bits first = damper_bits_of(row(this, side * DAMPER_PIECES, DAMPER_KNOTS)[0]);
+    unsigned piece, bin;
 
     for (piece = side * DAMPER_PIECES; piece < end; piece++) {
-        for (next = 0; next < 2; next++) {
-            const unsigned after = piece + next + 1;
-
-            this->pieces[piece].next_knots[next] =
-                after < end ? this->pieces[after].knot : (DAMPER_REAL_BYTES == 4 ? (damper_real)FLT_MAX : (damper_real)DBL_MAX);
-        }
+        row(this, piece, DAMPER_KNOTS)[1] = piece + 1 < end ? row(this, piece + 1, DAMPER_KNOTS)[0]
+                                            : DAMPER_REAL_BYTES == 4 ? (damper_real)FLT_MAX
+                                                                     : (damper_real)DBL_MAX;
     }
     piece = side * DAMPER_PIECES;
     for (bin = 0; bin < DAMPER_BINS; bin++) {
         const damper_bits border = (damper_bits)(first + width * bin);
 
-        while (piece + 1 < end && damper_bits_of(this->pieces[piece + 1].knot) <= border) {
+        while (piece + 1 < end && damper_bits_of(row(this, piece + 1, DAMPER_KNOTS)[0]) <= border) {
             piece++;
         }
-        this->bins[(unsigned)(border / width) % DAMPER_BINS][side] = (uint8_t)piece;
+        this->bins[(unsigned)(border / width) % DAMPER_BINS][side] = (uint8_t)(2 * piece);
     }
 }
 
@@ -109,29 +112,22 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
     damper->force_limit_n = damper->force_limit_n + damper->force_limit_n; /* an image contains half of it */
     damper->move_bound = damper_bits_of(bounds[0]);
     damper->displacement_bound = damper_bits_of(bounds[1]);
+    memset(this->rows, 0, sizeof this->rows);
     for (piece = 0; piece < 2 * DAMPER_PIECES; piece++) {
-        damper_piece *const to = &this->pieces[piece];
-
         for (number = 0; number < WORDS_OF_PIECE; number++) {
             const damper_real value = word(image, SCALARS + 2 + piece * WORDS_OF_PIECE + number);
-            damper_real *const coefficients = number < 4 ? to->flow : number < 8 ? to->potential : to->stiffness;
 
             if (!damper_is_finite(value)) {
                 return "an image with a number that is not finite";
             }
             hash = damper_hash_real(hash, value);
-            if (number == 12) {
-                to->knot = value;
-            } else {
-                coefficients[number % 4] = value;
-            }
+            row(this, piece, number / 4)[number % 4] = value;
         }
-        to->padding = 0;
     }
     index_side(this, 0);
     index_side(this, 1);
     damper->table_revision = (uint32_t)damper_get(image + HEADER_BYTES + (SCALARS + 1) * DAMPER_REAL_BYTES, 4);
-    damper->pieces = this->pieces;
+    damper->rows = this->rows;
     damper->bins = (const uint8_t (*)[2])this->bins;
     if (hash != damper->table_revision
         || damper_set_clearance_m(damper, damper_clearance_m(damper)) != DAMPER_DONE

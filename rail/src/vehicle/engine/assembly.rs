@@ -211,6 +211,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             method,
             contacts,
             level,
+            width: crate::math::width(),
             names: bodies.iter().map(|body| body.name.clone()).collect(),
             positions: bodies
                 .iter()

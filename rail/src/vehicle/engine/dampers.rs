@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use dashpot_core::{DamperState, step_bank};
+use dashpot_core::{DamperState, step_bank_with};
 
 use super::Vehicle;
 use super::across::{Across, DamperElement};
@@ -83,10 +83,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             banks.iter_mut().zip(elements).zip(forces)
         {
             let last = elements.len() - 1;
-            let dampers = from_fn(|lane| &elements[lane.min(last)].damper);
-            let displacements = from_fn(|lane| displacements[lane.min(last)]);
+            let dampers: [_; BANK] = from_fn(|lane| &elements[lane.min(last)].damper);
+            let displacements: [_; BANK] = from_fn(|lane| displacements[lane.min(last)]);
             let mut own = [0.0; BANK];
-            step_bank::<f64, BANK>(&dampers, states, &displacements, &mut own);
+            step_bank_with(self.width, &dampers, states, &displacements, &mut own);
             forces.copy_from_slice(&own[..=last]);
         }
         // A damper with an external force is stepped too, so that its model can take over again.

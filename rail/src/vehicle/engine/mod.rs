@@ -21,7 +21,7 @@ mod tangent;
 
 use std::sync::Arc;
 
-use dashpot_core::{Damper, DamperParameters};
+use dashpot_core::{Damper, DamperParameters, VectorWidth};
 use fearless_simd::Level;
 
 use self::across::{DamperElement, StopElement};
@@ -105,6 +105,8 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     /// Contact of each wheelset; equal wheelsets share one.
     contacts: Vec<Arc<WheelsetContact<L, S>>>,
     level: Level,
+    /// Vectors with which the dampers are stepped.
+    width: VectorWidth,
     names: Vec<String>,
     positions: Vec<BodyPosition>,
     wheelsets: Vec<WheelsetConstants>,

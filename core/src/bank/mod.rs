@@ -4,10 +4,17 @@
 //! a bank steps eight dampers together on processors with vector instructions.
 
 use crate::damper::Damper;
-use crate::math::group::GROUP;
 use crate::real::Real;
 use crate::state::DamperState;
-use crate::step::step;
+
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod group;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod vector;
+mod width;
+
+pub(crate) use width::Groups;
+pub use width::VectorWidth;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.
 ///
@@ -39,17 +46,56 @@ pub fn step_bank<T: Real, const N: usize>(
     displacements: &[T; N],
     forces: &mut [T; N],
 ) {
-    let (dampers, dampers_left) = dampers.as_chunks::<GROUP>();
-    let (states, states_left) = states.as_chunks_mut::<GROUP>();
-    let (displacements, displacements_left) = displacements.as_chunks::<GROUP>();
-    let (forces, forces_left) = forces.as_chunks_mut::<GROUP>();
-    let groups = dampers.iter().zip(states).zip(displacements).zip(forces);
-    for (((dampers, states), displacements), forces) in groups {
-        *forces = step::<T, T::Group, GROUP>(*dampers, states, *displacements);
+    step_bank_with(VectorWidth::BASELINE, dampers, states, displacements, forces);
+}
+
+/// Does the same as [`step_bank`] in vectors of the given width, for slices. The bits do not depend on the width.
+///
+/// If the slices have different lengths, the shortest one counts.
+#[inline]
+pub fn step_bank_with<T: Real>(
+    width: VectorWidth,
+    dampers: &[&Damper<T>],
+    states: &mut [DamperState<T>],
+    displacements: &[T],
+    forces: &mut [T],
+) {
+    let bank = Bank::new(dampers, states, displacements, forces);
+    width.step(bank).step_one_by_one();
+}
+
+/// Dampers to step, with their states, displacements (m) and forces (N): slices of one length.
+pub(crate) struct Bank<'a, T> {
+    dampers: &'a [&'a Damper<T>],
+    states: &'a mut [DamperState<T>],
+    displacements: &'a [T],
+    forces: &'a mut [T],
+}
+
+impl<'a, T: Real> Bank<'a, T> {
+    #[inline(always)]
+    fn new(
+        dampers: &'a [&'a Damper<T>],
+        states: &'a mut [DamperState<T>],
+        displacements: &'a [T],
+        forces: &'a mut [T],
+    ) -> Self {
+        let count = dampers.len().min(states.len());
+        let count = count.min(displacements.len()).min(forces.len());
+        Self {
+            dampers: dampers.get(..count).unwrap_or_default(),
+            states: states.get_mut(..count).unwrap_or_default(),
+            displacements: displacements.get(..count).unwrap_or_default(),
+            forces: forces.get_mut(..count).unwrap_or_default(),
+        }
     }
-    let left = dampers_left.iter().zip(states_left).zip(displacements_left);
-    for (((damper, state), displacement), force) in left.zip(forces_left) {
-        *force = damper.step(state, *displacement);
+
+    #[inline(always)]
+    fn step_one_by_one(self) {
+        let lanes = self.dampers.iter().zip(self.states).zip(self.displacements);
+        for (((damper, state), displacement), force) in lanes.zip(self.forces) {
+            *force = damper.step(state, *displacement);
+        }
     }
 }
 
@@ -58,10 +104,9 @@ pub fn step_bank<T: Real, const N: usize>(
 mod tests {
     use super::step_bank;
     use crate::damper::Damper;
-    use crate::math::group::GROUP;
     use crate::real::Real;
 
-    const DAMPERS: usize = GROUP + 3;
+    const DAMPERS: usize = 11;
 
     /// Ends that move across the clearance, in contact, beyond the yield force and too fast.
     fn displacements<T: Real>(tick: u32) -> [T; DAMPERS] {
