@@ -1,5 +1,6 @@
 //! `dashpot sweep`: runs the cases of a study and writes one row per case and a page.
 
+mod curves;
 mod page;
 mod report;
 
@@ -17,8 +18,9 @@ use dashpot_files::study::{STUDIES, StudyParameters};
 use dashpot_recording::columns;
 #[cfg(feature = "parquet")]
 use dashpot_study::sweep::ROW_DIGEST;
-use dashpot_study::sweep::rows::{Rows, RowsError};
-use dashpot_study::sweep::{self, Journal, Row, RunError, Shard, Study};
+use dashpot_study::sweep::curves::Curves;
+use dashpot_study::sweep::rows::RowsError;
+use dashpot_study::sweep::{Finished, Journal, Plan, Row, RunError, Shard, Shared, Study};
 
 /// Run a study: many cases of a vehicle on a track, with one row of indices per case and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -29,8 +31,9 @@ use dashpot_study::sweep::{self, Journal, Row, RunError, Shard, Study};
   dashpot merge paper results/rows-*-of-8.csv --output results
 
 Writes rows.csv to --output: one row per case with parameter values, seed, indices, study ID and version; and
-report.html, the page. A shard writes only rows-I-of-N.csv. The rows are bit-identical for any number of threads and
-shards. A case that derails, overturns, leaves the contact tables or has a wheel load above 50 times the static load
+report.html, the page. Curves that the page draws are kept in rows.curves, so that it is written without running cases
+again. A shard writes only rows-I-of-N.csv and rows-I-of-N.curves. The rows are bit-identical for any number of threads
+and shards; identical cases are simulated once. A case that derails, overturns, leaves the contact tables or has a wheel load above 50 times the static load
 has no indices; its column `ending` gives the reason. Observe `wheel_load_over_static` and `wheel_lift_longest_s` to
 find rows that need a second look (docs/studies.md).
 
@@ -52,7 +55,7 @@ pub struct SweepArguments {
     /// Total number of shards; needs --shard.
     #[arg(long, value_name = "N", requires = "shard", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     shards: Option<u64>,
-    /// Start over; existing results are kept as rows.csv.old.
+    /// Start over; existing results are kept as rows.csv.old and rows.curves.old.
     #[arg(long)]
     anew: bool,
     /// List the cases without running them.
@@ -155,14 +158,12 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         .copied()
         .filter(|number| !known.contains_key(number))
         .collect();
+    let threads = arguments
+        .threads
+        .map_or_else(dashpot_workers::threads, usize::from);
     let started = Instant::now();
-    let ran = run_missing(
-        &study,
-        &mut journal,
-        &missing,
-        part.len(),
-        arguments.threads,
-    );
+    let plan = Plan::new(&study, &missing, threads)?;
+    let ran = run_missing(&study, &mut journal, &plan, missing.len(), part.len());
     let took = started.elapsed();
     // Rows from before and after a change of the files could not be distinguished.
     if !study.is_unchanged().unwrap_or(false) {
@@ -185,11 +186,12 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
             part.len()
         )));
     }
-    let rows = journal.finish(&study)?;
-    let mut report = Report::new(&study, &rows, missing.len(), took);
-    report.files.push(path.clone());
-    if shard.is_none() {
-        results.write(&study, &rows, &folder, &mut report)?;
+    let finished = journal.finish(&study)?;
+    let mut report = Report::new(&study, &finished.rows, missing.len(), took);
+    report.simulated = plan.simulations();
+    match shard {
+        None => results.write(&study, finished, &path, threads, &mut report)?,
+        Some(_) => report.add_rows(&path, &finished),
     }
     print_report(results.format, &report, print)
 }
@@ -198,21 +200,21 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
 fn run_missing(
     study: &Study,
     journal: &mut Journal,
-    missing: &[u64],
+    plan: &Plan<'_>,
+    missing: usize,
     all: usize,
-    threads: Option<u16>,
 ) -> Outcome<()> {
-    let threads = threads.map_or_else(dashpot_workers::threads, usize::from);
     let bar = progress::bar(all as u64, "cases");
-    bar.set_position((all - missing.len()) as u64);
+    bar.set_position((all - missing) as u64);
     bar.reset_eta();
     let _ends_gently = interruption::end_gently();
-    let take = |row: Row| -> Outcome<()> {
-        journal.add(study, row)?;
+    let take = |row: Row, curves: Curves| -> Outcome<()> {
+        journal.add(study, row, curves)?;
         bar.inc(1);
         Ok(())
     };
-    let done = sweep::run(study, missing, threads, &interruption::is_wanted, take);
+    let needed = study.needed_curves();
+    let done = plan.run(&Shared::default(), &needed, &interruption::is_wanted, take);
     bar.finish_and_clear();
     done
 }
@@ -267,14 +269,22 @@ impl ResultArguments {
         }
     }
 
-    /// Writes the results derived from all rows to the folder and lists the files in the report.
+    /// Writes the results derived from all rows, which are in the file at `path`, and lists the files in the report.
     pub(super) fn write(
         &self,
         study: &Study,
-        rows: &Rows,
-        folder: &Path,
+        mut finished: Finished,
+        path: &Path,
+        threads: usize,
         report: &mut Report,
     ) -> Outcome<()> {
+        if !self.no_page {
+            let Finished { rows, curves, .. } = &mut finished;
+            let ran_again = curves::complete(study, rows, curves, path, threads)?;
+            finished.problems.extend(ran_again);
+        }
+        report.add_rows(path, &finished);
+        let folder = path.parent().unwrap_or(path);
         #[cfg(feature = "parquet")]
         if self.parquet {
             let path = folder.join("rows.parquet");
@@ -287,7 +297,8 @@ impl ResultArguments {
         }
         if !self.no_page {
             let path = folder.join("report.html");
-            write_bytes(&path, page::write(study, rows, report)?.as_bytes())?;
+            let page = page::write(study, &finished, report, threads)?;
+            write_bytes(&path, page.as_bytes())?;
             report.files.push(path);
         }
         Ok(())
