@@ -31,11 +31,6 @@ impl Observed {
         self.name == "max_wear_depth_um_per_1000km"
     }
 
-    /// True if the run must weight the accelerations for this index.
-    pub fn needs_comfort(&self) -> bool {
-        self.name == "mean_comfort"
-    }
-
     /// True if this is a ride index, which needs at least one whole window.
     pub fn is_ride_index(&self) -> bool {
         matches!(

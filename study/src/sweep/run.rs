@@ -80,10 +80,7 @@ fn observe_run(
 ) -> Result<(Ending, Option<Observation>), VehicleRunError> {
     let needs_wear = observed.iter().any(Observed::needs_wear);
     let mut wear = needs_wear.then(|| RunWear::new(case, &run, WearLaw::default()));
-    let mut indexer = match observed.iter().any(Observed::needs_comfort) {
-        true => Indexer::new(case),
-        false => Indexer::new(case).without_comfort(),
-    };
+    let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case, run.track());
     let last = run.ticks().saturating_sub((LAST_S / case.step_s) as u64);
     let bodies = run.vehicle().names().len() - run.vehicle().wheelsets();

@@ -162,15 +162,6 @@ impl Indexer {
         }
     }
 
-    /// Leaves out mean comfort ([`RideIndices::mean_comfort`] is then `None`); all other indices keep their bits.
-    #[must_use]
-    pub fn without_comfort(mut self) -> Self {
-        if let Some(ride) = &mut self.ride {
-            ride.without_comfort();
-        }
-        self
-    }
-
     /// Adds a tick of the vehicle.
     pub fn add(&mut self, tick: &impl VehicleTick) {
         self.count += 1;

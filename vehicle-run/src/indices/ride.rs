@@ -94,8 +94,7 @@ struct Direction {
     window: Vec<f64>,
     /// Sum of the Sperling indices of all complete windows.
     sperling: f64,
-    /// Weighting of mean comfort; `None` if it is not computed.
-    filter: Option<WeightingFilter>,
+    filter: WeightingFilter,
     /// Sum of the squared weighted accelerations of the current window.
     square: f64,
     /// Weighted root mean square of each complete window, m/s^2.
@@ -112,7 +111,7 @@ impl Direction {
             direction,
             window: Vec::with_capacity(samples),
             sperling: 0.0,
-            filter: Some(WeightingFilter::new(weighting, rate_hz)?),
+            filter: WeightingFilter::new(weighting, rate_hz)?,
             square: 0.0,
             weighted: Vec::new(),
         })
@@ -120,10 +119,8 @@ impl Direction {
 
     fn add(&mut self, acceleration: f64) {
         self.window.push(acceleration);
-        if let Some(filter) = &mut self.filter {
-            let weighted = filter.next(acceleration);
-            self.square += weighted * weighted;
-        }
+        let weighted = self.filter.next(acceleration);
+        self.square += weighted * weighted;
     }
 
     fn end_window(&mut self, sperling: &mut Sperling) {
@@ -159,14 +156,6 @@ impl Ride {
         })
     }
 
-    /// Leaves out mean comfort, whose filters run in every tick.
-    pub fn without_comfort(&mut self) {
-        for point in &mut self.points {
-            point.lateral.filter = None;
-            point.vertical.filter = None;
-        }
-    }
-
     /// Adds a tick. `body_acceleration` returns the accelerations of a body, in the order of its coordinates.
     pub fn add(&mut self, body_acceleration: impl Fn(usize) -> [f64; 5]) {
         for point in &mut self.points {
@@ -188,7 +177,6 @@ impl Ride {
             let (lateral, vertical) = (&point.lateral, &point.vertical);
             let mean = |sum: f64| has_windows.then(|| sum / point.windows as f64);
             let longitudinal = [];
-            let has_comfort = has_windows && vertical.filter.is_some();
             let comfort = [&longitudinal[..], &lateral.weighted, &vertical.weighted];
             RideIndices {
                 point: point.accelerometer.name().to_owned(),
@@ -199,7 +187,7 @@ impl Ride {
                 sperling_lateral: mean(lateral.sperling),
                 sperling_vertical: mean(vertical.sperling),
                 comfort_band_hz: COMFORT_BAND_HZ,
-                mean_comfort: has_comfort.then(|| mean_comfort_of_windows(comfort)),
+                mean_comfort: has_windows.then(|| mean_comfort_of_windows(comfort)),
             }
         };
         self.points.iter().map(point_indices).collect()
