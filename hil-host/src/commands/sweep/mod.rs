@@ -3,24 +3,22 @@
 mod curves;
 mod page;
 mod report;
+mod results;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub(super) use report::{Checked, Report, print};
+pub(super) use results::ResultArguments;
 
-use super::{Format, interruption, print_report, progress};
+use super::{interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::input::is_standard_stream;
-use dashpot_files::output::{create_folder, write_bytes};
+use dashpot_files::output::create_folder;
 use dashpot_files::study::{STUDIES, StudyParameters};
-#[cfg(feature = "parquet")]
-use dashpot_recording::columns;
-#[cfg(feature = "parquet")]
-use dashpot_study::sweep::ROW_DIGEST;
 use dashpot_study::sweep::curves::Curves;
 use dashpot_study::sweep::rows::RowsError;
-use dashpot_study::sweep::{Finished, Journal, Plan, Row, RunError, Shard, Shared, Study};
+use dashpot_study::sweep::{Journal, Plan, Row, RunError, Shard, Shared, Study};
 
 /// Run a study: many cases of a vehicle on a track, with one row of indices per case and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -76,20 +74,6 @@ pub struct StudyArguments {
     seeds: Option<u64>,
 }
 
-/// Options for results derived from the rows.
-#[derive(Debug, Clone, clap::Args)]
-pub struct ResultArguments {
-    /// Do not write the page.
-    #[arg(long)]
-    no_page: bool,
-    /// Also write rows.parquet. Needs a build with the feature `parquet`.
-    #[arg(long)]
-    parquet: bool,
-    /// Output format of the results.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-}
-
 /// Returns the help text of the study argument.
 fn study_help() -> String {
     let names = STUDIES.map(|(name, _)| name);
@@ -138,7 +122,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let study = arguments.study.read()?;
     if arguments.list {
         results.check_figures(&study)?;
-        return report::list(&study, results.format);
+        return report::list(&study, results.format());
     }
     if shard.is_none() {
         results.check_figures(&study)?;
@@ -193,7 +177,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         None => results.write(&study, finished, &path, threads, &mut report)?,
         Some(_) => report.add_rows(&path, &finished),
     }
-    print_report(results.format, &report, print)
+    print_report(results.format(), &report, print)
 }
 
 /// Runs the missing cases and adds their rows, until all are done or the user interrupts.
@@ -241,67 +225,6 @@ impl From<RowsError> for Failure {
             RowsError::File(error) => error.into(),
             other => Self::new(other.to_string()),
         }
-    }
-}
-
-impl ResultArguments {
-    /// Rejects options that this build does not support.
-    pub(super) fn check(&self) -> Outcome<()> {
-        if self.parquet && !cfg!(feature = "parquet") {
-            return Err(Failure::wrong_use(
-                "--parquet is not available in this build; build dashpot-hil with the feature `parquet`",
-            ));
-        }
-        Ok(())
-    }
-
-    /// Returns the output format.
-    pub(super) fn format(&self) -> Format {
-        self.format
-    }
-
-    /// Checks that the figures can be drawn.
-    pub(super) fn check_figures(&self, study: &Study) -> Outcome<()> {
-        if self.no_page {
-            Ok(())
-        } else {
-            page::check(study)
-        }
-    }
-
-    /// Writes the results derived from all rows, which are in the file at `path`, and lists the files in the report.
-    pub(super) fn write(
-        &self,
-        study: &Study,
-        mut finished: Finished,
-        path: &Path,
-        threads: usize,
-        report: &mut Report,
-    ) -> Outcome<()> {
-        if !self.no_page {
-            let Finished { rows, curves, .. } = &mut finished;
-            let ran_again = curves::complete(study, rows, curves, path, threads)?;
-            finished.problems.extend(ran_again);
-        }
-        report.add_rows(path, &finished);
-        let folder = path.parent().unwrap_or(path);
-        #[cfg(feature = "parquet")]
-        if self.parquet {
-            let path = folder.join("rows.parquet");
-            columns::write(
-                &folder.join("rows.csv"),
-                &path,
-                &["study", "physics", ROW_DIGEST],
-            )?;
-            report.files.push(path);
-        }
-        if !self.no_page {
-            let path = folder.join("report.html");
-            let page = page::write(study, &finished, report, threads)?;
-            write_bytes(&path, page.as_bytes())?;
-            report.files.push(path);
-        }
-        Ok(())
     }
 }
 

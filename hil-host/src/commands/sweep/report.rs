@@ -14,6 +14,9 @@ use dashpot_files::output;
 use dashpot_study::sweep::rows::Rows;
 use dashpot_study::sweep::{Finished, PHYSICS, Study, VERSION, curves};
 
+/// Maximum number of notes about curves that are listed.
+const MAX_NOTES: usize = 8;
+
 /// Report of a study.
 #[derive(Serialize)]
 pub(in crate::commands) struct Report {
@@ -37,7 +40,7 @@ pub(in crate::commands) struct Report {
     pub(in crate::commands) checked: Option<Checked>,
     /// Curves of the page that could not be used, and cases that ran again for them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    notes: Vec<String>,
+    pub(super) notes: Vec<String>,
     pub(in crate::commands) files: Vec<PathBuf>,
 }
 
@@ -82,7 +85,15 @@ impl Report {
         if !finished.curves.is_empty() {
             self.files.push(curves::path_of(path));
         }
-        self.notes.extend(finished.problems.iter().cloned());
+        let problems = &finished.problems;
+        self.notes.extend(problems.iter().take(MAX_NOTES).cloned());
+        let more = problems.len().saturating_sub(MAX_NOTES);
+        if more > 0 {
+            self.notes.push(format!(
+                "... and {} of curves",
+                counted(more as u64, "more note")
+            ));
+        }
     }
 
     /// Describes the cases that did not complete.
