@@ -9,7 +9,7 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::output::create_folder;
 use dashpot_study::sweep::curves::{self, Curves};
 use dashpot_study::sweep::rows::{self, Rows, RowsError};
-use dashpot_study::sweep::{CheckError, Finished, MergeError, Study, check, choose, merge};
+use dashpot_study::sweep::{CheckError, Finished, MergeError, Shared, Study, check, choose, merge};
 
 /// Merge the rows of a study's shards, check them against the list of cases, and write the page.
 #[derive(Debug, Clone, clap::Args)]
@@ -49,7 +49,8 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
     let study = arguments.study.read()?;
-    results.check_figures(&study)?;
+    let shared = Shared::default();
+    results.check_figures(&study, &shared)?;
     let rows = merge(&study, &arguments.files)?;
     let checked = match arguments.check {
         Some(count) => Some(check_again(&study, &rows, count, arguments.check_seed)?),
@@ -66,13 +67,8 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     }
     let mut report = Report::new(&study, &finished.rows, 0, Duration::ZERO);
     report.checked = checked;
-    results.write(
-        &study,
-        finished,
-        &path,
-        dashpot_workers::threads(),
-        &mut report,
-    )?;
+    let to = (path.as_path(), dashpot_workers::threads());
+    results.write(&study, finished, to, &shared, &mut report)?;
     print_report(results.format(), &report, sweep::print)
 }
 

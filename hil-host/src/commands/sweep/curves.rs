@@ -17,8 +17,8 @@ pub(super) fn complete(
     study: &Study,
     rows: &Rows,
     curves: &mut Curves,
-    path: &Path,
-    threads: usize,
+    (path, threads): (&Path, usize),
+    shared: &Shared,
 ) -> Outcome<Option<String>> {
     let missing = missing(study, curves);
     if missing.is_empty() {
@@ -32,7 +32,7 @@ pub(super) fn complete(
         bar.inc(1);
         Ok(())
     };
-    plan.run(&Shared::default(), &missing, &|| false, take)?;
+    plan.run(shared, &missing, &|| false, take)?;
     bar.finish_and_clear();
     if !study.is_unchanged().unwrap_or(false) {
         return Err(Failure::new(format!(

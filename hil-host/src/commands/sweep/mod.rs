@@ -120,12 +120,13 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         _ => None,
     };
     let study = arguments.study.read()?;
+    let shared = Shared::default();
     if arguments.list {
-        results.check_figures(&study)?;
+        results.check_figures(&study, &shared)?;
         return report::list(&study, results.format());
     }
     if shard.is_none() {
-        results.check_figures(&study)?;
+        results.check_figures(&study, &shared)?;
     }
     let folder = arguments.study.folder(arguments.output.as_ref());
     create_folder(&folder)?;
@@ -147,7 +148,13 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         .map_or_else(dashpot_workers::threads, usize::from);
     let started = Instant::now();
     let plan = Plan::new(&study, &missing, threads)?;
-    let ran = run_missing(&study, &mut journal, &plan, missing.len(), part.len());
+    let ran = run_missing(
+        &plan,
+        &shared,
+        &study,
+        &mut journal,
+        [missing.len(), part.len()],
+    );
     let took = started.elapsed();
     // Rows from before and after a change of the files could not be distinguished.
     if !study.is_unchanged().unwrap_or(false) {
@@ -174,7 +181,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let mut report = Report::new(&study, &finished.rows, missing.len(), took);
     report.simulated = plan.simulations();
     match shard {
-        None => results.write(&study, finished, &path, threads, &mut report)?,
+        None => results.write(&study, finished, (&path, threads), &shared, &mut report)?,
         Some(_) => report.add_rows(&path, &finished),
     }
     print_report(results.format(), &report, print)
@@ -182,11 +189,11 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
 
 /// Runs the missing cases and adds their rows, until all are done or the user interrupts.
 fn run_missing(
+    plan: &Plan<'_>,
+    shared: &Shared,
     study: &Study,
     journal: &mut Journal,
-    plan: &Plan<'_>,
-    missing: usize,
-    all: usize,
+    [missing, all]: [usize; 2],
 ) -> Outcome<()> {
     let bar = progress::bar(all as u64, "cases");
     bar.set_position((all - missing) as u64);
@@ -198,7 +205,7 @@ fn run_missing(
         Ok(())
     };
     let needed = study.needed_curves();
-    let done = plan.run(&Shared::default(), &needed, &interruption::is_wanted, take);
+    let done = plan.run(shared, &needed, &interruption::is_wanted, take);
     bar.finish_and_clear();
     done
 }

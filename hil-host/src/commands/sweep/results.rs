@@ -11,7 +11,7 @@ use dashpot_files::output::write_bytes;
 use dashpot_recording::columns;
 #[cfg(feature = "parquet")]
 use dashpot_study::sweep::ROW_DIGEST;
-use dashpot_study::sweep::{Finished, Study};
+use dashpot_study::sweep::{Finished, Shared, Study};
 
 /// Options for results derived from the rows.
 #[derive(Debug, Clone, clap::Args)]
@@ -43,12 +43,12 @@ impl ResultArguments {
         self.format
     }
 
-    /// Checks that the figures can be drawn.
-    pub(in crate::commands) fn check_figures(&self, study: &Study) -> Outcome<()> {
+    /// Checks that the figures can be drawn; keeps what it builds in `shared`.
+    pub(in crate::commands) fn check_figures(&self, study: &Study, shared: &Shared) -> Outcome<()> {
         if self.no_page {
             Ok(())
         } else {
-            page::check(study)
+            page::check(study, shared)
         }
     }
 
@@ -57,14 +57,14 @@ impl ResultArguments {
         &self,
         study: &Study,
         mut finished: Finished,
-        path: &Path,
-        threads: usize,
+        (path, threads): (&Path, usize),
+        shared: &Shared,
         report: &mut Report,
     ) -> Outcome<()> {
         let Finished { rows, curves, .. } = &mut finished;
         let ran_again = match self.no_page {
             true => None,
-            false => curves::complete(study, rows, curves, path, threads)?,
+            false => curves::complete(study, rows, curves, (path, threads), shared)?,
         };
         report.add_rows(path, &finished);
         report.notes.extend(ran_again);

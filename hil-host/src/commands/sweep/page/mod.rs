@@ -31,8 +31,7 @@ struct Drawn<'a> {
 ///
 /// # Errors
 /// A signal or damper does not exist, or a value is invalid.
-pub(super) fn check(study: &Study) -> Outcome<()> {
-    let shared = Shared::default();
+pub(super) fn check(study: &Study, shared: &Shared) -> Outcome<()> {
     for figure in &study.parameters.figures {
         for name in figure.content.sweeps() {
             let Some(sweep) = study.parameters.sweep(name) else {
@@ -59,7 +58,7 @@ pub(super) fn check(study: &Study) -> Outcome<()> {
                     continue;
                 }
             };
-            study.check_signals(sweep, &names, &shared)?;
+            study.check_signals(sweep, &names, shared)?;
         }
     }
     Ok(())
