@@ -31,6 +31,17 @@ impl<'a> Plan<'a> {
     ///
     /// # Errors
     /// Invalid case.
+    ///
+    /// ```
+    /// use dashpot_files::study::StudyParameters;
+    /// use dashpot_study::sweep::{Plan, Study};
+    /// let study = Study::new(StudyParameters::load("paper")?)?;
+    /// let numbers: Vec<u64> = study.part(None).collect();
+    /// // Each sweep contains the nominal dampers.
+    /// assert_eq!(Plan::new(&study, &numbers, 2)?.simulations(), 456);
+    /// assert_eq!(numbers.len(), 536);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(study: &'a Study, numbers: &[u64], threads: usize) -> Result<Self, RunError> {
         let cases: Vec<StudyCase<'_>> = numbers
             .iter()
