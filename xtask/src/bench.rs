@@ -7,33 +7,26 @@ use crate::setup::install_for_target;
 /// Version of `gungraun` in Cargo.toml; its runner must have the same version.
 const GUNGRAUN: &str = "0.20";
 
+/// Benches of each package whose times are in the table.
+const BENCHES: [(&str, &[&str]); 2] = [
+    ("dashpot", &["step", "vehicle", "figures"]),
+    ("dashpot-hil", &["replay"]),
+];
+
 /// Measures all times side by side, the instructions on emulated processors, and, if Valgrind and gungraun-runner are
 /// present, the instructions on this machine. Then prints one table: ours, the yardstick, their ratio and the goal.
 ///
 /// # Errors
 /// A bench failed.
 pub fn bench() -> Outcome {
-    let of_top_folder = ["--package", "dashpot", "--bench"];
-    cargo(
-        &[
-            &["bench"],
-            &of_top_folder[..],
-            &["step", "--bench", "vehicle"],
-        ]
-        .concat(),
-    )?;
-    cargo(&[
-        "bench",
-        "--package",
-        "dashpot-hil",
-        "--bench",
-        "replay",
-        "--bench",
-        "figures",
-    ])?;
+    for (package, benches) in BENCHES {
+        let mut arguments = vec!["bench", "--package", package];
+        arguments.extend(benches.iter().flat_map(|bench| ["--bench", bench]));
+        cargo(&arguments)?;
+    }
     let (_, on_target) = measure_target();
     let counted = count_instructions();
-    cargo(&[&["bench"], &of_top_folder[..], &["speed"]].concat())?;
+    cargo(&["bench", "--package", "dashpot", "--bench", "speed"])?;
     for lack in [on_target.err(), counted.err()].into_iter().flatten() {
         println!("not measured: {lack}");
     }

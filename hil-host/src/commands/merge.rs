@@ -7,8 +7,9 @@ use super::sweep::{self, Checked, Report, ResultArguments, StudyArguments};
 use super::{interruption, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::output::create_folder;
+use dashpot_study::sweep::curves::{self, Curves};
 use dashpot_study::sweep::rows::{self, Rows, RowsError};
-use dashpot_study::sweep::{CheckError, MergeError, Study, check, choose, merge};
+use dashpot_study::sweep::{CheckError, Finished, MergeError, Shared, Study, check, choose, merge};
 
 /// Merge the rows of a study's shards, check them against the list of cases, and write the page.
 #[derive(Debug, Clone, clap::Args)]
@@ -17,7 +18,8 @@ use dashpot_study::sweep::{CheckError, MergeError, Study, check, choose, merge};
 
   dashpot merge paper results/rows-*-of-8.csv --output results --check 5
 
-Writes rows.csv and report.html, identical to those of `dashpot sweep` on one machine. Missing or duplicate cases are
+Writes rows.csv, rows.curves and report.html, identical to those of `dashpot sweep` on one machine. The curves of the
+page are read beside each file of rows (rows-I-of-N.curves); cases whose curves are missing run again. Missing or duplicate cases are
 listed; then nothing is written and the exit code is 1. --check repeats random cases before anything is written, and
 fails if a bit differs.")]
 pub struct MergeArguments {
@@ -47,21 +49,42 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     let results = &arguments.results;
     results.check()?;
     let study = arguments.study.read()?;
-    results.check_figures(&study)?;
+    let shared = Shared::default();
+    results.check_figures(&study, &shared)?;
     let rows = merge(&study, &arguments.files)?;
     let checked = match arguments.check {
         Some(count) => Some(check_again(&study, &rows, count, arguments.check_seed)?),
         None => None,
     };
+    let finished = with_curves(&study, rows, &arguments.files);
     let folder = arguments.study.folder(arguments.output.as_ref());
     create_folder(&folder)?;
     let path = folder.join("rows.csv");
-    rows::write(&study, &rows, &path)?;
-    let mut report = Report::new(&study, &rows, 0, Duration::ZERO);
+    rows::write(&study, &finished.rows, &path)?;
+    if !finished.curves.is_empty() {
+        let path = curves::path_of(&path);
+        curves::write(&study, &finished.rows, &finished.curves, &path)?;
+    }
+    let mut report = Report::new(&study, &finished.rows, 0, Duration::ZERO);
     report.checked = checked;
-    report.files.push(path);
-    results.write(&study, &rows, &folder, &mut report)?;
+    let to = (path.as_path(), dashpot_workers::threads());
+    results.write(&study, finished, to, &shared, &mut report)?;
     print_report(results.format(), &report, sweep::print)
+}
+
+/// Reads the curves beside the files of rows.
+fn with_curves(study: &Study, rows: Rows, files: &[PathBuf]) -> Finished {
+    let (mut curves, mut problems) = (Curves::new(), Vec::new());
+    for file in files {
+        let kept = curves::read(study, &rows, &curves::path_of(file));
+        curves.extend(kept.curves);
+        problems.extend(kept.problems);
+    }
+    Finished {
+        rows,
+        curves,
+        problems,
+    }
 }
 
 /// Runs random cases again and compares their rows.

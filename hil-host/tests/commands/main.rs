@@ -26,6 +26,7 @@ mod force_limit_of_the_oil;
 mod gaps;
 mod garbage_among_rows;
 mod interruption;
+mod kept_curves;
 mod labview_page;
 mod lifted_wheel_without_a_word;
 mod modes;

@@ -37,7 +37,7 @@ indices = { sweeps = ["clearance", "worn"], observed = ["body_vertical_rms_m_per
 "#;
 
 /// Computes the rows of the study with one thread, into `one`.
-const ON_ONE_THREAD: [&str; 7] = [
+pub const ON_ONE_THREAD: [&str; 7] = [
     "sweep",
     "study.toml",
     "--no-page",
@@ -80,7 +80,7 @@ pub fn rows(folder: &Path) -> String {
 
 /// Starts the command.
 #[cfg(unix)]
-fn started(arguments: &[&str], folder: &Path) -> Child {
+pub fn started(arguments: &[&str], folder: &Path) -> Child {
     command(arguments, folder)
         .env("XDG_CACHE_HOME", env!("CARGO_TARGET_TMPDIR"))
         .stdout(Stdio::null())
@@ -91,12 +91,22 @@ fn started(arguments: &[&str], folder: &Path) -> Child {
 
 /// Waits until a command that writes to `one` has this many rows.
 #[cfg(unix)]
-fn wait_for_rows(child: &mut Child, folder: &Path, rows: usize) {
+pub fn wait_for_rows(child: &mut Child, folder: &Path, rows: usize) {
     let partial = folder.join("one/rows.csv.partial");
     while fs::read_to_string(&partial).map_or(0, |text| text.lines().count()) < rows + 1 {
         assert_eq!(child.try_wait().unwrap(), None, "ended by itself");
         std::thread::yield_now();
     }
+}
+
+/// Interrupts a command as Ctrl-C does.
+#[cfg(unix)]
+pub fn interrupt(child: &Child) {
+    let id = child.id().to_string();
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &id])
+        .status();
+    assert!(kill.unwrap().success());
 }
 
 /// Cells of a row by column name.
@@ -387,14 +397,7 @@ fn an_interrupted_study_resumes() {
     let sweep = ON_ONE_THREAD;
     let mut child = started(&sweep, folder.path());
     wait_for_rows(&mut child, folder.path(), 2);
-    let id = child.id().to_string();
-    assert!(
-        std::process::Command::new("kill")
-            .args(["-INT", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
+    interrupt(&child);
     let ended = child.wait_with_output().unwrap();
     let error = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{error}");

@@ -2,9 +2,10 @@
 
 use fastrand::Rng;
 
+use super::plan::run;
 use super::row::Row;
 use super::rows::Rows;
-use super::run::{RunError, run};
+use super::run::RunError;
 use super::study::Study;
 
 /// Error from running rows again.

@@ -94,6 +94,11 @@ impl Digest {
 
     /// Returns the first 16 hexadecimal digits.
     pub fn hexadecimal(self) -> String {
-        dashpot_files::hexadecimal(&self.0.finalize()[..8])
+        dashpot_files::hexadecimal(&self.bytes()[..8])
+    }
+
+    /// Returns all bytes.
+    pub fn bytes(self) -> [u8; 32] {
+        self.0.finalize().into()
     }
 }

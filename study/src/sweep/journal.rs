@@ -4,25 +4,38 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use super::curves::{CurveJournal, Curves, with_ending};
 use super::row::Row;
 use super::rows::{self, Rows, RowsError};
 use super::study::{Shard, Study};
 use dashpot_files::FileError;
 use dashpot_files::output::cannot_write;
 
-/// Rows computed so far, and the file to which new ones are added: the file of rows with `.partial` appended to its
-/// name.
+/// Rows computed so far with the curves of their cases, and the files to which new ones are added: the files of rows
+/// and curves with `.partial` appended to their names.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
     partial: PathBuf,
     file: File,
     rows: Rows,
+    curves: CurveJournal,
+}
+
+/// Rows and curves of a whole study or shard.
+#[derive(Debug)]
+pub struct Finished {
+    /// Rows by case number.
+    pub rows: Rows,
+    /// Curves of the cases.
+    pub curves: Curves,
+    /// What was wrong with curves from earlier runs, which were left out.
+    pub problems: Vec<String>,
 }
 
 impl Journal {
-    /// Opens the rows of the file at `path` and of an interrupted run. With `restart`, it starts without rows and
-    /// renames an existing file to `.old`.
+    /// Opens the rows of the file at `path` and of an interrupted run, with their curves. With `restart`, it starts
+    /// without rows and renames existing files to `.old`.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read or written, if it contains rows of another study or shard, or if
@@ -70,6 +83,7 @@ impl Journal {
             }
         }
         let mut journal = Self {
+            curves: CurveJournal::open(study, &known, path, restart)?,
             path: path.to_owned(),
             partial,
             file,
@@ -87,35 +101,46 @@ impl Journal {
         &self.rows
     }
 
-    /// Adds a row.
+    /// Adds a row and the curves of its case.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be written.
-    pub fn add(&mut self, study: &Study, row: Row) -> Result<(), FileError> {
+    /// Returns an error if a file cannot be written.
+    pub fn add(&mut self, study: &Study, row: Row, curves: Curves) -> Result<(), FileError> {
         let record = rows::record(study, &row);
-        self.line(record.map_err(|error| cannot_write(&self.partial, error))?)?;
+        let record = record.map_err(|error| cannot_write(&self.partial, error))?;
+        // The curves come first: a case whose row is present is not run again.
+        if let Some(digest) = record.last() {
+            self.curves.add(digest, curves)?;
+        }
+        self.line(record)?;
         self.rows.insert(row.case, row);
         Ok(())
     }
 
-    /// Replaces the file of rows by all rows in the order of the cases, and returns them.
+    /// Replaces the files of rows and curves by all rows and curves in the order of the cases, and returns them.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be written.
-    pub fn finish(self, study: &Study) -> Result<Rows, FileError> {
+    /// Returns an error if a file cannot be written.
+    pub fn finish(self, study: &Study) -> Result<Finished, FileError> {
+        self.curves.write(study, &self.rows)?;
         rows::write(study, &self.rows, &self.path)?;
         // The rows must be on the disk before the partial file is removed.
         File::open(&self.path)
             .and_then(|file| file.sync_all())
             .map_err(|error| cannot_write(&self.path, error))?;
+        let (curves, problems) = self.curves.end()?;
         fs::remove_file(&self.partial).map_err(|error| cannot_write(&self.partial, error))?;
-        Ok(self.rows)
+        Ok(Finished {
+            rows: self.rows,
+            curves,
+            problems,
+        })
     }
 
-    /// Removes the rows of these cases, which must be in ascending order.
+    /// Removes the rows and curves of these cases, which must be in ascending order.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be written.
+    /// Returns an error if a file cannot be written.
     pub fn remove(&mut self, study: &Study, cases: &[u64]) -> Result<(), FileError> {
         self.rows
             .retain(|case, _| cases.binary_search(case).is_err());
@@ -124,8 +149,11 @@ impl Journal {
             .and_then(|()| self.file.rewind())
             .map_err(|error| cannot_write(&self.partial, error))?;
         self.line(study.columns())?;
-        let rows: Vec<Row> = self.rows.values().cloned().collect();
-        rows.into_iter().try_for_each(|row| self.add(study, row))
+        for row in self.rows.clone().values() {
+            let record = rows::record(study, row);
+            self.line(record.map_err(|error| cannot_write(&self.partial, error))?)?;
+        }
+        self.curves.remove(study, &self.rows, cases)
     }
 
     fn line(&mut self, cells: Vec<String>) -> Result<(), FileError> {
@@ -135,14 +163,6 @@ impl Journal {
         let bytes = bytes.and_then(|bytes| self.file.write_all(&bytes));
         bytes.map_err(|error| cannot_write(&self.partial, error))
     }
-}
-
-/// Appends an extension to a path.
-fn with_ending(path: &Path, ending: &str) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".");
-    name.push(ending);
-    PathBuf::from(name)
 }
 
 /// Opens the file at `path` with a lock, so that no other process can add to it.

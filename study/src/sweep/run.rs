@@ -1,14 +1,15 @@
-//! Runs the cases of a study.
+//! Runs a case and observes its indices.
 
+use super::curves::Recorder;
 use super::observation::Observation;
 use super::observed::Observed;
-use super::row::Row;
 use super::shared::Shared;
-use super::study::Study;
 use dashpot_files::case::Case;
 use dashpot_files::study::{StudyFileError, Sweep};
 use dashpot_vehicle_run::wear::WearLaw;
-use dashpot_vehicle_run::{Ending, Indexer, RunWear, ValidityWatch, VehicleRunError, confirmed};
+use dashpot_vehicle_run::{
+    Ending, Indexer, Run, RunWear, ValidityWatch, VehicleRunError, confirmed,
+};
 
 /// Length of the last part of a run, in which the amplitude of a limit cycle is measured, s.
 const LAST_S: f64 = 3.0;
@@ -27,7 +28,56 @@ pub fn observe(
     observed: &[Observed],
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(Ending, Option<Observation>), VehicleRunError> {
-    let mut run = shared.run(case)?;
+    let run = shared.run(case)?;
+    let mut recorder = Recorder::new(&run, std::iter::empty());
+    observe_run(case, run, observed, &mut recorder, is_cancelled)
+}
+
+/// Results of a run that was not cancelled.
+pub(super) struct Simulated {
+    /// Ending, as text.
+    pub ending: String,
+    /// Observed indices, in the order of a row.
+    pub observed: Vec<Option<f64>>,
+    /// Histories of the recorded signals.
+    pub recorder: Recorder,
+}
+
+/// Runs a case, observes its indices and records the signals with these names. Returns `None` if it was cancelled.
+///
+/// # Errors
+/// Same errors as [`Shared::run`].
+pub(super) fn simulate<'a>(
+    case: &Case,
+    shared: &Shared,
+    observed: &[Observed],
+    signals: impl Iterator<Item = &'a str>,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<Option<Simulated>, VehicleRunError> {
+    let run = shared.run(case)?;
+    let mut recorder = Recorder::new(&run, signals);
+    let (ending, observation) = observe_run(case, run, observed, &mut recorder, is_cancelled)?;
+    if matches!(ending, Ending::Interrupted { .. }) {
+        return Ok(None);
+    }
+    let value = |index: &Observed| {
+        let value = (index.extract)(observation.as_ref()?)?;
+        value.is_finite().then_some(value)
+    };
+    Ok(Some(Simulated {
+        ending: ending.to_string(),
+        observed: observed.iter().map(value).collect(),
+        recorder,
+    }))
+}
+
+fn observe_run(
+    case: &Case,
+    mut run: Run,
+    observed: &[Observed],
+    recorder: &mut Recorder,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<(Ending, Option<Observation>), VehicleRunError> {
     let needs_wear = observed.iter().any(Observed::needs_wear);
     let mut wear = needs_wear.then(|| RunWear::new(case, &run, WearLaw::default()));
     let mut indexer = Indexer::new(case);
@@ -41,6 +91,7 @@ pub fn observe(
         }
         indexer.add(run.state());
         watch.add(run.state());
+        recorder.add(run.state(), run.time_s());
         if let Some(wear) = &mut wear {
             wear.add(run.state());
         }
@@ -103,83 +154,4 @@ impl RunError {
             source: Box::new(source),
         }
     }
-}
-
-/// Runs the cases with these numbers on a pool of `threads` threads, and passes each row to `on_row` as soon as it is
-/// complete. Cases interrupted by `is_cancelled` have no row.
-///
-/// A row depends only on its case; the order of the cases and the number of threads do not change it.
-///
-/// # Errors
-/// Returns an error for an invalid case, or the error of `on_row`. After an error, no further case starts.
-pub fn run<E: From<RunError>>(
-    study: &Study,
-    numbers: &[u64],
-    threads: usize,
-    is_cancelled: &(dyn Fn() -> bool + Sync),
-    on_row: impl FnMut(Row) -> Result<(), E>,
-) -> Result<(), E> {
-    run_with(
-        study,
-        &Shared::default(),
-        numbers,
-        threads,
-        is_cancelled,
-        on_row,
-    )
-}
-
-/// Same as [`run`], but reuses contacts and tracks from `shared`.
-///
-/// # Errors
-/// Same errors as [`run`].
-pub fn run_with<E: From<RunError>>(
-    study: &Study,
-    shared: &Shared,
-    numbers: &[u64],
-    threads: usize,
-    is_cancelled: &(dyn Fn() -> bool + Sync),
-    mut on_row: impl FnMut(Row) -> Result<(), E>,
-) -> Result<(), E> {
-    let work = |number: &u64, is_ended: &dyn Fn() -> bool| {
-        let is_cancelled = || is_ended() || is_cancelled();
-        if is_cancelled() {
-            return Ok(None);
-        }
-        row(study, *number, shared, &is_cancelled)
-    };
-    dashpot_workers::in_parallel(numbers, threads, work, |_, row| match row? {
-        Some(row) => on_row(row),
-        None => Ok(()),
-    })
-}
-
-/// Runs a case and returns its row. Returns `None` if there is no case with this number, or if the run was cancelled.
-///
-/// # Errors
-/// Invalid case.
-pub fn row(
-    study: &Study,
-    number: u64,
-    shared: &Shared,
-    is_cancelled: &dyn Fn() -> bool,
-) -> Result<Option<Row>, RunError> {
-    let Some(study_case) = study.case(number) else {
-        return Ok(None);
-    };
-    let case = study.build(&study_case)?;
-    let (ending, observation) = observe(&case, shared, &study.observed, is_cancelled)
-        .map_err(|source| RunError::in_sweep(study_case.sweep, source))?;
-    if matches!(ending, Ending::Interrupted { .. }) {
-        return Ok(None);
-    }
-    let value = |index: &Observed| {
-        let value = (index.extract)(observation.as_ref()?)?;
-        value.is_finite().then_some(value)
-    };
-    Ok(Some(Row {
-        case: number,
-        ending: ending.to_string(),
-        observed: study.observed.iter().map(value).collect(),
-    }))
 }

@@ -1,24 +1,24 @@
 //! `dashpot sweep`: runs the cases of a study and writes one row per case and a page.
 
+mod curves;
 mod page;
 mod report;
+mod results;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 pub(super) use report::{Checked, Report, print};
+pub(super) use results::ResultArguments;
 
-use super::{Format, interruption, print_report, progress};
+use super::{interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::input::is_standard_stream;
-use dashpot_files::output::{create_folder, write_bytes};
+use dashpot_files::output::create_folder;
 use dashpot_files::study::{STUDIES, StudyParameters};
-#[cfg(feature = "parquet")]
-use dashpot_recording::columns;
-#[cfg(feature = "parquet")]
-use dashpot_study::sweep::ROW_DIGEST;
-use dashpot_study::sweep::rows::{Rows, RowsError};
-use dashpot_study::sweep::{self, Journal, Row, RunError, Shard, Study};
+use dashpot_study::sweep::curves::Curves;
+use dashpot_study::sweep::rows::RowsError;
+use dashpot_study::sweep::{Journal, Plan, Row, RunError, Shard, Shared, Study};
 
 /// Run a study: many cases of a vehicle on a track, with one row of indices per case and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -29,8 +29,9 @@ use dashpot_study::sweep::{self, Journal, Row, RunError, Shard, Study};
   dashpot merge paper results/rows-*-of-8.csv --output results
 
 Writes rows.csv to --output: one row per case with parameter values, seed, indices, study ID and version; and
-report.html, the page. A shard writes only rows-I-of-N.csv. The rows are bit-identical for any number of threads and
-shards. A case that derails, overturns, leaves the contact tables or has a wheel load above 50 times the static load
+report.html, the page. Curves that the page draws are kept in rows.curves, so that it is written without running cases
+again. A shard writes only rows-I-of-N.csv and rows-I-of-N.curves. The rows are bit-identical for any number of threads
+and shards; identical cases are simulated once. A case that derails, overturns, leaves the contact tables or has a wheel load above 50 times the static load
 has no indices; its column `ending` gives the reason. Observe `wheel_load_over_static` and `wheel_lift_longest_s` to
 find rows that need a second look (docs/studies.md).
 
@@ -52,7 +53,7 @@ pub struct SweepArguments {
     /// Total number of shards; needs --shard.
     #[arg(long, value_name = "N", requires = "shard", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     shards: Option<u64>,
-    /// Start over; existing results are kept as rows.csv.old.
+    /// Start over; existing results are kept as rows.csv.old and rows.curves.old.
     #[arg(long)]
     anew: bool,
     /// List the cases without running them.
@@ -71,20 +72,6 @@ pub struct StudyArguments {
     /// Use seeds 1 to N instead of the seeds of the study, for sweeps that have seeds.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     seeds: Option<u64>,
-}
-
-/// Options for results derived from the rows.
-#[derive(Debug, Clone, clap::Args)]
-pub struct ResultArguments {
-    /// Do not write the page.
-    #[arg(long)]
-    no_page: bool,
-    /// Also write rows.parquet. Needs a build with the feature `parquet`.
-    #[arg(long)]
-    parquet: bool,
-    /// Output format of the results.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
 }
 
 /// Returns the help text of the study argument.
@@ -133,12 +120,13 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         _ => None,
     };
     let study = arguments.study.read()?;
+    let shared = Shared::default();
     if arguments.list {
-        results.check_figures(&study)?;
-        return report::list(&study, results.format);
+        results.check_figures(&study, &shared)?;
+        return report::list(&study, results.format());
     }
     if shard.is_none() {
-        results.check_figures(&study)?;
+        results.check_figures(&study, &shared)?;
     }
     let folder = arguments.study.folder(arguments.output.as_ref());
     create_folder(&folder)?;
@@ -155,13 +143,17 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         .copied()
         .filter(|number| !known.contains_key(number))
         .collect();
+    let threads = arguments
+        .threads
+        .map_or_else(dashpot_workers::threads, usize::from);
     let started = Instant::now();
+    let plan = Plan::new(&study, &missing, threads)?;
     let ran = run_missing(
+        &plan,
+        &shared,
         &study,
         &mut journal,
-        &missing,
-        part.len(),
-        arguments.threads,
+        [missing.len(), part.len()],
     );
     let took = started.elapsed();
     // Rows from before and after a change of the files could not be distinguished.
@@ -185,34 +177,35 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
             part.len()
         )));
     }
-    let rows = journal.finish(&study)?;
-    let mut report = Report::new(&study, &rows, missing.len(), took);
-    report.files.push(path.clone());
-    if shard.is_none() {
-        results.write(&study, &rows, &folder, &mut report)?;
+    let finished = journal.finish(&study)?;
+    let mut report = Report::new(&study, &finished.rows, missing.len(), took);
+    report.simulated = plan.simulations();
+    match shard {
+        None => results.write(&study, finished, (&path, threads), &shared, &mut report)?,
+        Some(_) => report.add_rows(&path, &finished),
     }
-    print_report(results.format, &report, print)
+    print_report(results.format(), &report, print)
 }
 
 /// Runs the missing cases and adds their rows, until all are done or the user interrupts.
 fn run_missing(
+    plan: &Plan<'_>,
+    shared: &Shared,
     study: &Study,
     journal: &mut Journal,
-    missing: &[u64],
-    all: usize,
-    threads: Option<u16>,
+    [missing, all]: [usize; 2],
 ) -> Outcome<()> {
-    let threads = threads.map_or_else(dashpot_workers::threads, usize::from);
     let bar = progress::bar(all as u64, "cases");
-    bar.set_position((all - missing.len()) as u64);
+    bar.set_position((all - missing) as u64);
     bar.reset_eta();
     let _ends_gently = interruption::end_gently();
-    let take = |row: Row| -> Outcome<()> {
-        journal.add(study, row)?;
+    let take = |row: Row, curves: Curves| -> Outcome<()> {
+        journal.add(study, row, curves)?;
         bar.inc(1);
         Ok(())
     };
-    let done = sweep::run(study, missing, threads, &interruption::is_wanted, take);
+    let needed = study.needed_curves();
+    let done = plan.run(shared, &needed, &interruption::is_wanted, take);
     bar.finish_and_clear();
     done
 }
@@ -239,58 +232,6 @@ impl From<RowsError> for Failure {
             RowsError::File(error) => error.into(),
             other => Self::new(other.to_string()),
         }
-    }
-}
-
-impl ResultArguments {
-    /// Rejects options that this build does not support.
-    pub(super) fn check(&self) -> Outcome<()> {
-        if self.parquet && !cfg!(feature = "parquet") {
-            return Err(Failure::wrong_use(
-                "--parquet is not available in this build; build dashpot-hil with the feature `parquet`",
-            ));
-        }
-        Ok(())
-    }
-
-    /// Returns the output format.
-    pub(super) fn format(&self) -> Format {
-        self.format
-    }
-
-    /// Checks that the figures can be drawn.
-    pub(super) fn check_figures(&self, study: &Study) -> Outcome<()> {
-        if self.no_page {
-            Ok(())
-        } else {
-            page::check(study)
-        }
-    }
-
-    /// Writes the results derived from all rows to the folder and lists the files in the report.
-    pub(super) fn write(
-        &self,
-        study: &Study,
-        rows: &Rows,
-        folder: &Path,
-        report: &mut Report,
-    ) -> Outcome<()> {
-        #[cfg(feature = "parquet")]
-        if self.parquet {
-            let path = folder.join("rows.parquet");
-            columns::write(
-                &folder.join("rows.csv"),
-                &path,
-                &["study", "physics", ROW_DIGEST],
-            )?;
-            report.files.push(path);
-        }
-        if !self.no_page {
-            let path = folder.join("report.html");
-            write_bytes(&path, page::write(study, rows, report)?.as_bytes())?;
-            report.files.push(path);
-        }
-        Ok(())
     }
 }
 

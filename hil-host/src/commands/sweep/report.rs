@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde::Serialize;
@@ -12,7 +12,10 @@ use crate::commands::failure::Outcome;
 use crate::commands::{counted, print_report};
 use dashpot_files::output;
 use dashpot_study::sweep::rows::Rows;
-use dashpot_study::sweep::{PHYSICS, Study, VERSION};
+use dashpot_study::sweep::{Finished, PHYSICS, Study, VERSION, curves};
+
+/// Maximum number of notes about curves that are listed.
+const MAX_NOTES: usize = 8;
 
 /// Report of a study.
 #[derive(Serialize)]
@@ -26,6 +29,8 @@ pub(in crate::commands) struct Report {
     rows: usize,
     /// Number of cases run by this command.
     run_now: usize,
+    /// Number of simulations that this took; identical cases share one.
+    pub(super) simulated: usize,
     /// Time of this command's runs, s.
     took_s: f64,
     /// Cases that did not complete, by reason.
@@ -33,6 +38,9 @@ pub(in crate::commands) struct Report {
     /// Cases that `merge --check` repeated with bit-identical results.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(in crate::commands) checked: Option<Checked>,
+    /// Curves of the page that could not be used, and cases that ran again for them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) notes: Vec<String>,
     pub(in crate::commands) files: Vec<PathBuf>,
 }
 
@@ -62,10 +70,29 @@ impl Report {
             physics: PHYSICS,
             rows: rows.len(),
             run_now,
+            simulated: run_now,
             took_s: took.as_secs_f64(),
             not_completed,
             checked: None,
+            notes: Vec::new(),
             files: Vec::new(),
+        }
+    }
+
+    /// Lists the file of rows at `path` and that of their curves, if there are any, with what was wrong with curves.
+    pub(super) fn add_rows(&mut self, path: &Path, finished: &Finished) {
+        self.files.push(path.to_owned());
+        if !finished.curves.is_empty() {
+            self.files.push(curves::path_of(path));
+        }
+        let problems = &finished.problems;
+        self.notes.extend(problems.iter().take(MAX_NOTES).cloned());
+        let more = problems.len().saturating_sub(MAX_NOTES);
+        if more > 0 {
+            self.notes.push(format!(
+                "... and {} of curves",
+                counted(more as u64, "more note")
+            ));
         }
     }
 
@@ -104,8 +131,10 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         physics,
         rows,
         run_now,
+        simulated,
         took_s,
         checked,
+        notes,
         files,
         ..
     } = report;
@@ -118,7 +147,14 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         0 => writeln!(out, "{rows}, none run now")?,
         run_now => writeln!(out, "{rows}, {run_now} run now in {took_s:.1} s")?,
     }
+    if simulated < run_now {
+        let same = counted((run_now - simulated) as u64, "case");
+        writeln!(out, "{same} identical to others, not simulated again")?;
+    }
     if let Some(note) = report.not_completed() {
+        writeln!(out, "{note}")?;
+    }
+    for note in notes {
         writeln!(out, "{note}")?;
     }
     if let Some(Checked { cases, seed }) = checked {

@@ -13,25 +13,25 @@ use crate::commands::progress;
 use dashpot_files::did_you_mean;
 use dashpot_files::study::{Figure, FigureContent, Sweep};
 use dashpot_report::page::{document, footer, tiles};
+use dashpot_study::sweep::curves::{Curve, CurveKey, Curves};
 use dashpot_study::sweep::rows::Rows;
-use dashpot_study::sweep::{Observed, RunError, Shared, Study, VERSION};
+use dashpot_study::sweep::{Finished, Observed, Shared, Study, VERSION};
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 260;
 
-/// A study, its rows, and data shared by its figures.
+/// A study with its rows and curves.
 struct Drawn<'a> {
     study: &'a Study,
     rows: &'a Rows,
-    shared: Shared,
+    curves: &'a Curves,
 }
 
 /// Checks the signals and dampers of a study's figures, so that errors appear before hours of runs.
 ///
 /// # Errors
 /// A signal or damper does not exist, or a value is invalid.
-pub(super) fn check(study: &Study) -> Outcome<()> {
-    let shared = Shared::default();
+pub(super) fn check(study: &Study, shared: &Shared) -> Outcome<()> {
     for figure in &study.parameters.figures {
         for name in figure.content.sweeps() {
             let Some(sweep) = study.parameters.sweep(name) else {
@@ -39,7 +39,12 @@ pub(super) fn check(study: &Study) -> Outcome<()> {
             };
             let names = match &figure.content {
                 FigureContent::Indices { .. } => continue,
-                FigureContent::Dampers { dampers, .. } => dampers::signals(dampers),
+                FigureContent::Dampers { dampers, .. } => {
+                    let keys = dampers
+                        .iter()
+                        .flat_map(|name| study.damper_keys(sweep, name));
+                    keys.map(|key| key.signal).collect()
+                }
                 FigureContent::Signal { signal, .. } => vec![signal.clone()],
                 FigureContent::Response { damper, .. } => {
                     let case = study.case_with(sweep, None, None)?;
@@ -53,29 +58,36 @@ pub(super) fn check(study: &Study) -> Outcome<()> {
                     continue;
                 }
             };
-            study.check_signals(sweep, &names, &shared)?;
+            study.check_signals(sweep, &names, shared)?;
         }
     }
     Ok(())
 }
 
-/// Returns the study as HTML.
+/// Returns the study as HTML; draws its figures on a pool of `threads` threads.
 ///
 /// # Errors
-/// A figure cannot be drawn, or one of its cases cannot be run.
-pub(super) fn write(study: &Study, rows: &Rows, report: &Report) -> Outcome<String> {
+/// A figure cannot be drawn.
+pub(super) fn write(
+    study: &Study,
+    finished: &Finished,
+    report: &Report,
+    threads: usize,
+) -> Outcome<String> {
     let drawn = Drawn {
         study,
-        rows,
-        shared: Shared::default(),
+        rows: &finished.rows,
+        curves: &finished.curves,
     };
     let figures = &study.parameters.figures;
     let bar = progress::bar(figures.len() as u64, "figures");
-    let mut parts = Vec::new();
-    for figure in figures {
-        parts.push(drawn.part(figure)?);
+    let mut parts: Vec<Markup> = figures.iter().map(|_| html! {}).collect();
+    let draw = |figure: &Figure, _: &dyn Fn() -> bool| drawn.part(figure);
+    dashpot_workers::in_parallel(figures, threads, draw, |number, part| -> Outcome<()> {
+        parts[number] = part?;
         bar.inc(1);
-    }
+        Ok(())
+    })?;
     bar.finish_and_clear();
     let body = html! {
         h1 { (study.parameters.name) }
@@ -149,6 +161,13 @@ impl Drawn<'_> {
         }
     }
 
+    /// Returns a curve.
+    fn curve(&self, key: &CurveKey) -> Outcome<&Curve> {
+        let CurveKey { case, signal, .. } = key;
+        let curve = self.curves.get(key);
+        curve.ok_or_else(|| Failure::new(format!("case {case}: no curve of `{signal}`")))
+    }
+
     /// Returns the position of an observed index.
     fn number(&self, name: &str) -> Option<usize> {
         let observed = self.study.observed.iter();
@@ -218,9 +237,4 @@ fn cases(study: &Study) -> Markup {
             }
         } }
     }
-}
-
-/// Converts an error of a figure's case to an error that names the sweep.
-fn failed(sweep: &Sweep) -> impl Fn(dashpot_vehicle_run::VehicleRunError) -> RunError + '_ {
-    |error| RunError::in_sweep(sweep, error)
 }

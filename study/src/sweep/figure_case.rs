@@ -1,4 +1,4 @@
-//! Time histories of signals of a case.
+//! Cases and signals of figures.
 
 use super::RunError;
 use super::shared::Shared;
@@ -6,17 +6,7 @@ use super::study::Study;
 use dashpot_files::case::Case;
 use dashpot_files::did_you_mean;
 use dashpot_files::study::{Sweep, Value};
-use dashpot_vehicle_run::VehicleRunError;
 use dashpot_vehicle_run::signals::{self, Signal};
-
-/// Time histories of signals of a case.
-#[derive(Debug, Clone, PartialEq)]
-pub struct History {
-    /// Step size, s.
-    pub step_s: f64,
-    /// Values of each requested signal, tick by tick.
-    pub signals: Vec<Vec<f64>>,
-}
 
 impl Study {
     /// Builds the case of a sweep with the given value of its first axis; the other axes have their first value.
@@ -62,27 +52,4 @@ impl Study {
             None => Ok(()),
         }
     }
-}
-
-/// Runs a case and records signals by their names. The history of an unknown signal is empty; [`Study::check_signals`]
-/// reports such a signal.
-///
-/// # Errors
-/// Same errors as [`Shared::run`].
-pub fn record(case: &Case, names: &[String], shared: &Shared) -> Result<History, VehicleRunError> {
-    let mut run = shared.run(case)?;
-    let all = signals::all(run.vehicle());
-    let find = |name: &String| all.iter().find(|signal| signal.name() == name);
-    let chosen: Vec<Option<&Signal>> = names.iter().map(find).collect();
-    let mut recorded: Vec<Vec<f64>> = chosen.iter().map(|_| Vec::new()).collect();
-    while run.step()?.is_none() {
-        let time_s = run.time_s();
-        for (values, signal) in recorded.iter_mut().zip(&chosen) {
-            values.extend(signal.map(|signal| signal.value(run.state(), time_s)));
-        }
-    }
-    Ok(History {
-        step_s: case.step_s,
-        signals: recorded,
-    })
 }
