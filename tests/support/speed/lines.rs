@@ -147,7 +147,7 @@ pub const LINES: [Line; 14] = [
     },
     Line {
         what: "tick of a case of Fig. 12, with its indices",
-        ours: time("figures", "case of Fig. 12"),
+        ours: time("figures", "case of Fig. 12a"),
         yardstick: Yardstick {
             name: "real time",
             source: Source::Seconds(1e-3),
