@@ -1,13 +1,13 @@
 //! Width of the vectors of a bank.
 
-#[cfg(target_arch = "x86_64")]
-use fearless_simd::{Simd, x86::Avx2};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use fearless_simd::{Level, f32x8, f64x4};
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Simd, x86::Avx2};
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::vector::Halves;
 use super::Bank;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::transposes::Transposes;
 use crate::real::Real;
 
 /// Vector instructions with which a bank is stepped: a token that proves that the processor has them.
@@ -111,27 +111,31 @@ fn wide<T: Real>(avx2: Avx2, bank: Bank<'_, T>) -> Bank<'_, T> {
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn baseline() -> fearless_simd::x86::Sse2 {
-    Level::baseline().as_sse2().expect("the baseline of the processor")
+    Level::baseline()
+        .as_sse2()
+        .expect("the baseline of the processor")
 }
 
 /// Returns the token of the baseline; the compiler removes the check for its instructions.
 #[cfg(target_arch = "aarch64")]
 #[inline(always)]
 fn baseline() -> fearless_simd::aarch64::Neon {
-    Level::baseline().as_neon().expect("the baseline of the processor")
+    Level::baseline()
+        .as_neon()
+        .expect("the baseline of the processor")
 }
 
 /// Scalars of which several dampers are stepped together.
 pub(crate) trait Groups: Sized {
     /// Steps the dampers in whole groups; returns the other dampers.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
+    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
 }
 
 impl Groups for f32 {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
-    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
+    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
         let left = bank.step_groups::<f32x8<S>, 8, 2>(simd);
         left.step_groups::<f32x8<S>, 8, 1>(simd)
     }
@@ -140,7 +144,7 @@ impl Groups for f32 {
 impl Groups for f64 {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
-    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
+    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
         bank.step_groups::<f64x4<S>, 4, 2>(simd)
     }
 }
