@@ -49,7 +49,7 @@ pub fn step_bank<T: Real, const N: usize>(
     forces: &mut [T; N],
 ) {
     step_bank_with(
-        VectorWidth::BASELINE,
+        VectorWidth::baseline(),
         dampers,
         states,
         displacements,

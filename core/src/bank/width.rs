@@ -22,7 +22,7 @@ use crate::real::Real;
 /// # #[cfg(feature = "std")]
 /// let width = VectorWidth::detect();
 /// # #[cfg(not(feature = "std"))]
-/// # let width = VectorWidth::BASELINE;
+/// # let width = VectorWidth::baseline();
 /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
 /// let damper: Damper<f32> = parameters.build(1e-3)?;
 /// let mut states = [damper.at_rest(0.0); 16];
@@ -43,9 +43,16 @@ enum Width {
 }
 
 impl VectorWidth {
-    /// Vectors that every processor of the architecture has: SSE2 on x86-64, NEON on 64-bit Arm. On other processors
-    /// dampers are stepped one by one.
-    pub const BASELINE: Self = Self(Width::Baseline);
+    /// Vectors that every processor for which the program is compiled has: SSE2 on x86-64, NEON on 64-bit Arm, AVX2 if
+    /// the compiler may use it everywhere. On other processors dampers are stepped one by one.
+    #[inline]
+    pub fn baseline() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Level::baseline().as_avx2() {
+            return Self(Width::Avx2(avx2));
+        }
+        Self(Width::Baseline)
+    }
 
     /// Finds the widest vectors of this processor.
     #[cfg(feature = "std")]
@@ -54,7 +61,7 @@ impl VectorWidth {
         if let Some(avx2) = Level::new().as_avx2() {
             return Self(Width::Avx2(avx2));
         }
-        Self::BASELINE
+        Self::baseline()
     }
 
     /// Name of the instruction set: `AVX2`, `SSE2`, `NEON` or `none`.
@@ -62,7 +69,7 @@ impl VectorWidth {
     /// ```
     /// use dashpot_core::VectorWidth;
     ///
-    /// assert!(["SSE2", "NEON", "none"].contains(&VectorWidth::BASELINE.name()));
+    /// assert!(["AVX2", "SSE2", "NEON", "none"].contains(&VectorWidth::baseline().name()));
     /// ```
     pub const fn name(self) -> &'static str {
         match self.0 {
@@ -76,9 +83,9 @@ impl VectorWidth {
 }
 
 impl Default for VectorWidth {
-    /// [`VectorWidth::BASELINE`].
+    /// [`VectorWidth::baseline`].
     fn default() -> Self {
-        Self::BASELINE
+        Self::baseline()
     }
 }
 
