@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use dashpot::damper;
 use dashpot::newton::NewtonDamper;
-use dashpot_core::{Damper, step_bank};
+use dashpot_core::{Damper, VectorWidth, step_bank_with};
 use dashpot_files::case::{Case, CaseOptions};
 use dashpot_rail::contact::{
     ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, Tables, WheelsetContact,
@@ -54,13 +54,22 @@ fn single((damper, motion): (Damper<f32>, Vec<f32>)) -> f32 {
     state.force_n()
 }
 
+type Bank = (Damper<f32>, Vec<f32>, VectorWidth);
+
+fn bank(width: VectorWidth) -> Bank {
+    let (damper, motion) = built("paper");
+    (damper, motion, width)
+}
+
 #[library_benchmark]
-#[bench::paper(built("paper"))]
-fn bank_of_16((damper, motion): (Damper<f32>, Vec<f32>)) -> f32 {
+#[bench::baseline(bank(VectorWidth::baseline()))]
+#[bench::widest(bank(VectorWidth::detect()))]
+fn bank_of_16((damper, motion, width): Bank) -> f32 {
     let mut states = [damper.at_rest(0.0); 16];
     let mut forces = [0.0; 16];
     for &x in &motion {
-        step_bank(
+        step_bank_with(
+            width,
             &[&damper; 16],
             &mut states,
             &black_box([x; 16]),

@@ -11,7 +11,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use dashpot::damper;
 use dashpot::look_up::LookUp;
 use dashpot::newton::NewtonDamper;
-use dashpot_core::{Damper, Real, step_bank};
+use dashpot_core::{Damper, Real, VectorWidth, step_bank_with};
 use dashpot_reference::damper::Reference;
 use dashpot_testbench::excitation::Excitation;
 
@@ -42,22 +42,36 @@ fn single<T: Real>(criterion: &mut Criterion, scalar: &str) {
     group.finish();
 }
 
-fn bank(criterion: &mut Criterion) {
-    let motion = ride::<f32>();
-    let damper: Damper<f32> = damper("paper", &[]).build(STEP_S).expect("a preset builds");
+/// Widths of the vectors of a bank: that of every processor, then the widest of this one.
+fn widths() -> Vec<VectorWidth> {
+    let (baseline, widest) = (VectorWidth::baseline(), VectorWidth::detect());
+    let is_wider = widest.name() != baseline.name();
+    [baseline]
+        .into_iter()
+        .chain(is_wider.then_some(widest))
+        .collect()
+}
+
+fn bank<T: Real>(criterion: &mut Criterion, scalar: &str) {
+    let motion = ride::<T>();
+    let damper: Damper<T> = damper("paper", &[]).build(STEP_S).expect("a preset builds");
     let mut group = criterion.benchmark_group("step");
     group.throughput(Throughput::Elements((motion.len() * BANK) as u64));
-    group.bench_function(format!("paper f32, bank of {BANK}"), |bencher| {
-        let mut states = [damper.at_rest(0.0); BANK];
-        let mut forces = [0.0; BANK];
-        let dampers = black_box([&damper; BANK]);
-        bencher.iter(|| {
-            for &x in &motion {
-                step_bank(&dampers, &mut states, &black_box([x; BANK]), &mut forces);
-                black_box(&forces);
-            }
+    for width in widths() {
+        let name = format!("paper {scalar}, bank of {BANK}, {}", width.name());
+        group.bench_function(name, |bencher| {
+            let mut states = [damper.at_rest(T::ZERO); BANK];
+            let mut forces = [T::ZERO; BANK];
+            let dampers = black_box([&damper; BANK]);
+            bencher.iter(|| {
+                for &x in &motion {
+                    let displacements = black_box([x; BANK]);
+                    step_bank_with(width, &dampers, &mut states, &displacements, &mut forces);
+                    black_box(&forces);
+                }
+            });
         });
-    });
+    }
     group.finish();
 }
 
@@ -128,7 +142,8 @@ fn reference(criterion: &mut Criterion) {
 fn all(criterion: &mut Criterion) {
     single::<f32>(criterion, "f32");
     single::<f64>(criterion, "f64");
-    bank(criterion);
+    bank::<f32>(criterion, "f32");
+    bank::<f64>(criterion, "f64");
     build(criterion);
     rivals(criterion);
     reference(criterion);

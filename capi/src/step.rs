@@ -120,7 +120,7 @@ pub unsafe extern "C" fn dashpot_step_bank(
                     displacements[index] = displacements_m.add(start + index).read();
                 }
                 step_bank_with(
-                    VectorWidth::BASELINE,
+                    VectorWidth::baseline(),
                     &together[..group],
                     slice::from_raw_parts_mut(states.add(start).cast(), group),
                     &displacements,

@@ -13,7 +13,7 @@ const MOST: usize = 40;
 
 /// Widths that the processor has; the log of the test names them.
 fn widths() -> Vec<VectorWidth> {
-    let (baseline, widest) = (VectorWidth::BASELINE, VectorWidth::detect());
+    let (baseline, widest) = (VectorWidth::baseline(), VectorWidth::detect());
     let mut widths = vec![baseline];
     if widest.name() != baseline.name() {
         widths.push(widest);

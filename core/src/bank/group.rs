@@ -70,7 +70,12 @@ fn step_group<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
         #[inline(always)]
         |damper, row| {
             let k = &damper.scalars;
-            *row = [k.half_force_limit, k.held, k.displacement_bound, k.stretch_bound];
+            *row = [
+                k.half_force_limit,
+                k.held,
+                k.displacement_bound,
+                k.stretch_bound,
+            ];
         },
     );
 
@@ -113,8 +118,7 @@ fn step_group<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     let reach = start + travel - splat(simd, 1.0 - GAMMA) * first_flow;
     let beyond = (reach.abs() - offset).max(zero);
     let last = locate(simd, dampers, beyond + first_knot, reach);
-    let [last_flow, end_potential, stiffness] =
-        last.cubics(simd, [FLOW, POTENTIAL, STIFFNESS]);
+    let [last_flow, end_potential, stiffness] = last.cubics(simd, [FLOW, POTENTIAL, STIFFNESS]);
     let bend = gamma * (last_flow - first_flow);
     let quadrature = first_flow + bend;
     let change = travel - quadrature;
@@ -131,7 +135,10 @@ fn step_group<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     let stretch = ((end + rest_rounder) - correction) - rest_rounder;
     let potential = end_potential - last_flow * correction;
     let magnitude = (stretch.abs() - half_clearance).max(zero) * stiffness;
-    let limited = magnitude.min(force_limit).max(zero).min(splat(simd, MAX_FORCE_N));
+    let limited = magnitude
+        .min(force_limit)
+        .max(zero)
+        .min(splat(simd, MAX_FORCE_N));
     let force = limited.with_sign_of(stretch);
 
     for vector in 0..N {
@@ -144,7 +151,12 @@ fn step_group<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
         ]);
         for lane in 0..W {
             let state = &mut states[vector][lane];
-            [state.displacement, state.stretch, state.potential, state.force] = rows[lane];
+            [
+                state.displacement,
+                state.stretch,
+                state.potential,
+                state.force,
+            ] = rows[lane];
         }
         let below = V::bits(magnitude.0[vector].is_below(force_limit.0[vector]));
         if below != (1 << W) - 1 {
@@ -221,7 +233,14 @@ fn state_numbers<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
         simd,
         states,
         #[inline(always)]
-        |state, row| *row = [state.displacement, state.stretch, state.potential, state.force],
+        |state, row| {
+            *row = [
+                state.displacement,
+                state.stretch,
+                state.potential,
+                state.force,
+            ]
+        },
     )
 }
 
@@ -244,7 +263,9 @@ fn window<T: Real>(damper: &Damper<T>, entry: u8) -> &Window<T> {
 #[inline(always)]
 fn row<T: Real>(window: &Window<T>, piece: usize, row: usize) -> &[T; 4] {
     let start = (piece & NUMBERS_PER_PIECE) + 4 * row;
-    window[start..start + 4].first_chunk().expect("four numbers")
+    window[start..start + 4]
+        .first_chunk()
+        .expect("four numbers")
 }
 
 /// The piece of each lane's table that contains the reach of a stage, and the reach beyond its knot (m).

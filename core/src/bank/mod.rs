@@ -10,6 +10,8 @@ use crate::state::DamperState;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod group;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+mod transposes;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod vector;
 mod width;
 
@@ -46,7 +48,13 @@ pub fn step_bank<T: Real, const N: usize>(
     displacements: &[T; N],
     forces: &mut [T; N],
 ) {
-    step_bank_with(VectorWidth::BASELINE, dampers, states, displacements, forces);
+    step_bank_with(
+        VectorWidth::baseline(),
+        dampers,
+        states,
+        displacements,
+        forces,
+    );
 }
 
 /// Does the same as [`step_bank`] in vectors of the given width, for slices. The bits do not depend on the width.

@@ -6,12 +6,11 @@
 use core::ops::{Add, BitOr, Div, Mul, Neg, Sub};
 
 use fearless_simd::prelude::*;
-#[cfg(target_arch = "x86_64")]
-use fearless_simd::x86::Avx2;
 use fearless_simd::{f32x4, f32x8, f64x4, u32x8, u64x4};
 
-use crate::bins::{BINS, bin_shift};
 use super::group::NUMBERS_PER_PIECE;
+use super::transposes::Transposes;
+use crate::bins::{BINS, bin_shift};
 
 /// Vector of `W` numbers.
 pub(super) trait Vector<T, const W: usize>:
@@ -23,7 +22,7 @@ pub(super) trait Vector<T, const W: usize>:
     + Neg<Output = Self>
 {
     /// Token of the vector instructions.
-    type Simd: Halves;
+    type Simd: Transposes;
     /// Truth of each lane.
     type Mask: Copy + BitOr<Output = Self::Mask>;
 
@@ -59,7 +58,7 @@ pub(super) trait Vector<T, const W: usize>:
 
 macro_rules! vector {
     ($float:ident, $width:literal, $vector:ident, $words:ident, $word:ident, $split:ident) => {
-        impl<S: Halves> Vector<$float, $width> for $vector<S> {
+        impl<S: Transposes> Vector<$float, $width> for $vector<S> {
             type Simd = S;
             type Mask = <Self as SimdBase<S>>::Mask;
 
@@ -153,7 +152,8 @@ macro_rules! vector {
             fn entries(self, direction: Self) -> [usize; $width] {
                 const SHIFT: u32 = bin_shift($float::MANTISSA_DIGITS) - 1;
                 const MASK: $word = 2 * (BINS as $word - 1);
-                let (reach, direction): ($words<S>, $words<S>) = (self.bitcast(), direction.bitcast());
+                let (reach, direction): ($words<S>, $words<S>) =
+                    (self.bitcast(), direction.bitcast());
                 let entries = (reach >> SHIFT) & MASK | direction >> ($word::BITS - 1);
                 let words: [$word; $width] = entries.into();
                 let mut entries = [0; $width];
@@ -174,9 +174,9 @@ mod eight {
     use super::*;
 
     #[inline(always)]
-    pub(super) fn columns<S: Halves>(simd: S, rows: &[[f32; 4]; 8]) -> [f32x8<S>; 4] {
+    pub(super) fn columns<S: Transposes>(simd: S, rows: &[[f32; 4]; 8]) -> [f32x8<S>; 4] {
         let [a, b, c, d, e, f, g, h] = rows;
-        simd.transposed([
+        simd.transposed_halves([
             load(simd, a).combine(load(simd, e)),
             load(simd, b).combine(load(simd, f)),
             load(simd, c).combine(load(simd, g)),
@@ -185,8 +185,8 @@ mod eight {
     }
 
     #[inline(always)]
-    pub(super) fn rows<S: Halves>(columns: [f32x8<S>; 4]) -> [[f32; 4]; 8] {
-        let columns = columns[0].token().transposed(columns);
+    pub(super) fn rows<S: Transposes>(columns: [f32x8<S>; 4]) -> [[f32; 4]; 8] {
+        let columns = columns[0].token().transposed_halves(columns);
         let mut rows = [[0.0; 4]; 8];
         for row in 0..4 {
             let (low, high) = columns[row].split();
@@ -207,99 +207,26 @@ mod four {
     use super::*;
 
     #[inline(always)]
-    pub(super) fn columns<S: Simd>(simd: S, rows: &[[f64; 4]; 4]) -> [f64x4<S>; 4] {
+    pub(super) fn columns<S: Transposes>(simd: S, rows: &[[f64; 4]; 4]) -> [f64x4<S>; 4] {
         let [a, b, c, d] = rows;
-        transposed([load(simd, a), load(simd, b), load(simd, c), load(simd, d)])
+        simd.transposed([load(simd, a), load(simd, b), load(simd, c), load(simd, d)])
     }
 
     #[inline(always)]
-    pub(super) fn rows<S: Simd>(columns: [f64x4<S>; 4]) -> [[f64; 4]; 4] {
-        let [a, b, c, d] = transposed(columns);
-        [a.into(), b.into(), c.into(), d.into()]
+    pub(super) fn rows<S: Transposes>(columns: [f64x4<S>; 4]) -> [[f64; 4]; 4] {
+        let columns = columns[0].token().transposed(columns);
+        let mut rows = [[0.0; 4]; 4];
+        for row in 0..4 {
+            columns[row].store_slice(&mut rows[row]);
+        }
+        rows
     }
 
     #[inline(always)]
     fn load<S: Simd>(simd: S, row: &[f64; 4]) -> f64x4<S> {
         f64x4::from_slice(simd, row)
     }
-
-    #[inline(always)]
-    fn transposed<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
-        let (a, b, c, d) = (a.split(), b.split(), c.split(), d.split());
-        let (top, top_right) = (a.0.interleave(b.0), a.1.interleave(b.1));
-        let (low, low_right) = (c.0.interleave(d.0), c.1.interleave(d.1));
-        [
-            top.0.combine(low.0),
-            top.1.combine(low.1),
-            top_right.0.combine(low_right.0),
-            top_right.1.combine(low_right.1),
-        ]
-    }
 }
-
-/// Tokens that transpose within the halves of vectors.
-pub(crate) trait Halves: Simd {
-    /// Transposes the low halves of four vectors, and their high halves.
-    #[inline(always)]
-    fn transposed(self, [a, b, c, d]: [f32x8<Self>; 4]) -> [f32x8<Self>; 4] {
-        let (a, b, c, d) = (a.split(), b.split(), c.split(), d.split());
-        let low = transposed([a.0, b.0, c.0, d.0]);
-        let high = transposed([a.1, b.1, c.1, d.1]);
-        [
-            low[0].combine(high[0]),
-            low[1].combine(high[1]),
-            low[2].combine(high[2]),
-            low[3].combine(high[3]),
-        ]
-    }
-}
-
-#[inline(always)]
-fn transposed<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
-    let (even, odd) = (a.interleave(c), b.interleave(d));
-    let (first, second) = even.0.interleave(odd.0);
-    let (third, last) = even.1.interleave(odd.1);
-    [first, second, third, last]
-}
-
-#[cfg(target_arch = "aarch64")]
-impl Halves for fearless_simd::aarch64::Neon {}
-
-#[cfg(target_arch = "x86_64")]
-impl Halves for fearless_simd::x86::Sse2 {}
-
-#[cfg(target_arch = "x86_64")]
-impl Halves for Avx2 {
-    #[inline(always)]
-    fn transposed(self, [a, b, c, d]: [f32x8<Self>; 4]) -> [f32x8<Self>; 4] {
-        transposed_avx2(self, a, b, c, d)
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-fearless_simd::kernel!(
-    /// [`Halves::transposed`] with the instructions that work on both halves.
-    #[inline(always)]
-    fn transposed_avx2(
-        avx2: Avx2,
-        a: f32x8<Avx2>,
-        b: f32x8<Avx2>,
-        c: f32x8<Avx2>,
-        d: f32x8<Avx2>,
-    ) -> [f32x8<Avx2>; 4] {
-        use core::arch::x86_64::{_mm256_shuffle_ps, _mm256_unpackhi_ps, _mm256_unpacklo_ps};
-        let low = _mm256_unpacklo_ps(a.into(), b.into());
-        let high = _mm256_unpackhi_ps(a.into(), b.into());
-        let low_right = _mm256_unpacklo_ps(c.into(), d.into());
-        let high_right = _mm256_unpackhi_ps(c.into(), d.into());
-        [
-            _mm256_shuffle_ps::<0x44>(low, low_right).simd_into(avx2),
-            _mm256_shuffle_ps::<0xEE>(low, low_right).simd_into(avx2),
-            _mm256_shuffle_ps::<0x44>(high, high_right).simd_into(avx2),
-            _mm256_shuffle_ps::<0xEE>(high, high_right).simd_into(avx2),
-        ]
-    }
-);
 
 /// `N` vectors. The processor works on one while another waits for a result.
 #[derive(Clone, Copy)]

@@ -1,13 +1,13 @@
 //! Width of the vectors of a bank.
 
-#[cfg(target_arch = "x86_64")]
-use fearless_simd::{Simd, x86::Avx2};
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use fearless_simd::{Level, f32x8, f64x4};
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::{Simd, x86::Avx2};
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::vector::Halves;
 use super::Bank;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::transposes::Transposes;
 use crate::real::Real;
 
 /// Vector instructions with which a bank is stepped: a token that proves that the processor has them.
@@ -22,7 +22,7 @@ use crate::real::Real;
 /// # #[cfg(feature = "std")]
 /// let width = VectorWidth::detect();
 /// # #[cfg(not(feature = "std"))]
-/// # let width = VectorWidth::BASELINE;
+/// # let width = VectorWidth::baseline();
 /// let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
 /// let damper: Damper<f32> = parameters.build(1e-3)?;
 /// let mut states = [damper.at_rest(0.0); 16];
@@ -43,9 +43,16 @@ enum Width {
 }
 
 impl VectorWidth {
-    /// Vectors that every processor of the architecture has: SSE2 on x86-64, NEON on 64-bit Arm. On other processors
-    /// dampers are stepped one by one.
-    pub const BASELINE: Self = Self(Width::Baseline);
+    /// Vectors that every processor for which the program is compiled has: SSE2 on x86-64, NEON on 64-bit Arm, AVX2 if
+    /// the compiler may use it everywhere. On other processors dampers are stepped one by one.
+    #[inline]
+    pub fn baseline() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(avx2) = Level::baseline().as_avx2() {
+            return Self(Width::Avx2(avx2));
+        }
+        Self(Width::Baseline)
+    }
 
     /// Finds the widest vectors of this processor.
     #[cfg(feature = "std")]
@@ -54,7 +61,7 @@ impl VectorWidth {
         if let Some(avx2) = Level::new().as_avx2() {
             return Self(Width::Avx2(avx2));
         }
-        Self::BASELINE
+        Self::baseline()
     }
 
     /// Name of the instruction set: `AVX2`, `SSE2`, `NEON` or `none`.
@@ -62,7 +69,7 @@ impl VectorWidth {
     /// ```
     /// use dashpot_core::VectorWidth;
     ///
-    /// assert!(["SSE2", "NEON", "none"].contains(&VectorWidth::BASELINE.name()));
+    /// assert!(["AVX2", "SSE2", "NEON", "none"].contains(&VectorWidth::baseline().name()));
     /// ```
     pub const fn name(self) -> &'static str {
         match self.0 {
@@ -76,9 +83,9 @@ impl VectorWidth {
 }
 
 impl Default for VectorWidth {
-    /// [`VectorWidth::BASELINE`].
+    /// [`VectorWidth::baseline`].
     fn default() -> Self {
-        Self::BASELINE
+        Self::baseline()
     }
 }
 
@@ -111,27 +118,31 @@ fn wide<T: Real>(avx2: Avx2, bank: Bank<'_, T>) -> Bank<'_, T> {
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn baseline() -> fearless_simd::x86::Sse2 {
-    Level::baseline().as_sse2().expect("the baseline of the processor")
+    Level::baseline()
+        .as_sse2()
+        .expect("the baseline of the processor")
 }
 
 /// Returns the token of the baseline; the compiler removes the check for its instructions.
 #[cfg(target_arch = "aarch64")]
 #[inline(always)]
 fn baseline() -> fearless_simd::aarch64::Neon {
-    Level::baseline().as_neon().expect("the baseline of the processor")
+    Level::baseline()
+        .as_neon()
+        .expect("the baseline of the processor")
 }
 
 /// Scalars of which several dampers are stepped together.
 pub(crate) trait Groups: Sized {
     /// Steps the dampers in whole groups; returns the other dampers.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
+    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
 }
 
 impl Groups for f32 {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
-    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
+    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
         let left = bank.step_groups::<f32x8<S>, 8, 2>(simd);
         left.step_groups::<f32x8<S>, 8, 1>(simd)
     }
@@ -140,7 +151,7 @@ impl Groups for f32 {
 impl Groups for f64 {
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
-    fn step_groups<S: Halves>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
+    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
         bank.step_groups::<f64x4<S>, 4, 2>(simd)
     }
 }

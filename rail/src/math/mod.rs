@@ -8,5 +8,5 @@ pub(crate) mod number;
 pub(crate) mod spline;
 mod vector_width;
 
-pub(crate) use vector_width::{level, width};
 pub use vector_width::with_narrowest_vectors;
+pub(crate) use vector_width::{level, width};

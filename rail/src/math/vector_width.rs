@@ -34,7 +34,7 @@ pub fn with_narrowest_vectors<R>(work: impl FnOnce() -> R) -> R {
 /// The vectors with which this thread steps dampers.
 pub(crate) fn width() -> VectorWidth {
     if IS_BASELINE.get() {
-        VectorWidth::BASELINE
+        VectorWidth::baseline()
     } else {
         VectorWidth::detect()
     }

@@ -37,7 +37,7 @@ pub const AREAS: [Area; 6] = [
             "core/src/state.rs",
             "core/src/status.rs",
             "core/src/integrity.rs",
-            "core/src/bank.rs",
+            "core/src/bank/*.rs",
             "core/src/math/*.rs",
         ],
         rounds: &[
