@@ -99,7 +99,7 @@ fn observe_run(
             let lateral = run.state().coordinates()[bodies..].iter();
             last_lateral_m = lateral.fold(last_lateral_m, |max, q| max.max(q[0].abs()));
         }
-        if run.state().ticks() % TICKS_PER_CHECK == 0 && is_cancelled() {
+        if run.state().ticks().is_multiple_of(TICKS_PER_CHECK) && is_cancelled() {
             break run.interrupted();
         }
     };

@@ -181,7 +181,13 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let mut report = Report::new(&study, &finished.rows, missing.len(), took);
     report.simulated = plan.simulations();
     match shard {
-        None => results.write(&study, finished, (&path, threads), &shared, &mut report)?,
+        None => results.write(
+            &study,
+            finished,
+            (path.as_path(), threads),
+            &shared,
+            &mut report,
+        )?,
         Some(_) => report.add_rows(&path, &finished),
     }
     print_report(results.format(), &report, print)
