@@ -77,7 +77,7 @@ impl CheckedParameters {
                     (column, volume)
                 };
                 let law = Law::Physical(HydraulicSide { laws, compression });
-                self.branch(law, laws.oil.column.map(volume), self.limits.force_n)
+                self.branch(law, laws.density.column.map(volume), self.limits.force_n)
             }),
             ElementLaws::Reduced(reduced) => {
                 let saturation = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;

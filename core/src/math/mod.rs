@@ -12,5 +12,7 @@ mod lanes;
 pub(crate) mod elementary;
 #[cfg(feature = "builder")]
 pub(crate) mod root;
+#[cfg(feature = "builder")]
+pub(crate) mod roots;
 
 pub(crate) use lanes::Lanes;
