@@ -80,7 +80,7 @@ pub(crate) trait Scalar: Lanes<Self, 1> {
     #[cfg(feature = "builder")]
     fn index(table: &mut Table<Self>);
     /// See [`Table::check`].
-    #[cfg(feature = "builder")]
+    #[cfg(all(test, feature = "builder"))]
     fn table_check(table: &Table<Self>) -> u32;
     /// See [`Table::check_row`].
     fn check_row(table: &Table<Self>, row: usize, crc: u32) -> u32;
@@ -130,7 +130,7 @@ macro_rules! real {
             fn index(table: &mut Table<Self>) {
                 table.index();
             }
-            #[cfg(feature = "builder")]
+            #[cfg(all(test, feature = "builder"))]
             fn table_check(table: &Table<Self>) -> u32 {
                 table.check()
             }

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use super::compressed::Density;
-use crate::math::group::square_roots;
+use crate::math::square_roots::square_roots;
 use crate::oil::ZERO_CELSIUS_K;
 use crate::parameters::{
     ATMOSPHERIC_PRESSURE_PA, Hydraulics, Leakage, Relief, Reservoir, Valve, circle_area,

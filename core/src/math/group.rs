@@ -3,7 +3,7 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x4, f64x2, f64x4, i32x4, u32x4};
+use fearless_simd::{Level, f32x4, f64x4, i32x4, u32x4};
 
 use super::Lanes;
 use crate::bins::{BINS, bin_shift};
@@ -60,21 +60,6 @@ impl<V: Neg<Output = V>> Neg for Pair<V> {
     fn neg(self) -> Self {
         Self(-self.0, -self.1)
     }
-}
-
-/// Square roots of several numbers.
-#[cfg(feature = "builder")]
-#[inline(always)]
-pub(crate) fn square_roots<const N: usize>(numbers: [f64; N]) -> [f64; N] {
-    let mut roots = numbers;
-    let (pairs, last) = roots.as_chunks_mut();
-    for pair in pairs {
-        *pair = f64x2::load_array(baseline(), *pair).sqrt().to_array();
-    }
-    for number in last {
-        *number = libm::sqrt(*number);
-    }
-    roots
 }
 
 /// Splits an array into two halves.

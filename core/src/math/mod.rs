@@ -14,5 +14,7 @@ pub(crate) mod elementary;
 pub(crate) mod root;
 #[cfg(feature = "builder")]
 pub(crate) mod roots;
+#[cfg(feature = "builder")]
+pub(crate) mod square_roots;
 
 pub(crate) use lanes::Lanes;

@@ -7,9 +7,3 @@ pub(crate) const GROUP: usize = 1;
 pub(crate) type F32 = f32;
 /// Numbers of a group in double precision.
 pub(crate) type F64 = f64;
-
-/// Square roots of several numbers.
-#[cfg(feature = "builder")]
-pub(crate) fn square_roots<const N: usize>(numbers: [f64; N]) -> [f64; N] {
-    numbers.map(libm::sqrt)
-}
