@@ -122,7 +122,7 @@ impl Characteristic {
             ShimPackValve::PistonCompression => (&laws.compression, 0.0),
             ShimPackValve::FootCompression => (&laws.foot, laws.back_pressure_pa),
         };
-        let density = laws.density_kg_per_m3(pressure_pa);
+        let density = laws.density.at(pressure_pa);
         let jet = jet_velocity((pressure_pa - back_pressure).max(0.0), density);
         Some(valve.flow(pressure_pa, jet))
     }

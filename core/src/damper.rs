@@ -1,5 +1,7 @@
 //! The damper: constants for one step size, shared by any number of states.
 
+#[cfg(feature = "builder")]
+use crate::build::table_check;
 use crate::parameters::{MAX_CLEARANCE_M, MAX_FORCE_N, Mount};
 use crate::real::Real;
 use crate::revision;
@@ -48,7 +50,7 @@ impl<T: Real> Damper<T> {
             scalars,
             revision: revision::of_damper(table_revision, &scalars),
             table_revision,
-            table_check: T::table_check(&table),
+            table_check: table_check(&table),
             padding: [0; 2],
             table,
         }

@@ -21,17 +21,24 @@ impl Oil {
     /// assert!((oil.density_kg_per_m3(0.0) - 870.0 / 1.021).abs() < 1e-9);
     /// ```
     pub fn density_kg_per_m3(&self, pressure_pa: f64) -> f64 {
+        let density = self.density_without_pressure_kg_per_m3();
+        match &self.column {
+            None => density,
+            Some(column) => density / (1.0 - column.compression(pressure_pa)),
+        }
+    }
+
+    /// Density (kg/m^3) of oil with entrained air at atmospheric pressure.
+    pub(crate) fn density_without_pressure_kg_per_m3(&self) -> f64 {
         let warming = self.temperature_c - DENSITY_TEMPERATURE_C;
         let oil = self.density_kg_per_m3 / (1.0 + self.thermal_expansion_per_k * warming);
-        match &self.column {
-            None => oil,
-            Some(column) => {
-                let alpha = column.air_fraction;
-                let air = ATMOSPHERIC_PRESSURE_PA
-                    / (AIR_GAS_CONSTANT * (self.temperature_c + ZERO_CELSIUS_K));
-                ((1.0 - alpha) * oil + alpha * air) / (1.0 - column.compression(pressure_pa))
-            }
-        }
+        let Some(column) = &self.column else {
+            return oil;
+        };
+        let alpha = column.air_fraction;
+        let air =
+            ATMOSPHERIC_PRESSURE_PA / (AIR_GAS_CONSTANT * (self.temperature_c + ZERO_CELSIUS_K));
+        (1.0 - alpha) * oil + alpha * air
     }
 
     /// Kinematic viscosity at the working temperature (m^2/s).
@@ -55,12 +62,17 @@ impl OilColumn {
     /// Loss of volume of the mixture under a gauge pressure P (Pa), relative to its volume at atmospheric pressure:
     /// `(1 - alpha) P/E_l + alpha (1 - (p_a/(p_a + P))^(1/n))` (1).
     pub fn compression(&self, pressure_pa: f64) -> f64 {
+        self.compression_with(pressure_pa, self.air_volume(pressure_pa))
+    }
+
+    /// [`OilColumn::compression`] with the air volume at this pressure.
+    pub(crate) fn compression_with(&self, pressure_pa: f64, air_volume: f64) -> f64 {
         (1.0 - self.air_fraction) * pressure_pa / self.bulk_modulus_pa
-            + self.air_fraction * (1.0 - self.air_volume(pressure_pa))
+            + self.air_fraction * (1.0 - air_volume)
     }
 
     /// Ratio of the volume of the air to its volume at atmospheric pressure, `(p_a/(p_a + P))^(1/n)` (1).
-    fn air_volume(&self, pressure_pa: f64) -> f64 {
+    pub(crate) fn air_volume(&self, pressure_pa: f64) -> f64 {
         let ratio = ATMOSPHERIC_PRESSURE_PA / (ATMOSPHERIC_PRESSURE_PA + pressure_pa);
         if self.polytropic_exponent == 1.0 {
             ratio
@@ -71,10 +83,14 @@ impl OilColumn {
 
     /// Derivative of [`OilColumn::compression`] with respect to pressure (1/Pa).
     pub fn compressibility_per_pa(&self, pressure_pa: f64) -> f64 {
+        self.compressibility_with(pressure_pa, self.air_volume(pressure_pa))
+    }
+
+    /// [`OilColumn::compressibility_per_pa`] with the air volume at this pressure.
+    pub(crate) fn compressibility_with(&self, pressure_pa: f64, air_volume: f64) -> f64 {
         let absolute = ATMOSPHERIC_PRESSURE_PA + pressure_pa;
         (1.0 - self.air_fraction) / self.bulk_modulus_pa
-            + self.air_fraction * self.air_volume(pressure_pa)
-                / (self.polytropic_exponent * absolute)
+            + self.air_fraction * air_volume / (self.polytropic_exponent * absolute)
     }
 
     /// Bulk modulus of the mixture (Pa) at an absolute pressure p (Pa): its volume divided by its compressibility, `E =

@@ -77,7 +77,7 @@ pub(crate) trait Scalar: Lanes<Self, 1> + Groups {
     #[cfg(feature = "builder")]
     fn index(table: &mut Table<Self>);
     /// See [`Table::check`].
-    #[cfg(feature = "builder")]
+    #[cfg(all(test, feature = "builder"))]
     fn table_check(table: &Table<Self>) -> u32;
     /// See [`Table::check_row`].
     fn check_row(table: &Table<Self>, row: usize, crc: u32) -> u32;
@@ -125,7 +125,7 @@ macro_rules! real {
             fn index(table: &mut Table<Self>) {
                 table.index();
             }
-            #[cfg(feature = "builder")]
+            #[cfg(all(test, feature = "builder"))]
             fn table_check(table: &Table<Self>) -> u32 {
                 table.check()
             }

@@ -13,11 +13,22 @@ pub(crate) fn of_words(hash: u32, words: impl Iterator<Item = u64>) -> u32 {
     words.fold(hash, of_word)
 }
 
+const PRIME: u32 = 0x0100_0193;
+
 #[inline(never)] // one copy in flash
 fn of_word(hash: u32, word: u64) -> u32 {
-    word.to_le_bytes().iter().fold(hash, |hash, byte| {
-        (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193)
-    })
+    let of_bytes = |hash, bytes: &[u8]| {
+        bytes.iter().fold(hash, |hash: u32, byte| {
+            (hash ^ u32::from(*byte)).wrapping_mul(PRIME)
+        })
+    };
+    let bytes = word.to_le_bytes();
+    if word >> 32 == 0 {
+        // A zero byte only multiplies: these are the four high bytes of a number in single precision.
+        const OF_ZEROS: u32 = PRIME.wrapping_pow(4);
+        return of_bytes(hash, &bytes[..4]).wrapping_mul(OF_ZEROS);
+    }
+    of_bytes(hash, &bytes)
 }
 
 /// Hash of a table.

@@ -1,6 +1,6 @@
 //! One branch of the element (extension or compression): the velocity law and the springs in series.
 
-use crate::hydraulics::{Corners, HydraulicSide};
+use crate::hydraulics::{Chamber, Corners, HydraulicSide};
 use crate::parameters::{OilColumn, Reduced};
 
 /// The velocity law `v_h(F)` of one branch.
@@ -25,9 +25,27 @@ pub(crate) struct Branch<'a> {
 impl Branch<'_> {
     /// Velocity `v_h(F)` of the piston in the cylinder (m/s).
     pub(crate) fn velocity(&self, force: f64) -> f64 {
+        let [velocity] = self.velocities([self.chamber(force)]);
+        velocity
+    }
+
+    /// Velocities of the piston in the cylinder (m/s) for several chambers.
+    #[inline(always)]
+    pub(crate) fn velocities<const N: usize>(&self, chambers: [Chamber; N]) -> [f64; N] {
         match &self.law {
-            Law::Physical(side) => side.velocity(force),
-            Law::Reduced(reduced) => force / reduced.damping_n_s_per_m,
+            Law::Physical(side) => side.velocities(chambers),
+            Law::Reduced(reduced) => {
+                chambers.map(|chamber| chamber.force_n / reduced.damping_n_s_per_m)
+            }
+        }
+    }
+
+    /// Returns the chamber under pressure at a force.
+    #[inline(always)]
+    pub(crate) fn chamber(&self, force: f64) -> Chamber {
+        match &self.law {
+            Law::Physical(side) => side.chamber(force),
+            Law::Reduced(_) => Chamber::without_oil(force),
         }
     }
 
@@ -41,21 +59,31 @@ impl Branch<'_> {
 
     /// Deflection `delta(F)` (m) of the mount plus that of the oil column under its gauge pressure.
     pub(crate) fn deflection(&self, force: f64) -> f64 {
+        self.deflection_of(&self.chamber(force))
+    }
+
+    /// [`Branch::deflection`] with the chamber at the force.
+    #[inline(always)]
+    pub(crate) fn deflection_of(&self, chamber: &Chamber) -> f64 {
         let oil = match (&self.column, &self.law) {
             (Some((column, volume)), Law::Physical(side)) => {
-                volume / side.area() * column.compression(side.pressure_pa(force))
+                volume / side.area()
+                    * column.compression_with(chamber.pressure_pa, chamber.air_volume)
             }
             _ => 0.0,
         };
-        force * self.mount_compliance + oil
+        chamber.force_n * self.mount_compliance + oil
     }
 
     /// Compliance of mount and oil column `d delta/dF` (m/N).
-    pub(crate) fn compliance(&self, force: f64) -> f64 {
+    #[inline(always)]
+    pub(crate) fn compliance(&self, chamber: &Chamber) -> f64 {
         let oil = match (&self.column, &self.law) {
-            (Some((column, volume)), Law::Physical(side)) if force >= side.laws.friction_n => {
+            (Some((column, volume)), Law::Physical(side))
+                if chamber.force_n >= side.laws.friction_n =>
+            {
                 volume / (side.area() * side.area())
-                    * column.compressibility_per_pa(side.pressure_pa(force))
+                    * column.compressibility_with(chamber.pressure_pa, chamber.air_volume)
             }
             _ => 0.0,
         };
@@ -68,11 +96,12 @@ impl Branch<'_> {
     }
 
     /// Ratio of force to deflection (N/m); at zero deflection, the limit of this ratio.
-    pub(crate) fn secant_stiffness(&self, force: f64, deflection: f64) -> f64 {
+    #[inline(always)]
+    pub(crate) fn secant_stiffness(&self, chamber: &Chamber, deflection: f64) -> f64 {
         if deflection > 0.0 {
-            force / deflection
+            chamber.force_n / deflection
         } else {
-            1.0 / self.compliance(force)
+            1.0 / self.compliance(chamber)
         }
     }
 

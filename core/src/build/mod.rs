@@ -5,12 +5,14 @@ mod checked;
 mod fit;
 mod knots;
 mod span;
+mod table_check;
 
 pub(crate) use branch::Branch;
 use branch::Law;
 pub use checked::CheckedParameters;
 pub(crate) use checked::ElementLaws;
 use span::Stage;
+pub(crate) use table_check::table_check;
 
 use crate::bins::DOUBLINGS;
 use crate::damper::Damper;
@@ -77,7 +79,7 @@ impl CheckedParameters {
                     (column, volume)
                 };
                 let law = Law::Physical(HydraulicSide { laws, compression });
-                self.branch(law, laws.oil.column.map(volume), self.limits.force_n)
+                self.branch(law, laws.density.column.map(volume), self.limits.force_n)
             }),
             ElementLaws::Reduced(reduced) => {
                 let saturation = reduced.damping_n_s_per_m * reduced.saturation_velocity_m_per_s;

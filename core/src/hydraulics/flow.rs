@@ -2,10 +2,11 @@
 
 use core::f64::consts::PI;
 
-use crate::math::elementary::sqrt;
+use super::compressed::Density;
+use crate::math::square_roots::square_roots;
 use crate::oil::ZERO_CELSIUS_K;
 use crate::parameters::{
-    ATMOSPHERIC_PRESSURE_PA, Hydraulics, Leakage, Oil, Relief, Reservoir, Valve, circle_area,
+    ATMOSPHERIC_PRESSURE_PA, Hydraulics, Leakage, Relief, Reservoir, Valve, circle_area,
 };
 use crate::shim::edge_compliance;
 
@@ -29,9 +30,10 @@ impl ShimValve {
         }
     }
 
-    /// Flow through the valve at a jet velocity (m/s) and a pressure (Pa) that lifts the shims.
+    /// Flow through the valve at a pressure (Pa) that lifts the shims and a jet velocity (m/s).
+    #[inline(always)]
     pub(crate) fn flow(&self, lift_pa: f64, jet_m_per_s: f64) -> f64 {
-        self.area_gradient * (lift_pa - self.preload_pa).max(0.0) * jet_m_per_s
+        self.area_gradient * positive_part(lift_pa - self.preload_pa) * jet_m_per_s
     }
 }
 
@@ -66,35 +68,75 @@ impl FlowPaths {
         }
     }
 
-    /// Flow under a pressure difference (Pa) across the piston, at a density (kg/m^3) and a jet velocity (m/s).
-    fn flow(&self, pressure_pa: f64, density_kg_per_m3: f64, jet_m_per_s: f64) -> f64 {
-        let turbulent = self.orifice_area * jet_m_per_s;
+    /// Flows under pressure differences (Pa) across the piston, at densities (kg/m^3) and jet velocities (m/s).
+    #[inline(always)]
+    fn flows<const N: usize>(
+        &self,
+        pressures_pa: [f64; N],
+        densities_kg_per_m3: [f64; N],
+        jets_m_per_s: [f64; N],
+    ) -> [f64; N] {
+        let mut orifice = jets_m_per_s.map(|jet| self.orifice_area * jet);
         // P = R_t Q^2 + R_l Q with R_l = R_t Q_t and turbulent^2 = P/R_t.
-        let orifice = if self.transition_flow > 0.0 && turbulent > 0.0 {
+        if self.transition_flow > 0.0 {
             let half = 0.5 * self.transition_flow;
-            turbulent * turbulent / (half + sqrt(half * half + turbulent * turbulent))
-        } else {
-            turbulent
-        };
-        let relief = self.relief.as_ref().map_or(0.0, |valve| {
-            valve.discharge_coefficient
-                * valve.area_gradient_m2_per_pa
-                * (pressure_pa - valve.opening_pressure_pa).max(0.0)
-                * jet_m_per_s
+            let roots = square_roots(orifice.map(|turbulent| half * half + turbulent * turbulent));
+            for (turbulent, root) in orifice.iter_mut().zip(roots) {
+                *turbulent = *turbulent * *turbulent / (half + root);
+            }
+        }
+        let (relief_gradient, relief_opening) = self.relief.as_ref().map_or((0.0, 0.0), |valve| {
+            let gradient = valve.discharge_coefficient * valve.area_gradient_m2_per_pa;
+            (gradient, valve.opening_pressure_pa)
         });
-        orifice + self.leakage * pressure_pa / density_kg_per_m3 + relief
+        core::array::from_fn(|lane| {
+            let pressure = pressures_pa[lane];
+            let relief =
+                relief_gradient * positive_part(pressure - relief_opening) * jets_m_per_s[lane];
+            orifice[lane] + self.leakage * pressure / densities_kg_per_m3[lane] + relief
+        })
     }
 }
 
 /// Jet velocity `sqrt(2 D/rho)` (m/s) of oil under a pressure difference D (Pa).
 pub(crate) fn jet_velocity(difference_pa: f64, density_kg_per_m3: f64) -> f64 {
-    sqrt(2.0 * difference_pa / density_kg_per_m3)
+    let [jet] = jet_velocities([difference_pa], [density_kg_per_m3]);
+    jet
+}
+
+/// Jet velocities (m/s); NaN for a negative pressure difference (Pa).
+#[inline(always)]
+fn jet_velocities<const N: usize>(
+    differences_pa: [f64; N],
+    densities_kg_per_m3: [f64; N],
+) -> [f64; N] {
+    square_roots(core::array::from_fn(|lane| {
+        2.0 * differences_pa[lane] / densities_kg_per_m3[lane]
+    }))
+}
+
+/// The number, or 0 if it is negative. Unlike `max`, it takes one vector instruction.
+#[inline(always)]
+fn positive_part(number: f64) -> f64 {
+    if number > 0.0 { number } else { 0.0 }
+}
+
+/// The flow in each lane, 0 where the pressure difference is not positive.
+#[inline(always)]
+fn where_positive<const N: usize>(differences_pa: [f64; N], flows: [f64; N]) -> [f64; N] {
+    core::array::from_fn(|lane| {
+        if differences_pa[lane] <= 0.0 {
+            0.0
+        } else {
+            flows[lane]
+        }
+    })
 }
 
 /// The laws of a physical damper, checked and ready to evaluate.
 #[derive(Clone, Debug)]
 pub(crate) struct Laws {
-    pub(crate) oil: Oil,
+    pub(crate) density: Density,
     pub(crate) paths: FlowPaths,
     pub(crate) extension: ShimValve,
     pub(crate) compression: ShimValve,
@@ -118,35 +160,38 @@ impl Laws {
         self.foot.preload_pa.max(self.back_pressure_pa)
     }
 
-    /// Flow through the foot valve under a pressure of the piston side (Pa).
-    pub(crate) fn through_foot(&self, pressure_pa: f64) -> f64 {
-        let difference = pressure_pa - self.back_pressure_pa;
-        if difference <= 0.0 {
-            return 0.0;
-        }
-        let density = self.density_kg_per_m3(pressure_pa);
-        self.foot
-            .flow(pressure_pa, jet_velocity(difference, density))
+    /// Flows through the foot valve under pressures of the piston side (Pa), at the densities there (kg/m^3).
+    #[inline(always)]
+    pub(crate) fn through_foot<const N: usize>(
+        &self,
+        pressures_pa: [f64; N],
+        densities_kg_per_m3: [f64; N],
+    ) -> [f64; N] {
+        let differences = pressures_pa.map(|pressure| pressure - self.back_pressure_pa);
+        let jets = jet_velocities(differences, densities_kg_per_m3);
+        let flows = core::array::from_fn(|lane| self.foot.flow(pressures_pa[lane], jets[lane]));
+        where_positive(differences, flows)
     }
 
-    /// Flow through the piston in extension or compression under a pressure difference and an upstream pressure (Pa).
-    pub(crate) fn through_piston(
+    /// Flows through the piston in extension or compression under pressure differences (Pa), at the densities upstream
+    /// (kg/m^3).
+    #[inline(always)]
+    pub(crate) fn through_piston<const N: usize>(
         &self,
         compression: bool,
-        difference_pa: f64,
-        upstream_pa: f64,
-    ) -> f64 {
-        if difference_pa <= 0.0 {
-            return 0.0;
-        }
+        differences_pa: [f64; N],
+        densities_kg_per_m3: [f64; N],
+    ) -> [f64; N] {
         let valve = if compression {
             &self.compression
         } else {
             &self.extension
         };
-        let density = self.density_kg_per_m3(upstream_pa);
-        let jet = jet_velocity(difference_pa, density);
-        self.paths.flow(difference_pa, density, jet) + valve.flow(difference_pa, jet)
+        let jets = jet_velocities(differences_pa, densities_kg_per_m3);
+        let paths = self.paths.flows(differences_pa, densities_kg_per_m3, jets);
+        let flows =
+            core::array::from_fn(|lane| paths[lane] + valve.flow(differences_pa[lane], jets[lane]));
+        where_positive(differences_pa, flows)
     }
 
     /// Returns the laws of checked parameters.
@@ -154,7 +199,7 @@ impl Laws {
         let valves = &hydraulics.valves;
         let geometry = &hydraulics.geometry;
         Self {
-            oil: hydraulics.oil,
+            density: Density::new(&hydraulics.oil),
             paths: FlowPaths::new(hydraulics),
             extension: ShimValve::new(&valves.piston_extension),
             compression: ShimValve::new(&valves.piston_compression),

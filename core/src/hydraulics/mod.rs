@@ -8,4 +8,4 @@ mod two_chamber;
 
 pub use corner::Corner;
 pub(crate) use flow::{Laws, jet_velocity};
-pub(crate) use side::{Corners, HydraulicSide};
+pub(crate) use side::{Chamber, Corners, HydraulicSide};

@@ -7,5 +7,9 @@ mod lanes;
 pub(crate) mod elementary;
 #[cfg(feature = "builder")]
 pub(crate) mod root;
+#[cfg(feature = "builder")]
+pub(crate) mod roots;
+#[cfg(feature = "builder")]
+pub(crate) mod square_roots;
 
 pub(crate) use lanes::Lanes;

@@ -1,20 +1,24 @@
 //! Text files: CSV and similar formats of loggers.
 
+mod blocks;
+mod decimal;
 mod decode;
 mod head;
 mod header;
-mod line_ends;
 mod number;
+mod plain_row;
 mod rows;
 mod separator;
 
 use std::io::{self, BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
+use blocks::Blocks;
 use csv::{ByteRecord, Reader, ReaderBuilder};
 #[cfg(feature = "parquet")]
 pub(super) use header::column_from_header;
-use line_ends::LineEnds;
+use number::Numbers;
+use plain_row::PlainRows;
 use rows::TextRows;
 
 use super::error::RecordingError;
@@ -48,12 +52,12 @@ struct PendingRow {
 /// Records of the text and their line numbers.
 struct Lines {
     path: PathBuf,
-    reader: Reader<LineEnds<Box<dyn Read>>>,
+    reader: Reader<Blocks<Box<dyn Read>>>,
     separator: Separator,
     /// Number of skipped lines before the first line of the reader.
     skipped: u64,
     count: Count,
-    /// Position, in bytes, of the end of the record read last.
+    /// Position, in bytes, of the end of the record read last by the reader.
     end: u64,
     /// True if the record read last is the last one of the text and has no line end.
     is_unended: bool,
@@ -83,7 +87,7 @@ impl Text {
             .delimiter(separator.byte())
             .has_headers(false)
             .flexible(true)
-            .from_reader(LineEnds::new(source));
+            .from_reader(Blocks::new(source));
         let lines = Lines {
             path: path.to_owned(),
             reader,
@@ -168,8 +172,11 @@ impl Lines {
     fn read(&mut self, record: &mut ByteRecord) -> Result<bool, FileError> {
         let read = self.reader.read_byte_record(record);
         match read {
-            Ok(true) => self.end = self.reader.position().byte(),
-            Ok(false) => self.is_unended = self.reader.get_ref().ends_unended(self.end),
+            Ok(true) => self.end = self.reader.get_ref().position(),
+            Ok(false) => {
+                let blocks = self.reader.get_ref();
+                self.is_unended = blocks.position() == self.end && blocks.is_within_line();
+            }
             Err(_) => {}
         }
         read.map_err(|error| match error.into_kind() {
@@ -183,9 +190,25 @@ impl Lines {
         self.is_unended.then(|| self.line())
     }
 
-    /// Line of the record read last.
+    /// Reads the next row into `values` if it is plain; `false` leaves it to [`Lines::read`].
+    #[inline]
+    fn read_plain(&mut self, rows: &PlainRows, numbers: &mut Numbers, values: &mut [f64]) -> bool {
+        let blocks = self.reader.get_mut();
+        let Some(row) = blocks
+            .whole_lines()
+            .and_then(|text| rows.parse(text, numbers.mark(), values))
+        else {
+            return false;
+        };
+        if row.has_mark {
+            numbers.keep_mark();
+        }
+        blocks.advance(row.length);
+        true
+    }
+
+    /// Line of the row read last.
     fn line(&self) -> u64 {
-        let (position, source) = (self.reader.position(), self.reader.get_ref());
-        self.skipped + position.line() - u64::from(source.has_passed_line_feed(position.byte()))
+        self.skipped + self.reader.get_ref().line()
     }
 }

@@ -23,6 +23,16 @@ impl Numbers {
         Self { mark }
     }
 
+    /// Decimal mark of the numbers so far.
+    pub(super) fn mark(self) -> Option<DecimalMark> {
+        self.mark
+    }
+
+    /// Sets the decimal mark after a number that was parsed with the mark so far, which by default is the point.
+    pub(super) fn keep_mark(&mut self) {
+        self.mark.get_or_insert(DecimalMark::Point);
+    }
+
     /// Parses the number in a cell; an empty cell is NaN.
     pub(super) fn parse(&mut self, cell: &[u8]) -> Result<f64, NotNumber> {
         if cell.is_empty() {

@@ -3,6 +3,7 @@
 use csv::ByteRecord;
 
 use super::number::{NotNumber, Numbers};
+use super::plain_row::PlainRows;
 use super::{Lines, PendingRow, Text, decode};
 use crate::error::RecordingError;
 use crate::location::RowLocation;
@@ -20,6 +21,8 @@ pub(super) struct TextRows {
     /// One parser for all columns, or one per column if `lenient`.
     numbers: Vec<Numbers>,
     lenient: bool,
+    /// Parser of plain rows; `None` if the CSV reader reads all rows.
+    plain: Option<PlainRows>,
     record: ByteRecord,
     /// Line of the record that was read with the header; `None` once that record has been returned.
     pending_line: Option<u64>,
@@ -35,7 +38,11 @@ impl TextRows {
             Some(PendingRow { record, line }) => (record, Some(line)),
             None => (ByteRecord::new(), None),
         };
+        let separator = lines.separator;
         Self {
+            plain: (!lenient)
+                .then(|| PlainRows::new(separator, text.cells, indices))
+                .flatten(),
             lines,
             names,
             columns: indices.to_vec(),
@@ -95,6 +102,12 @@ impl TextRows {
 impl Source for TextRows {
     fn next(&mut self, values: &mut [f64]) -> Result<bool, FileError> {
         self.line_read_before = self.pending_line.take();
+        if self.line_read_before.is_none()
+            && let Some(plain) = &self.plain
+            && self.lines.read_plain(plain, &mut self.numbers[0], values)
+        {
+            return Ok(true);
+        }
         if self.line_read_before.is_none() && !self.lines.read(&mut self.record)? {
             return Ok(false);
         }

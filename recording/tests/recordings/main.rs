@@ -10,6 +10,7 @@ mod mdf;
 mod overview;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod plain_rows;
 mod position;
 mod remedies;
 mod separators;
