@@ -50,7 +50,10 @@ fn no_bin_has_two_knots() {
                     .map(|knot| knot >> (52 - 7))
                     .collect();
                 assert!(bins.len() > 1, "{name}, {step_s} s");
-                assert!(bins.is_sorted_by(|a, b| a < b), "{name}, {step_s} s: {bins:?}");
+                assert!(
+                    bins.is_sorted_by(|a, b| a < b),
+                    "{name}, {step_s} s: {bins:?}"
+                );
             }
         }
     }
