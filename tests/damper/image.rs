@@ -33,8 +33,8 @@ fn every_preset_comes_back() {
     }
 }
 
-/// One comparison finds the piece of a reach only if no bin has two knots. A bin is named by the exponent and seven bits
-/// of the fraction.
+/// One comparison finds the piece of a reach only if no bin has two knots. The exponent and seven bits
+/// of the fraction name a bin.
 #[test]
 fn no_bin_has_two_knots() {
     const WORDS_OF_PIECE: usize = 13;
