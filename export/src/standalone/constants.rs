@@ -59,9 +59,7 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
     let words = T::words(damper);
     let (scalars, rest) = words.split_at(SCALARS);
     let (revisions, pieces) = rest.split_at(REVISIONS);
-    let mut text = format!(
-        "\nstatic const {prefix}_row {name}_rows[{ROWS}] = {{\n",
-    );
+    let mut text = format!("\nstatic const {prefix}_row {name}_rows[{ROWS}] = {{\n",);
     for side in pieces.chunks(PIECES * PIECE_WORDS) {
         let pieces: Vec<&[u64]> = side.chunks(PIECE_WORDS).collect();
         let knot = |piece: usize| match pieces.get(piece).and_then(|piece| piece.last()) {
