@@ -1,4 +1,8 @@
 //! The step of a group of dampers in vectors: the operations of [`crate::step`] in the same order, in every lane.
+#![expect(
+    clippy::needless_range_loop,
+    reason = "iterators are not always inlined into the function that enables the vector instructions"
+)]
 
 use super::Bank;
 use super::vector::{Vector, Vectors};
