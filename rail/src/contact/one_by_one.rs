@@ -28,9 +28,10 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         rails: &[RailDisplacement; 2],
     ) -> MovingWheel<Tangent> {
         let sign = sign(side);
-        let numbers = MotionNumbers::new(motion, Tangent::variable, |value, field| {
-            Tangent::variable(value, field) * sign
-        });
+        let numbers = MotionNumbers::new(
+            |field, number| Tangent::variable(field(motion), number),
+            |field, number| Tangent::variable(field(motion), number) * sign,
+        );
         let rail = RailNumbers::new(
             |field| Tangent::constant(field(&rails[side])),
             |field| Tangent::constant(sign * field(&rails[side])),

@@ -17,7 +17,7 @@ use crate::contact::silhouette::WheelPose;
 use crate::contact::source::PatchReader;
 use crate::contact::zones::ZONES;
 use crate::math::each::Each;
-use crate::math::number::{Number, transposed};
+use crate::math::number::{Number, load, transposed};
 
 /// Corners of a tetrahedron.
 const CORNERS: usize = 4;
@@ -280,6 +280,22 @@ fn unpacked<T: Number>(record: [T; FIELDS], load: T, root: T) -> PatchNumbers<T>
     }
 }
 
+/// The numbers of the patches of four wheels from their records.
+#[inline(always)]
+fn unpacked_in_lanes<S: Simd>(
+    simd: S,
+    wheels: [&Cell<'_>; 4],
+    records: [f32x8<S>; 4],
+) -> PatchNumbers<f64x4<S>> {
+    let lanes = records.each(|record| simd.split_f32x8(record));
+    let [k, l, m, n] = transposed(simd, lanes.each(|(four, _)| four));
+    let [t, u, v, w] = transposed(simd, lanes.each(|(_, four)| four));
+    let loads = wheels.each(|wheel| wheel.load.load);
+    let roots = wheels.each(|wheel| wheel.load.root);
+    let fields = [k, l, m, n, t, u, v, w];
+    unpacked(fields, load(simd, &loads), load(simd, &roots))
+}
+
 impl PatchReader for Cell<'_> {
     #[inline(always)]
     fn is_inside(&self) -> bool {
@@ -322,16 +338,23 @@ impl PatchReader for Cell<'_> {
         [a, b, c, d]: [usize; 4],
     ) -> PatchNumbers<f64x4<S>> {
         let ([p, r], [q, s]) = (left.two(simd, [a, c]), right.two(simd, [b, d]));
-        let lanes = [p, q, r, s].each(|record| simd.split_f32x8(record));
-        let [k, l, m, n] = transposed(simd, lanes.each(|(four, _)| four));
-        let [t, u, v, w] = transposed(simd, lanes.each(|(_, four)| four));
-        let in_lanes =
-            |left: f64, right: f64| crate::math::number::load(simd, &[left, right, left, right]);
-        unpacked(
-            [k, l, m, n, t, u, v, w],
-            in_lanes(left.load.load, right.load.load),
-            in_lanes(left.load.root, right.load.root),
-        )
+        unpacked_in_lanes(simd, [left, right, left, right], [p, q, r, s])
+    }
+
+    #[inline(always)]
+    fn numbers_of_four<S: Simd>(
+        simd: S,
+        wheels: [&Self; 4],
+        [a, b, c, d]: [usize; 4],
+    ) -> PatchNumbers<f64x4<S>> {
+        let [first, second, third, fourth] = wheels;
+        let records = [
+            first.record(simd, a),
+            second.record(simd, b),
+            third.record(simd, c),
+            fourth.record(simd, d),
+        ];
+        unpacked_in_lanes(simd, wheels, records)
     }
 
     fn differentiated(

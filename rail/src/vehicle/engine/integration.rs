@@ -1,0 +1,128 @@
+//! One step: the linearly implicit generalised-alpha method.
+
+use std::array::from_fn;
+
+use fearless_simd::Simd;
+
+use super::Vehicle;
+use super::block::{N, Vector};
+use super::method::Method;
+use super::state::VehicleState;
+use super::tangent::{Weights, add_contact};
+use crate::contact::PatchSource;
+use crate::creep::CreepLaw;
+use crate::track::Track;
+
+/// A larger displacement or rotation counts as divergence, m or rad.
+pub(super) const MAX_DISPLACEMENT: f64 = 10.0;
+
+/// A larger acceleration counts as divergence, m/s^2 or rad/s^2.
+const MAX_ACCELERATION: f64 = 1e6;
+
+impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
+    /// Computes coordinates and velocities at the end of a step with the predicted accelerations.
+    #[inline(always)]
+    pub(super) fn predict(&self, state: &mut VehicleState, track: &Track, distance_m: f64) {
+        let Method {
+            step_s: h,
+            to_velocity,
+            to_displacement,
+            ..
+        } = self.method;
+        let speed = state.speed_m_per_s;
+        let guidance = &mut state.work.guidance;
+        guidance.update(track.layout(), distance_m, speed, &self.positions);
+        let bodies = state.coordinates.iter_mut().zip(&mut state.velocities);
+        let accelerations = state
+            .accelerations
+            .iter_mut()
+            .zip(&mut state.last_accelerations);
+        let poses = state.pose.iter_mut().zip(&guidance.pose);
+        for (((coordinates, velocity), (acceleration, last)), (pose, new_pose)) in
+            bodies.zip(accelerations).zip(poses)
+        {
+            // Reading everything before writing lets the compiler vectorise the five coordinates.
+            let (q, v, a) = (*coordinates, *velocity, *acceleration);
+            let predicted: Vector = from_fn(|i| self.method.predicted(a[i], last[i]));
+            let change: Vector = from_fn(|i| predicted[i] - a[i]);
+            let moved: Vector = from_fn(|i| new_pose[i] - pose[i]);
+            *coordinates = from_fn(|i| {
+                q[i] + h * (v[i] + 0.5 * h * a[i]) + to_displacement * change[i] - moved[i]
+            });
+            *velocity = from_fn(|i| v[i] + h * a[i] + to_velocity * change[i]);
+            *acceleration = predicted;
+            *last = a;
+            *pose = *new_pose;
+        }
+    }
+
+    /// Adds the contact's tangent at the predicted positions to the system and factorises it.
+    #[inline(always)]
+    pub(super) fn factorise<V: Simd>(&self, simd: V, state: &mut VehicleState) {
+        let method = &self.method;
+        let weights = Weights {
+            stiffness: method.stiffness_weight(),
+            damping: method.damping_weight(),
+        };
+        let system = &mut state.work.system;
+        system.set(&self.system);
+        for (constants, forces) in self.wheelsets.iter().zip(&state.contacts) {
+            let (blocks, surface) = (&constants.blocks, constants.surface);
+            let speed = state.speed_m_per_s;
+            add_contact(simd, system, blocks, forces, surface, speed, weights);
+        }
+        state.is_diverged |= !self.structure.factorise(simd, system);
+    }
+
+    /// Applies one Newton correction with the forces at the predicted positions.
+    #[inline(always)]
+    pub(super) fn correct<V: Simd>(
+        &self,
+        simd: V,
+        state: &mut VehicleState,
+        forces: &mut [Vector],
+    ) {
+        let method = &self.method;
+        let motion = state
+            .accelerations
+            .as_flattened()
+            .iter()
+            .zip(state.last_accelerations.as_flattened())
+            .zip(state.forces.as_flattened())
+            .zip(self.inertia.as_flattened());
+        for (residual, (((a, last), old), inertia)) in
+            forces.as_flattened_mut().iter_mut().zip(motion)
+        {
+            *residual = method.new_force * *residual + method.old_force * old
+                - inertia * (a + method.old_inertia * last);
+        }
+        self.structure.solve(simd, &state.work.system, forces);
+        let to_force = 1.0 / method.new_force;
+        let bodies = state.coordinates.iter_mut().zip(&mut state.velocities);
+        let accelerations = state
+            .accelerations
+            .iter_mut()
+            .zip(&state.last_accelerations);
+        let loads = state.forces.iter_mut().zip(&self.inertia);
+        let mut is_bounded = true;
+        for (((change, (coordinates, velocity)), (acceleration, last)), (force, inertia)) in
+            forces.iter().zip(bodies).zip(accelerations).zip(loads)
+        {
+            let (q, v, a, old) = (*coordinates, *velocity, *acceleration, *force);
+            let a: Vector = from_fn(|i| a[i] + change[i]);
+            let q: Vector = from_fn(|i| q[i] + method.to_displacement * change[i]);
+            // Force at the end of the step according to the method.
+            let inertia: Vector = from_fn(|i| inertia[i] * (a[i] + method.old_inertia * last[i]));
+            *coordinates = q;
+            *velocity = from_fn(|i| v[i] + method.to_velocity * change[i]);
+            *acceleration = a;
+            *force = from_fn(|i| (inertia[i] - method.old_force * old[i]) * to_force);
+            is_bounded &=
+                (0..N).all(|i| (q[i].abs() < MAX_DISPLACEMENT) & (a[i].abs() < MAX_ACCELERATION));
+        }
+        for constants in &self.wheelsets {
+            state.coordinates[constants.blocks.wheelset][3] = 0.0;
+        }
+        state.is_diverged |= !is_bounded;
+    }
+}
