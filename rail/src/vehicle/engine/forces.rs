@@ -7,8 +7,7 @@ use fearless_simd::Simd;
 use super::block::Vector;
 use super::rails::{displace, push};
 use super::state::VehicleState;
-use super::tangent::ContactBlocks;
-use super::{Vehicle, WheelsetConstants};
+use super::{ContactBodies, Vehicle, WheelsetConstants};
 use crate::contact::{Motion, PatchSource, RailDisplacement};
 use crate::creep::CreepLaw;
 use crate::track::Track;
@@ -99,7 +98,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         state: &VehicleState,
         constants: &WheelsetConstants,
     ) -> Motion {
-        let body = constants.blocks.wheelset;
+        let body = constants.bodies.wheelset;
         let pose_rate = &state.work.guidance.pose_rate[body];
         let [lateral, vertical, roll, _, yaw] = state.coordinates[body];
         let v = state.velocities[body];
@@ -127,10 +126,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         distance_m: f64,
         constants: &WheelsetConstants,
     ) -> [RailDisplacement; 2] {
-        let ContactBlocks { wheelset, rails } = constants.blocks;
+        let ContactBodies { wheelset, rails } = constants.bodies;
         let from_middle_m = self.positions[wheelset].x_m;
         let mut under = track.displacements(distance_m + from_middle_m, state.speed_m_per_s);
-        if let Some((rail, _)) = rails {
+        if let Some(rail) = rails {
             displace(
                 &mut under,
                 &state.coordinates[rail],
@@ -153,8 +152,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         forces: &mut [Vector],
     ) {
         let WheelsetConstants {
-            blocks:
-                ContactBlocks {
+            bodies:
+                ContactBodies {
                     wheelset: body,
                     rails: on_rails,
                 },
@@ -179,7 +178,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         // Moment about the axle, which is yawed and rolled.
         sums[3] += my - yaw * mx + roll * mz;
         sums[4] += mz + momentum * v[2];
-        if let Some((rail, _)) = on_rails {
+        if let Some(rail) = on_rails {
             push(contact, standing_n, &mut forces[*rail]);
         }
     }

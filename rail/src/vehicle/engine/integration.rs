@@ -7,7 +7,7 @@ use fearless_simd::Simd;
 use super::Vehicle;
 use super::block::{N, Vector};
 use super::method::Method;
-use super::state::VehicleState;
+use super::state::{VehicleState, Work};
 use super::tangent::{Weights, add_contact};
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
@@ -64,14 +64,23 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             stiffness: method.stiffness_weight(),
             damping: method.damping_weight(),
         };
-        let system = &mut state.work.system;
+        let Work { system, rails, .. } = &mut state.work;
         system.set(&self.system);
-        for (constants, forces) in self.wheelsets.iter().zip(&state.contacts) {
-            let (blocks, surface) = (&constants.blocks, constants.surface);
-            let speed = state.speed_m_per_s;
-            add_contact(simd, system, blocks, forces, surface, speed, weights);
+        rails.copy_from_slice(&self.rails);
+        let mut is_positive = true;
+        for (number, (constants, forces)) in self.wheelsets.iter().zip(&state.contacts).enumerate()
+        {
+            let wheelset = &mut system.diagonal[constants.bodies.wheelset];
+            let (surface, speed) = (constants.surface, state.speed_m_per_s);
+            let mut rails = rails.get_mut(number);
+            let under = rails.as_deref_mut();
+            add_contact(simd, wheelset, under, forces, surface, speed, weights);
+            if let Some(rails) = rails {
+                is_positive &= rails.eliminate(simd, wheelset);
+            }
         }
-        state.is_diverged |= !self.structure.factorise(simd, system);
+        is_positive &= self.structure.factorise(simd, system);
+        state.is_diverged |= !is_positive;
     }
 
     /// Applies one Newton correction with the forces at the predicted positions.
@@ -96,7 +105,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             *residual = method.new_force * *residual + method.old_force * old
                 - inertia * (a + method.old_inertia * last);
         }
-        self.structure.solve(simd, &state.work.system, forces);
+        self.solve(simd, &state.work, forces);
         let to_force = 1.0 / method.new_force;
         let bodies = state.coordinates.iter_mut().zip(&mut state.velocities);
         let accelerations = state
@@ -121,8 +130,25 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                 (0..N).all(|i| (q[i].abs() < MAX_DISPLACEMENT) & (a[i].abs() < MAX_ACCELERATION));
         }
         for constants in &self.wheelsets {
-            state.coordinates[constants.blocks.wheelset][3] = 0.0;
+            state.coordinates[constants.bodies.wheelset][3] = 0.0;
         }
         state.is_diverged |= !is_bounded;
+    }
+    /// Replaces the right-hand side of the equations by their solution.
+    #[inline(always)]
+    fn solve<V: Simd>(&self, simd: V, factors: &Work, vector: &mut [Vector]) {
+        let bodies = self.names.len();
+        let wheelsets = bodies - self.wheelsets.len()..;
+        // The bodies end with the wheelsets; the rails follow in the same order.
+        let (vector, rails) = vector.split_at_mut(bodies);
+        let under = factors.rails.iter().zip(rails.iter_mut());
+        for ((equations, rails), wheelset) in under.zip(&mut vector[wheelsets.clone()]) {
+            equations.solve_rails(simd, rails, wheelset);
+        }
+        self.structure.solve(simd, &factors.system, vector);
+        let under = factors.rails.iter().zip(rails);
+        for ((equations, rails), wheelset) in under.zip(&vector[wheelsets]) {
+            equations.follow_wheelset(simd, rails, wheelset);
+        }
     }
 }

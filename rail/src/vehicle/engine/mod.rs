@@ -3,6 +3,7 @@
 mod across;
 mod assembly;
 mod block;
+mod columns;
 mod dampers;
 mod energy;
 mod extremes;
@@ -13,6 +14,7 @@ mod identity;
 mod influences;
 mod integration;
 mod method;
+mod rail_equations;
 mod rails;
 mod shape;
 mod springs;
@@ -38,13 +40,14 @@ use self::identity::Identity;
 pub use self::influences::{FRICTION_FACTOR, MAX_APPLIED};
 use self::integration::MAX_DISPLACEMENT;
 use self::method::Method;
+use self::rail_equations::RailEquations;
 pub use self::rails::RailSupport;
 use self::shape::Shape;
 use self::springs::Springs;
 use self::state::Work;
 pub use self::state::{Stop, VehicleState};
 use self::structure::{Blocks, Structure};
-use self::tangent::{ContactBlocks, SurfaceConstants};
+use self::tangent::SurfaceConstants;
 use super::body::COORDINATES;
 use super::carried::Carried;
 use super::error::VehicleError;
@@ -115,6 +118,8 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     structure: Structure,
     /// `M` plus weighted damping and stiffness: the equations of a step without the contact.
     system: Blocks,
+    /// The same for elastically supported rails.
+    rails: Vec<RailEquations>,
     /// Springs and dashpots to the track; `None` if there are none.
     on_track: Option<Springs>,
     dampers: Vec<DamperElement>,
@@ -122,9 +127,17 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     frictions: Vec<FrictionElement>,
 }
 
+/// Indices of the bodies that a wheelset's contact acts on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct ContactBodies {
+    wheelset: usize,
+    /// Rails, if they are elastically supported.
+    rails: Option<usize>,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct WheelsetConstants {
-    blocks: ContactBlocks,
+    bodies: ContactBodies,
     surface: SurfaceConstants,
     /// Forces on elastically supported rails at standstill, N.
     standing_n: Vector,
@@ -189,6 +202,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             work: Work {
                 guidance: Guidance::new(count),
                 system: self.system.clone(),
+                rails: self.rails.clone(),
                 residual: zeros.clone(),
                 in_middle: zeros.clone(),
                 rates_in_middle: zeros.clone(),

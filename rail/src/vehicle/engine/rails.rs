@@ -202,15 +202,6 @@ pub(super) fn standing_n(wheel_forces_n: &[[f64; 3]; 2]) -> Vector {
     standing
 }
 
-/// Returns the motion of the rail on one side that is equal and opposite to a motion of the wheelset.
-#[inline(always)]
-pub(super) fn against(direction: &Vector, side: usize) -> Vector {
-    let mut rails = [0.0; N];
-    rails[LATERAL[side]] = -direction[0];
-    rails[VERTICAL[side]] = -direction[1];
-    rails
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

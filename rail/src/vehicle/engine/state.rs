@@ -6,6 +6,7 @@ use super::block::{N, Vector};
 use super::extremes::Extremes;
 use super::guidance::Guidance;
 use super::identity::Identity;
+use super::rail_equations::RailEquations;
 use super::structure::Blocks;
 use crate::contact::{Status, WheelsetForces};
 use crate::vehicle::error::VehicleError;
@@ -74,6 +75,8 @@ pub(super) struct Work {
     pub guidance: Guidance,
     /// Equations of the step, then their factors.
     pub system: Blocks,
+    /// The same for elastically supported rails.
+    pub rails: Vec<RailEquations>,
     pub residual: Vec<Vector>,
     /// Coordinates relative to the frame at the middle of the vehicle.
     pub in_middle: Vec<Vector>,
@@ -288,6 +291,7 @@ clone_by_field!(VehicleState {
 clone_by_field!(Work {
     guidance,
     system,
+    rails,
     residual,
     in_middle,
     rates_in_middle,
