@@ -115,6 +115,15 @@ impl WheelsetForces {
         patches.map(|patch| patch.dissipation_w).sum()
     }
 
+    /// True if a wheel has two patches or more.
+    #[inline(always)]
+    pub(crate) fn has_second_patch(&self) -> bool {
+        let [left, right] = &self.wheels;
+        // With two bits or more, some are left when the lowest is removed.
+        let without_lowest = |zones: u32| zones & zones.wrapping_sub(1);
+        without_lowest(left.loaded_zones) | without_lowest(right.loaded_zones) != 0
+    }
+
     /// Returns true if forces can be computed for the motion; otherwise sets them to zero and the status to
     /// `NotFinite`.
     #[inline(always)]

@@ -43,12 +43,13 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
         &self,
         motions: &[Motion; 2],
         rails: &[[RailDisplacement; 2]; 2],
-        forces: &mut [WheelsetForces; 2],
+        mut forces: [&mut WheelsetForces; 2],
     ) {
-        let is_done =
-            dispatch!(self.level, simd => self.update_two_in(simd, motions, rails, forces));
+        let is_done = dispatch!(self.level, simd => {
+            self.update_two_in(simd, motions, rails, &mut forces)
+        });
         if !is_done {
-            for (number, forces) in forces.iter_mut().enumerate() {
+            for (number, forces) in forces.into_iter().enumerate() {
                 self.update(&motions[number], &rails[number], forces);
             }
         }
@@ -62,7 +63,7 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
         simd: S,
         motions: &[Motion; 2],
         rails: &[[RailDisplacement; 2]; 2],
-        forces: &mut [WheelsetForces; 2],
+        forces: &mut [&mut WheelsetForces; 2],
     ) -> bool {
         let is_backward = motions.each_ref().map(|motion| motion.speed_m_per_s < 0.0);
         let [first, second] = forces;
@@ -165,3 +166,6 @@ impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {
         true
     }
 }
+
+#[cfg(test)]
+mod tests;

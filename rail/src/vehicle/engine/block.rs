@@ -53,6 +53,10 @@ impl Block {
         *self == Self::ZERO
     }
 
+    pub fn diagonal(&self) -> Vector {
+        std::array::from_fn(|i| self.0[i][i])
+    }
+
     /// Returns `sum + vector * self`: the sum of the rows, each times one entry of the vector.
     #[inline(always)]
     pub fn add_product<S: Simd>(&self, simd: S, vector: &Vector, sum: f64x8<S>) -> f64x8<S> {
@@ -98,15 +102,14 @@ impl Block {
     /// positive definite, that is, if all pivots are positive.
     #[inline(always)]
     pub fn invert<S: Simd>(&mut self, simd: S) -> bool {
-        let mut columns = Columns::new(simd, self);
-        // Not short-circuited, so that there are no branches.
-        let is_positive = columns.eliminate::<0>()
-            & columns.eliminate::<1>()
-            & columns.eliminate::<2>()
-            & columns.eliminate::<3>()
-            & columns.eliminate::<4>();
+        let columns = Columns::new(simd, self);
+        let (columns, a) = columns.eliminate::<0>();
+        let (columns, b) = columns.eliminate::<1>();
+        let (columns, c) = columns.eliminate::<2>();
+        let (columns, d) = columns.eliminate::<3>();
+        let (columns, e) = columns.eliminate::<4>();
         columns.write(self);
-        is_positive
+        a & b & c & d & e
     }
 }
 

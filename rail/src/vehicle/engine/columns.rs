@@ -3,7 +3,7 @@
 //! With vectors of four numbers, a row of five takes two instructions for each operation; here, the second is for a
 //! single number, or one for four rows.
 
-use fearless_simd::{Simd, SimdBase, f64x4};
+use fearless_simd::{Simd, SimdBase, f64x4, mask64x4};
 
 use super::block::{Block, N, Vector};
 use crate::math::number::load;
@@ -45,41 +45,64 @@ impl<S: Simd> Columns<S> {
     }
 
     /// One step of Gauss-Jordan elimination. Returns true if its pivot is positive.
+    // Every row by its name instead of a loop, so that all rows stay in registers.
     #[inline(always)]
-    pub fn eliminate<const J: usize>(&mut self) -> bool {
+    pub fn eliminate<const J: usize>(self) -> (Self, bool) {
         let simd = self.first[0].simd;
-        let is_last = J == FIRST;
-        let lanes = load(simd, &INDICES);
-        let at_pivot = simd.simd_eq_f64x4(lanes, simd.splat_f64x4(J as f64));
-        let zero = simd.splat_f64x4(0.0);
-        let pivot = if is_last {
-            self.last[J]
-        } else {
-            self.first[J][J]
-        };
+        let pivot = self.number(J, J);
         let inverse = 1.0 / pivot;
         let (mut scaled, mut last_scaled) = (self.first[J] * inverse, inverse);
-        if !is_last {
-            scaled = simd.select_f64x4(at_pivot, simd.splat_f64x4(inverse), scaled);
+        if J < FIRST {
+            scaled = simd.select_f64x4(at::<J, S>(simd), simd.splat_f64x4(inverse), scaled);
             last_scaled = self.last[J] * inverse;
         }
-        for i in 0..N {
-            if i == J {
-                continue;
-            }
-            let (first, last) = (self.first[i], self.last[i]);
-            if is_last {
-                self.first[i] = first - scaled * last;
-                self.last[i] = 0.0 - last_scaled * last;
-            } else {
-                let factor = first[J];
-                self.first[i] = simd.select_f64x4(at_pivot, zero, first) - scaled * factor;
-                self.last[i] = last - last_scaled * factor;
-            }
-        }
-        (self.first[J], self.last[J]) = (scaled, last_scaled);
-        pivot > 0.0
+        let (p, a) = self.reduced::<J>(0, scaled, last_scaled);
+        let (q, b) = self.reduced::<J>(1, scaled, last_scaled);
+        let (r, c) = self.reduced::<J>(2, scaled, last_scaled);
+        let (s, d) = self.reduced::<J>(3, scaled, last_scaled);
+        let (t, e) = self.reduced::<J>(4, scaled, last_scaled);
+        let columns = Self {
+            first: [p, q, r, s, t],
+            last: [a, b, c, d, e],
+        };
+        (columns, pivot > 0.0)
     }
+
+    /// Row `i` after the elimination of row `J`, which is given scaled.
+    #[inline(always)]
+    fn reduced<const J: usize>(
+        &self,
+        i: usize,
+        scaled: f64x4<S>,
+        last_scaled: f64,
+    ) -> (f64x4<S>, f64) {
+        let simd = scaled.simd;
+        if i == J {
+            return (scaled, last_scaled);
+        }
+        let (factor, first) = (self.number(i, J), self.first[i]);
+        if J < FIRST {
+            let first = simd.select_f64x4(at::<J, S>(simd), simd.splat_f64x4(0.0), first);
+            (first - scaled * factor, self.last[i] - last_scaled * factor)
+        } else {
+            (first - scaled * factor, 0.0 - last_scaled * factor)
+        }
+    }
+
+    #[inline(always)]
+    fn number(&self, i: usize, j: usize) -> f64 {
+        if j < FIRST {
+            self.first[i][j]
+        } else {
+            self.last[i]
+        }
+    }
+}
+
+/// Selects column `J`.
+#[inline(always)]
+fn at<const J: usize, S: Simd>(simd: S) -> mask64x4<S> {
+    simd.simd_eq_f64x4(load(simd, &INDICES), simd.splat_f64x4(J as f64))
 }
 
 /// Sums of weighted outer products of directions.

@@ -5,11 +5,13 @@ use std::sync::Arc;
 use fearless_simd::Simd;
 
 use super::block::Vector;
+use super::elementwise::{Formula, for_all};
 use super::rails::{displace, push};
 use super::state::VehicleState;
 use super::{ContactBodies, Vehicle, WheelsetConstants};
 use crate::contact::{Motion, PatchSource, RailDisplacement};
 use crate::creep::CreepLaw;
+use crate::math::number::Number;
 use crate::track::Track;
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
@@ -25,35 +27,16 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     ) {
         let work = &mut state.work;
         let guidance = &work.guidance;
-        let positions = work
-            .in_middle
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(state.coordinates.as_flattened())
-            .zip(guidance.relative.as_flattened());
-        for ((in_middle, q), relative) in positions {
-            *in_middle = q + relative;
-        }
-        let rates = work
-            .rates_in_middle
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(state.velocities.as_flattened())
-            .zip(guidance.pose_rate.as_flattened())
-            .zip(guidance.relative_rate.as_flattened());
-        for (((in_middle, v), pose_rate), relative_rate) in rates {
-            *in_middle = v - pose_rate + relative_rate;
-        }
-        let accelerations = self
-            .inertia
-            .as_flattened()
-            .iter()
-            .zip(guidance.acceleration.as_flattened());
-        for (force, (inertia, acceleration)) in
-            forces.as_flattened_mut().iter_mut().zip(accelerations)
-        {
-            *force += inertia * acceleration;
-        }
+        let positions = [&state.coordinates[..], &guidance.relative];
+        for_all(simd, &InMiddle, positions, [&mut work.in_middle]);
+        let rates = [
+            &state.velocities[..],
+            &guidance.pose_rate,
+            &guidance.relative_rate,
+        ];
+        for_all(simd, &RelativeRate, rates, [&mut work.rates_in_middle]);
+        let weights = [&self.inertia[..], &guidance.acceleration];
+        for_all(simd, &Weight, weights, [&mut *forces]);
         let (displacements, rates) = (&work.in_middle, &work.rates_in_middle);
         self.springs.add(simd, -1.0, displacements, rates, forces);
         if let Some(on_track) = &self.on_track {
@@ -67,28 +50,67 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     }
 
     /// Updates the contacts at the current positions: two wheelsets at a time if they share the constants of their
-    /// contact, which is faster.
+    /// contact, which is faster. Wheelsets with a second patch on a wheel take twice as long, so they are taken together.
     #[inline(always)]
     fn update_contacts(&self, state: &mut VehicleState, track: &Track, distance_m: f64) {
-        let mut number = 0;
-        while let Some(constants) = self.wheelsets.get(number) {
-            let contact = &self.contacts[number];
-            let motion = self.wheelset_motion(state, constants);
-            let rails = self.rails_under(state, track, distance_m, constants);
-            let next = self.wheelsets.get(number + 1);
-            let next = next.filter(|_| Arc::ptr_eq(contact, &self.contacts[number + 1]));
-            if let Some(next) = next {
-                let motions = [motion, self.wheelset_motion(state, next)];
-                let rails = [rails, self.rails_under(state, track, distance_m, next)];
-                if let Some(forces) = state.contacts[number..].first_chunk_mut() {
-                    contact.update_two(&motions, &rails, forces);
-                }
-                number += 2;
-            } else {
-                contact.update(&motion, &rails, &mut state.contacts[number]);
-                number += 1;
-            }
+        let mut waiting = [None; 2];
+        for number in 0..self.wheelsets.len() {
+            let kind = usize::from(state.contacts[number].has_second_patch());
+            waiting[kind] = match waiting[kind] {
+                Some(other) => self.update_pair(state, track, distance_m, [other, number]),
+                None => Some(number),
+            };
         }
+        let alone = match waiting {
+            [Some(one), Some(other)] => self.update_pair(state, track, distance_m, [one, other]),
+            [one, other] => one.or(other),
+        };
+        if let Some(number) = alone {
+            self.update_one(state, track, distance_m, number);
+        }
+    }
+
+    /// Updates two contacts. If they do not share their constants, only the first is updated, and the second is
+    /// returned.
+    #[inline]
+    fn update_pair(
+        &self,
+        state: &mut VehicleState,
+        track: &Track,
+        distance_m: f64,
+        numbers: [usize; 2],
+    ) -> Option<usize> {
+        let [first, second] = numbers;
+        let contact = &self.contacts[first];
+        if !Arc::ptr_eq(contact, &self.contacts[second]) {
+            self.update_one(state, track, distance_m, first);
+            return Some(second);
+        }
+        let (motion, rails) = self.motion_on_rails(state, track, distance_m, first);
+        let (next_motion, next_rails) = self.motion_on_rails(state, track, distance_m, second);
+        if let Ok(forces) = state.contacts.get_disjoint_mut(numbers) {
+            contact.update_two(&[motion, next_motion], &[rails, next_rails], forces);
+        }
+        None
+    }
+
+    fn update_one(&self, state: &mut VehicleState, track: &Track, distance_m: f64, number: usize) {
+        let (motion, rails) = self.motion_on_rails(state, track, distance_m, number);
+        self.contacts[number].update(&motion, &rails, &mut state.contacts[number]);
+    }
+
+    /// Motion of a wheelset, and displacements of the rails under it.
+    #[inline(always)]
+    fn motion_on_rails(
+        &self,
+        state: &VehicleState,
+        track: &Track,
+        distance_m: f64,
+        number: usize,
+    ) -> (Motion, [RailDisplacement; 2]) {
+        let constants = &self.wheelsets[number];
+        let rails = self.rails_under(state, track, distance_m, constants);
+        (self.wheelset_motion(state, constants), rails)
     }
 
     /// Motion of a wheelset over its track.
@@ -181,5 +203,35 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         if let Some(rail) = on_rails {
             push(contact, standing_n, &mut forces[*rail]);
         }
+    }
+}
+
+/// Coordinate in the frame at the middle of the vehicle.
+struct InMiddle;
+
+impl Formula<2, 1> for InMiddle {
+    #[inline(always)]
+    fn at<T: Number>(&self, [q, relative]: [T; 2], _: [T; 1]) -> [T; 1] {
+        [q + relative]
+    }
+}
+
+/// Its rate.
+struct RelativeRate;
+
+impl Formula<3, 1> for RelativeRate {
+    #[inline(always)]
+    fn at<T: Number>(&self, [v, pose_rate, relative_rate]: [T; 3], _: [T; 1]) -> [T; 1] {
+        [v - pose_rate + relative_rate]
+    }
+}
+
+/// Gravity and centrifugal force.
+struct Weight;
+
+impl Formula<2, 1> for Weight {
+    #[inline(always)]
+    fn at<T: Number>(&self, [inertia, acceleration]: [T; 2], [force]: [T; 1]) -> [T; 1] {
+        [force + inertia * acceleration]
     }
 }

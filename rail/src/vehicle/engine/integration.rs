@@ -5,12 +5,14 @@ use std::array::from_fn;
 use fearless_simd::Simd;
 
 use super::Vehicle;
-use super::block::{N, Vector};
+use super::block::Vector;
+use super::elementwise::{Formula, are_below, for_all};
 use super::method::Method;
 use super::state::{VehicleState, Work};
 use super::tangent::{Weights, add_contact};
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
+use crate::math::number::Number;
 use crate::track::Track;
 
 /// A larger displacement or rotation counts as divergence, m or rad.
@@ -92,48 +94,33 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         forces: &mut [Vector],
     ) {
         let method = &self.method;
-        let motion = state
-            .accelerations
-            .as_flattened()
-            .iter()
-            .zip(state.last_accelerations.as_flattened())
-            .zip(state.forces.as_flattened())
-            .zip(self.inertia.as_flattened());
-        for (residual, (((a, last), old), inertia)) in
-            forces.as_flattened_mut().iter_mut().zip(motion)
-        {
-            *residual = method.new_force * *residual + method.old_force * old
-                - inertia * (a + method.old_inertia * last);
-        }
+        let VehicleState {
+            coordinates,
+            velocities,
+            accelerations,
+            last_accelerations,
+            forces: sums,
+            ..
+        } = state;
+        let operands = [&accelerations[..], last_accelerations, sums, &self.inertia];
+        for_all(simd, &Residual(method), operands, [&mut *forces]);
         self.solve(simd, &state.work, forces);
-        let to_force = 1.0 / method.new_force;
-        let bodies = state.coordinates.iter_mut().zip(&mut state.velocities);
-        let accelerations = state
-            .accelerations
-            .iter_mut()
-            .zip(&state.last_accelerations);
-        let loads = state.forces.iter_mut().zip(&self.inertia);
-        let mut is_bounded = true;
-        for (((change, (coordinates, velocity)), (acceleration, last)), (force, inertia)) in
-            forces.iter().zip(bodies).zip(accelerations).zip(loads)
-        {
-            let (q, v, a, old) = (*coordinates, *velocity, *acceleration, *force);
-            let a: Vector = from_fn(|i| a[i] + change[i]);
-            let q: Vector = from_fn(|i| q[i] + method.to_displacement * change[i]);
-            // Force at the end of the step according to the method.
-            let inertia: Vector = from_fn(|i| inertia[i] * (a[i] + method.old_inertia * last[i]));
-            *coordinates = q;
-            *velocity = from_fn(|i| v[i] + method.to_velocity * change[i]);
-            *acceleration = a;
-            *force = from_fn(|i| (inertia[i] - method.old_force * old[i]) * to_force);
-            is_bounded &=
-                (0..N).all(|i| (q[i].abs() < MAX_DISPLACEMENT) & (a[i].abs() < MAX_ACCELERATION));
-        }
+        let correction = Correction {
+            method,
+            to_force: 1.0 / method.new_force,
+        };
+        let operands = [&*forces, last_accelerations, &self.inertia];
+        let corrected = [&mut coordinates[..], velocities, accelerations, sums];
+        for_all(simd, &correction, operands, corrected);
+        // Not short-circuited, so that there are no branches.
+        let is_bounded = are_below(simd, coordinates, MAX_DISPLACEMENT)
+            & are_below(simd, accelerations, MAX_ACCELERATION);
         for constants in &self.wheelsets {
             state.coordinates[constants.bodies.wheelset][3] = 0.0;
         }
         state.is_diverged |= !is_bounded;
     }
+
     /// Replaces the right-hand side of the equations by their solution.
     #[inline(always)]
     fn solve<V: Simd>(&self, simd: V, factors: &Work, vector: &mut [Vector]) {
@@ -150,5 +137,39 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         for ((equations, rails), wheelset) in under.zip(&vector[wheelsets]) {
             equations.follow_wheelset(simd, rails, wheelset);
         }
+    }
+}
+
+/// Right-hand side of the equations, from the forces at the predicted positions.
+struct Residual<'a>(&'a Method);
+
+impl Formula<4, 1> for Residual<'_> {
+    #[inline(always)]
+    fn at<T: Number>(&self, [a, last, old, inertia]: [T; 4], [force]: [T; 1]) -> [T; 1] {
+        let method = self.0;
+        let forces = force * method.new_force + old * method.old_force;
+        [forces - inertia * (a + last * method.old_inertia)]
+    }
+}
+
+/// Coordinate, velocity, acceleration and force at the end of a step, from the change of the predicted acceleration.
+struct Correction<'a> {
+    method: &'a Method,
+    to_force: f64,
+}
+
+impl Formula<3, 4> for Correction<'_> {
+    #[inline(always)]
+    fn at<T: Number>(&self, [change, last, inertia]: [T; 3], [q, v, a, old]: [T; 4]) -> [T; 4] {
+        let Self { method, to_force } = self;
+        let a = a + change;
+        // Force at the end of the step according to the method.
+        let force = inertia * (a + last * method.old_inertia) - old * method.old_force;
+        [
+            q + change * method.to_displacement,
+            v + change * method.to_velocity,
+            a,
+            force * *to_force,
+        ]
     }
 }

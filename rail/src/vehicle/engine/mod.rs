@@ -5,6 +5,7 @@ mod assembly;
 mod block;
 mod columns;
 mod dampers;
+mod elementwise;
 mod energy;
 mod extremes;
 mod forces;

@@ -6,10 +6,12 @@ use fearless_simd::{Simd, dispatch};
 
 use super::Vehicle;
 use super::block::N;
+use super::elementwise::{Formula, for_all};
 use super::extremes::Extremes;
 use super::state::VehicleState;
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
+use crate::math::number::Number;
 use crate::track::Track;
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
@@ -70,12 +72,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         self.predict(state, track, distance);
         let mut forces = std::mem::take(&mut state.work.residual);
         let share = substep as f64 / self.method.substeps as f64;
-        let pull = state.work.tick_forces.iter().zip(&state.work.tick_changes);
-        for (force, (before, change)) in forces.iter_mut().zip(pull) {
-            for i in 0..N {
-                force[i] = before[i] + share * change[i];
-            }
-        }
+        let pull = [&state.work.tick_forces[..], &state.work.tick_changes];
+        for_all(simd, &Share(share), pull, [&mut forces]);
         self.act(simd, state, track, distance, &mut forces);
         // Impacts last longer than two steps, so two consecutive steps share one factorisation.
         if substep % 2 == 1 {
@@ -84,5 +82,15 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         self.correct(simd, state, &mut forces);
         state.work.residual = forces;
         state.distance_m = distance;
+    }
+}
+
+/// A force that changes linearly, at a share of its time.
+struct Share(f64);
+
+impl Formula<2, 1> for Share {
+    #[inline(always)]
+    fn at<T: Number>(&self, [before, change]: [T; 2], _: [T; 1]) -> [T; 1] {
+        [before + change * self.0]
     }
 }
