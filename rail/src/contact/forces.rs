@@ -2,7 +2,8 @@
 
 use super::motion::{MOTION_FIELDS, Motion, RailDisplacement};
 use super::status::Status;
-use super::wheel::{PatchOutput, Wrench};
+use super::wheel::PatchOutput;
+use super::wrench::Wrench;
 use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
 

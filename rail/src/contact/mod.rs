@@ -40,7 +40,9 @@ mod surface;
 mod tables;
 mod two_wheelsets;
 mod wheel;
+mod wheel_lengths;
 mod wheelset;
+mod wrench;
 mod zones;
 
 pub use contact_point::ContactPoint;

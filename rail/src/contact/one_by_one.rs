@@ -9,8 +9,9 @@ use super::frame::Frame;
 use super::loaded_zones::LoadedZones;
 use super::motion::{MOTION_FIELDS, Motion, MotionNumbers, RailDisplacement, RailNumbers, Tangent};
 use super::source::{PatchReader, PatchSource};
-use super::wheel::{MovingWheel, Wrench, status};
+use super::wheel::{MovingWheel, status};
 use super::wheelset::WheelsetContact;
+use super::wrench::Wrench;
 use crate::creep::CreepLaw;
 
 /// Sign of quantities that change when mirrored about the track centre, for the left (0) and the right wheel.

@@ -8,8 +8,9 @@ use super::lanes::{SIDES, TransposedOutput, located, ones};
 use super::loaded_zones::LoadedZones;
 use super::motion::{Motion, MotionNumbers, RailDisplacement, RailNumbers};
 use super::source::{PatchReader, PatchSource};
-use super::wheel::{MovingWheel, Wrench, status};
+use super::wheel::{MovingWheel, status};
 use super::wheelset::WheelsetContact;
+use super::wrench::Wrench;
 use crate::creep::CreepLaw;
 use crate::math::number::{Number, load};
 

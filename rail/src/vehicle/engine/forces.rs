@@ -50,7 +50,8 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
     }
 
     /// Updates the contacts at the current positions: two wheelsets at a time if they share the constants of their
-    /// contact, which is faster. Wheelsets with a second patch on a wheel take twice as long, so they are taken together.
+    /// contact, which is faster. Wheelsets with a second patch on a wheel take twice as long, so they are paired with
+    /// each other.
     #[inline(always)]
     fn update_contacts(&self, state: &mut VehicleState, track: &Track, distance_m: f64) {
         let mut waiting = [None; 2];
