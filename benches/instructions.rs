@@ -18,6 +18,7 @@ use dashpot_rail::creep::{CreepLaw, Friction, KalkerBook, ShenHedrickElkins};
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::{Vehicle, VehicleState};
 use dashpot_testbench::excitation::Excitation;
+use dashpot_vehicle_run::contact::{ContactSetup, WheelOnRail};
 use gungraun::prelude::*;
 
 const STEP_S: f64 = 1e-3;
@@ -190,11 +191,18 @@ fn contact_with_derivatives((contact, motion, rails): Wheelset<KalkerBook>) -> W
 
 type Running = (Vehicle<KalkerBook>, VehicleState, Track);
 
-/// Returns the vehicle of the case after `seconds`.
+/// Returns the vehicle of the case, on the case's rails, after `seconds`.
 fn running(case: Case, seconds: f64) -> Running {
-    let (contact, ..) = wheelset(KalkerBook::new(), Loaded::Two);
-    let vehicle =
-        Vehicle::new(&case.vehicle, Arc::new(contact), STEP_S).expect("a shipped vehicle");
+    let setup = ContactSetup::of_case(&case).expect("a shipped vehicle");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let tables = |pair: &WheelOnRail| {
+        let geometry = pair.geometry().expect("a shipped pair");
+        Arc::new(Tables::cached(folder, geometry).tables)
+    };
+    let tables: Vec<_> = setup.pairs().iter().map(tables).collect();
+    let contacts = setup.contacts(&tables).expect("a shipped contact");
+    let vehicle = Vehicle::with_contacts(&case.vehicle, contacts, STEP_S, case.rails)
+        .expect("a shipped vehicle");
     let track = case.track.build().expect("a shipped track");
     let mut state = vehicle
         .at_rest(&track, case.start_m, case.speed_m_per_s)
@@ -217,6 +225,7 @@ fn shipped(case: &str, seconds: f64) -> Running {
 #[library_benchmark]
 #[bench::ideal_straight(ideal())]
 #[bench::straight_of_class_6(shipped("straight-180", 1.0))]
+#[bench::curve_of_600_m(shipped("curve-r600", 6.0))]
 #[bench::curve_of_300_m(shipped("curve-r300", 8.0))]
 fn locomotive((vehicle, mut state, track): Running) -> VehicleState {
     for _ in 0..STEPS {

@@ -2,7 +2,8 @@
 
 use super::motion::{MOTION_FIELDS, Motion, RailDisplacement};
 use super::status::Status;
-use super::wheel::{PatchOutput, Wrench};
+use super::wheel::PatchOutput;
+use super::wrench::Wrench;
 use super::zones::ZONES;
 use crate::creep::{CreepForces, Creepage};
 
@@ -113,6 +114,15 @@ impl WheelsetForces {
     pub fn dissipation_w(&self) -> f64 {
         let patches = self.wheels.iter().flat_map(WheelForces::loaded_patches);
         patches.map(|patch| patch.dissipation_w).sum()
+    }
+
+    /// True if a wheel has two patches or more.
+    #[inline(always)]
+    pub(crate) fn has_second_patch(&self) -> bool {
+        let [left, right] = &self.wheels;
+        // With two bits or more, some are left when the lowest is removed.
+        let without_lowest = |zones: u32| zones & zones.wrapping_sub(1);
+        without_lowest(left.loaded_zones) | without_lowest(right.loaded_zones) != 0
     }
 
     /// Returns true if forces can be computed for the motion; otherwise sets them to zero and the status to

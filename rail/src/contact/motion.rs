@@ -117,24 +117,23 @@ impl<T> MotionNumbers<T> {
     /// The motion as seen by a right wheel, or by the mirror image of a left wheel.
     ///
     /// `odd` converts the fields that change sign when mirrored about the track centre, `even` the others. Both receive
-    /// the value and the index of the field in [`Motion`].
+    /// the field and its index in [`Motion`].
     #[inline(always)]
     pub fn new(
-        motion: &Motion,
-        even: impl Fn(f64, usize) -> T,
-        odd: impl Fn(f64, usize) -> T,
+        even: impl Fn(fn(&Motion) -> f64, usize) -> T,
+        odd: impl Fn(fn(&Motion) -> f64, usize) -> T,
     ) -> Self {
         Self {
-            speed: even(motion.speed_m_per_s, 0),
-            lateral: odd(motion.lateral_m, 1),
-            vertical: even(motion.vertical_m, 2),
-            roll: odd(motion.roll_rad, 3),
-            yaw: odd(motion.yaw_rad, 4),
-            lateral_velocity: odd(motion.lateral_velocity_m_per_s, 5),
-            vertical_velocity: even(motion.vertical_velocity_m_per_s, 6),
-            roll_rate: odd(motion.roll_rate_rad_per_s, 7),
-            rotation: even(motion.rotation_rad_per_s, 8),
-            yaw_rate: odd(motion.yaw_rate_rad_per_s, 9),
+            speed: even(|motion| motion.speed_m_per_s, 0),
+            lateral: odd(|motion| motion.lateral_m, 1),
+            vertical: even(|motion| motion.vertical_m, 2),
+            roll: odd(|motion| motion.roll_rad, 3),
+            yaw: odd(|motion| motion.yaw_rad, 4),
+            lateral_velocity: odd(|motion| motion.lateral_velocity_m_per_s, 5),
+            vertical_velocity: even(|motion| motion.vertical_velocity_m_per_s, 6),
+            roll_rate: odd(|motion| motion.roll_rate_rad_per_s, 7),
+            rotation: even(|motion| motion.rotation_rad_per_s, 8),
+            yaw_rate: odd(|motion| motion.yaw_rate_rad_per_s, 9),
         }
     }
 }

@@ -9,8 +9,9 @@ use super::frame::Frame;
 use super::loaded_zones::LoadedZones;
 use super::motion::{MOTION_FIELDS, Motion, MotionNumbers, RailDisplacement, RailNumbers, Tangent};
 use super::source::{PatchReader, PatchSource};
-use super::wheel::{MovingWheel, Wrench, status};
+use super::wheel::{MovingWheel, status};
 use super::wheelset::WheelsetContact;
+use super::wrench::Wrench;
 use crate::creep::CreepLaw;
 
 /// Sign of quantities that change when mirrored about the track centre, for the left (0) and the right wheel.
@@ -28,9 +29,10 @@ impl<L: CreepLaw, S: PatchSource> WheelsetContact<L, S> {
         rails: &[RailDisplacement; 2],
     ) -> MovingWheel<Tangent> {
         let sign = sign(side);
-        let numbers = MotionNumbers::new(motion, Tangent::variable, |value, field| {
-            Tangent::variable(value, field) * sign
-        });
+        let numbers = MotionNumbers::new(
+            |field, number| Tangent::variable(field(motion), number),
+            |field, number| Tangent::variable(field(motion), number) * sign,
+        );
         let rail = RailNumbers::new(
             |field| Tangent::constant(field(&rails[side])),
             |field| Tangent::constant(sign * field(&rails[side])),

@@ -6,28 +6,24 @@
 
 use fearless_simd::{Simd, SimdBase, dispatch, f64x4};
 
-use super::forces::{PatchForces, WheelsetForces};
+use super::forces::WheelsetForces;
 use super::frame::Frame;
+use super::lanes::{SIDES, TransposedOutput, located, ones};
 use super::loaded_zones::LoadedZones;
 use super::motion::{Motion, MotionNumbers, RailDisplacement, RailNumbers};
-use super::silhouette::WheelPose;
 use super::source::{PatchReader, PatchSource};
-use super::wheel::{MovingWheel, PatchOutput, Wrench, status};
+use super::wheel::{MovingWheel, status};
 use super::wheelset::WheelsetContact;
+use super::wrench::Wrench;
 use crate::creep::CreepLaw;
-use crate::math::each::Each;
-use crate::math::number::{Number, load, rows};
-
-/// Factor of each lane for quantities that change sign when mirrored about the track centre.
-const SIDES: [f64; 4] = [-1.0, 1.0, -1.0, 1.0];
+use crate::math::number::{Number, load};
 
 #[inline(always)]
 fn numbers<S: Simd>(simd: S, motion: &Motion) -> MotionNumbers<f64x4<S>> {
     let sides = load(simd, &SIDES);
     MotionNumbers::new(
-        motion,
-        |value, _| simd.splat_f64x4(value),
-        |value, _| simd.splat_f64x4(value) * sides,
+        |field, _| simd.splat_f64x4(field(motion)),
+        |field, _| simd.splat_f64x4(field(motion)) * sides,
     )
 }
 
@@ -45,104 +41,6 @@ fn rail_numbers<S: Simd>(simd: S, [left, right]: &[RailDisplacement; 2]) -> Rail
             load(simd, &lanes)
         },
     )
-}
-
-/// Patch results, transposed so that a lane is stored in four vectors.
-struct TransposedOutput<S: Simd> {
-    /// Four results per vector, one vector for each lane.
-    fours: [[f64x4<S>; 4]; 4],
-    dissipation: f64x4<S>,
-    peak_pressure: f64x4<S>,
-    stiffness: f64x4<S>,
-}
-
-impl<S: Simd> TransposedOutput<S> {
-    #[inline(always)]
-    fn new(output: PatchOutput<f64x4<S>>) -> Self {
-        let PatchOutput {
-            load: normal_load,
-            penetration,
-            slope,
-            semi_axes: [a, b],
-            rolling_radius,
-            wheel_y,
-            position: [x, y, z],
-            creepage: [xi, eta, phi],
-            creep: [longitudinal, lateral, moment],
-            dissipation,
-            peak_pressure,
-            stiffness,
-        } = output;
-        let y = y * load(y.simd, &SIDES);
-        Self {
-            fours: [
-                rows([normal_load, penetration, slope, a]),
-                rows([b, rolling_radius, wheel_y, x]),
-                rows([y, z, xi, eta]),
-                rows([phi, longitudinal, lateral, moment]),
-            ],
-            dissipation,
-            peak_pressure,
-            stiffness,
-        }
-    }
-
-    #[inline(always)]
-    fn write(&self, lane: usize, patch: &mut PatchForces) {
-        let [first, second, third, fourth] = &self.fours;
-        let [load, penetration, slope, a] = first[lane].into();
-        let [b, rolling_radius, wheel_y, x] = second[lane].into();
-        let [y, z, xi, eta] = third[lane].into();
-        let [phi, longitudinal, lateral, moment] = fourth[lane].into();
-        patch.set(PatchOutput {
-            load,
-            penetration,
-            slope,
-            semi_axes: [a, b],
-            rolling_radius,
-            wheel_y,
-            position: [x, y, z],
-            creepage: [xi, eta, phi],
-            creep: [longitudinal, lateral, moment],
-            dissipation: self.dissipation[lane],
-            peak_pressure: self.peak_pressure[lane],
-            stiffness: self.stiffness[lane],
-        });
-    }
-}
-
-/// 1 in the lanes that are used, else 0. A table costs less than converting the booleans.
-#[inline(always)]
-fn ones(used: [bool; 4]) -> [f64; 4] {
-    const ONES: [[f64; 4]; 16] = {
-        let mut ones = [[0.0; 4]; 16];
-        let mut k = 0;
-        while k < 64 {
-            ones[k / 4][k % 4] = ((k / 4) >> (k % 4) & 1) as f64;
-            k += 1;
-        }
-        ones
-    };
-    let [a, b, c, d] = used.each(usize::from);
-    ONES[a | b << 1 | c << 2 | d << 3]
-}
-
-/// Finds the patches of the wheel in a lane.
-// Not a closure, because a closure that is called twice is not inlined.
-#[inline(always)]
-fn located<'a, S: Simd, P: PatchSource>(
-    simd: S,
-    source: &'a P,
-    moving: &MovingWheel<f64x4<S>>,
-    lane: usize,
-) -> P::Reader<'a> {
-    let [lateral_m, roll_rad, yaw_rad] = moving.pose.each(|number| number.lane(lane));
-    let pose = WheelPose {
-        lateral_m,
-        roll_rad,
-        yaw_rad,
-    };
-    source.locate(simd, &pose, moving.depth.lane(lane))
 }
 
 impl<L: CreepLaw, P: PatchSource> WheelsetContact<L, P> {

@@ -57,13 +57,23 @@ pub trait PatchReader {
     fn numbers_in_lanes<S: Simd>(
         simd: S,
         [left, right]: [&Self; 2],
+        zones: [usize; 4],
+    ) -> PatchNumbers<f64x4<S>> {
+        Self::numbers_of_four(simd, [left, right, left, right], zones)
+    }
+
+    /// The numbers of the patches of four wheels, each with its zone.
+    #[inline(always)]
+    fn numbers_of_four<S: Simd>(
+        simd: S,
+        [first, second, third, fourth]: [&Self; 4],
         [a, b, c, d]: [usize; 4],
     ) -> PatchNumbers<f64x4<S>> {
         let lanes = [
-            left.numbers(a).into_array(),
-            right.numbers(b).into_array(),
-            left.numbers(c).into_array(),
-            right.numbers(d).into_array(),
+            first.numbers(a).into_array(),
+            second.numbers(b).into_array(),
+            third.numbers(c).into_array(),
+            fourth.numbers(d).into_array(),
         ];
         PatchNumbers::from_array(from_fn(|n| f64x4::from_fn(simd, |lane| lanes[lane][n])))
     }

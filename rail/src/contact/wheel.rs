@@ -1,7 +1,6 @@
 //! Position of a wheel over its rail, and the force on one of its contact patches.
 
 use super::frame::{Frame, RailRoll};
-use super::geometry::ContactGeometry;
 use super::loaded_contact::{Contact, CreepNumber};
 use super::motion::{RailNumbers, Tangent};
 use super::pair::Pair;
@@ -9,8 +8,9 @@ use super::patch_numbers::PatchNumbers;
 use super::silhouette::WheelPose;
 use super::status::Status;
 use super::surface::Surface;
+use super::wheel_lengths::WheelLengths;
+use super::wrench::Wrench;
 use crate::creep::{CreepLaw, MAX_CREEPAGE};
-use crate::math::each::Each;
 use crate::math::number::Number;
 
 /// Cosine of the steepest contact angle.
@@ -20,94 +20,6 @@ const MIN_COSINE: f64 = 1e-3;
 const TINY: f64 = 1e-12;
 /// Normal penetration beyond which steel no longer stays elastic, m.
 pub const MAX_PENETRATION_M: f64 = 2e-3;
-
-/// Force, N, and moment about the wheelset's centre, N m, in track axes.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Wrench<T> {
-    pub force: [T; 3],
-    pub moment: [T; 3],
-}
-
-impl<T: Copy> Wrench<T> {
-    /// A wrench whose components are all `value`.
-    #[inline(always)]
-    pub fn splat(value: T) -> Self {
-        Self {
-            force: [value; 3],
-            moment: [value; 3],
-        }
-    }
-
-    /// Replaces each component by `sum(component, component of other)`.
-    #[inline(always)]
-    pub fn accumulate<U: Copy>(&mut self, other: &Wrench<U>, sum: impl Fn(T, U) -> T) {
-        for (total, term) in self.force.iter_mut().zip(other.force) {
-            *total = sum(*total, term);
-        }
-        for (total, term) in self.moment.iter_mut().zip(other.moment) {
-            *total = sum(*total, term);
-        }
-    }
-
-    /// Applies `function` to each component.
-    #[inline(always)]
-    pub fn map<U: Copy>(self, function: impl Fn(T) -> U) -> Wrench<U> {
-        Wrench {
-            force: self.force.each(&function),
-            moment: self.moment.each(&function),
-        }
-    }
-}
-
-/// Lengths of a wheel over its rail, m.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct WheelLengths<T> {
-    /// Lateral distance of the tread datum from the wheelset's centre.
-    offset: T,
-    radius: T,
-    /// Nominal radius minus the nominal height of the wheelset's centre above the top of the rails.
-    below_top: T,
-    /// Lateral distance of the datum of a centred wheel from the rail's top.
-    beside_top: T,
-}
-
-impl WheelLengths<f64> {
-    /// Returns these lengths for the wheels of `geometry` on a wheelset whose centre is `height_m` above the rails.
-    pub fn new(geometry: &ContactGeometry, height_m: f64) -> Self {
-        let pair = geometry.pair();
-        let offset = pair.installation().datum_offset_m();
-        let radius = pair.installation().wheel_radius_m;
-        Self {
-            offset,
-            radius,
-            below_top: radius - height_m,
-            beside_top: offset - pair.rail_top_m(),
-        }
-    }
-}
-
-impl<T> WheelLengths<T> {
-    /// Applies `function` to every length.
-    #[inline(always)]
-    pub fn map<U>(&self, function: impl Fn(&T) -> U) -> WheelLengths<U> {
-        WheelLengths {
-            offset: function(&self.offset),
-            radius: function(&self.radius),
-            below_top: function(&self.below_top),
-            beside_top: function(&self.beside_top),
-        }
-    }
-
-    /// Combines each length with that of another wheel.
-    pub fn zip<U>(&self, other: &Self, function: impl Fn(&T, &T) -> U) -> WheelLengths<U> {
-        WheelLengths {
-            offset: function(&self.offset, &other.offset),
-            radius: function(&self.radius, &other.radius),
-            below_top: function(&self.below_top, &other.below_top),
-            beside_top: function(&self.beside_top, &other.beside_top),
-        }
-    }
-}
 
 /// A wheel in motion over its rail.
 pub(super) struct MovingWheel<T> {

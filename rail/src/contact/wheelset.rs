@@ -10,7 +10,7 @@ use super::motion::{Motion, RailDisplacement};
 use super::source::PatchSource;
 use super::surface::{MAX_NORMAL_DAMPING_S_PER_M, Surface, SurfaceError};
 use super::tables::Tables;
-use super::wheel::WheelLengths;
+use super::wheel_lengths::WheelLengths;
 use crate::creep::{CreepLaw, Friction};
 
 /// The contact of a wheelset. It is constant and can be shared by all wheelsets with the same profiles.

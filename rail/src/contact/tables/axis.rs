@@ -5,6 +5,7 @@ use std::ops::Deref;
 
 use fearless_simd::Simd;
 
+use crate::math::each::Each;
 use crate::math::number::{Number, WHOLE, load};
 
 /// Nodes that rise by multiples of one smallest spacing.
@@ -97,6 +98,25 @@ impl Axes {
             }
         })
     }
+}
+
+/// The axes in falling order of their positions.
+#[inline(always)]
+pub(super) fn falling_order([shift, roll, yaw]: [f64; 3]) -> [u8; 3] {
+    /// For each outcome of the comparisons below; two of them contradict each other.
+    const ORDERS: [[u8; 3]; 8] = [
+        [2, 1, 0],
+        [2, 0, 1],
+        [1, 2, 0],
+        [0, 1, 2],
+        [2, 1, 0],
+        [0, 2, 1],
+        [1, 0, 2],
+        [0, 1, 2],
+    ];
+    let shift_is_before = [shift >= roll, shift >= yaw].each(usize::from);
+    let outcome = shift_is_before[0] | usize::from(roll >= yaw) << 1 | shift_is_before[1] << 2;
+    ORDERS[outcome]
 }
 
 impl Deref for Axes {

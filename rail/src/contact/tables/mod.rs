@@ -8,10 +8,13 @@ mod build;
 mod cache;
 mod cell;
 mod conservation;
+mod derivatives;
 mod file;
+mod load;
 mod record;
 mod row;
 mod shear;
+mod unpacked;
 
 use axis::{Axes, Axis};
 pub use cache::{Cached, NotKept};

@@ -12,12 +12,13 @@ use super::friction::{self, FrictionElement, Standing};
 use super::guidance::BodyPosition;
 use super::identity::Identity;
 use super::method::{Method, OnContact};
+use super::rail_equations::RailEquations;
 use super::rails::{self, RailSupport};
 use super::shape::Shape;
 use super::springs::Springs;
 use super::structure::Structure;
-use super::tangent::{ContactBlocks, SurfaceConstants};
-use super::{STEP_S, Vehicle, WheelsetConstants};
+use super::tangent::SurfaceConstants;
+use super::{ContactBodies, STEP_S, Vehicle, WheelsetConstants};
 use crate::contact::{PatchSource, WheelsetContact};
 use crate::creep::CreepLaw;
 use crate::vehicle::carried::Carried;
@@ -167,14 +168,15 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let system = DMatrix::from_diagonal(&inertia)
             + &damping * method.damping_weight()
             + &stiffness * method.stiffness_weight();
-        let mut pattern = system.clone();
         let rails_of = |number: usize| support.is_some().then_some(first + count + number);
-        for number in 0..count {
-            if let Some(rails) = rails_of(number) {
-                pattern[(N * rails, N * (first + number))] = 1.0;
-            }
-        }
-        let structure = Structure::new(&pattern);
+        let diagonal = |body: usize| std::array::from_fn(|i| system[(N * body + i, N * body + i)]);
+        let rails = (0..count)
+            .filter_map(rails_of)
+            .map(|rails| RailEquations::uncoupled(diagonal(rails)))
+            .collect();
+        let size = N * bodies.len();
+        let system = system.view((0, 0), (size, size)).into_owned();
+        let structure = Structure::new(&system);
         let system = structure.blocks(&system);
         let level = crate::math::level();
         if !dispatch!(level, simd => structure.factorise(simd, &mut system.clone())) {
@@ -184,14 +186,10 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let with_contacts = parameters.wheelsets.iter().zip(&contacts);
         for (number, (wheelset, contact)) in with_contacts.enumerate() {
             let carried = carried[number];
-            let body = first + number;
-            // Rails are coupled to their wheelset only, so they are eliminated before it.
-            let rails = rails_of(number);
-            let coupled = rails.and_then(|rails| Some((rails, structure.coupling(rails, body)?)));
             wheelsets.push(WheelsetConstants {
-                blocks: ContactBlocks {
-                    wheelset: body,
-                    rails: coupled,
+                bodies: ContactBodies {
+                    wheelset: first + number,
+                    rails: rails_of(number),
                 },
                 surface: SurfaceConstants {
                     shear_modulus_pa: contact.shear_modulus_pa(),
@@ -228,6 +226,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             on_track: is_held.then(|| Springs::new(&on_track.stiffness, &on_track.damping)),
             structure,
             system,
+            rails,
             dampers,
             stops,
             frictions,

@@ -2,11 +2,10 @@
 
 use fearless_simd::dispatch;
 
-use super::Vehicle;
 use super::block::Vector;
 use super::rails::displace;
 use super::state::VehicleState;
-use super::tangent::ContactBlocks;
+use super::{ContactBodies, Vehicle};
 use crate::contact::{PatchSource, RailDisplacement};
 use crate::creep::CreepLaw;
 use crate::vehicle::error::VehicleError;
@@ -62,18 +61,18 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             let free = state.speed_m_per_s / constants.carried.rolling_radius_m;
             // Rolling forward is a rotation nose down. The energy of the rotation is proportional to (free - rate)^2 -
             // free^2. The sum above already contains rate^2.
-            let rate = state.velocities[constants.blocks.wheelset][3];
+            let rate = state.velocities[constants.bodies.wheelset][3];
             energy.kinetic_j -= constants.spin_inertia_kg_m2 * free * rate;
-            let ContactBlocks { wheelset, rails } = constants.blocks;
+            let ContactBodies { wheelset, rails } = constants.bodies;
             energy.potential_j -= constants.axle_load_n * state.coordinates[wheelset][1];
-            if let Some((rails, _)) = rails {
+            if let Some(rails) = rails {
                 // The rail supports balance the force of the wheelset at standstill.
                 let pairs = constants.standing_n.iter().zip(&state.coordinates[rails]);
                 energy.potential_j += pairs.map(|(force, q)| force * q).sum::<f64>();
             }
             let motion = self.wheelset_motion(state, constants);
             let mut displacements = [RailDisplacement::default(); 2];
-            if let Some((rails, _)) = rails {
+            if let Some(rails) = rails {
                 let (displaced, rates) = (&state.coordinates[rails], &state.velocities[rails]);
                 displace(&mut displacements, displaced, rates);
             }

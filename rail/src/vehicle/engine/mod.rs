@@ -3,14 +3,21 @@
 mod across;
 mod assembly;
 mod block;
+mod columns;
+mod copy;
 mod dampers;
+mod elementwise;
 mod energy;
 mod extremes;
+mod forces;
 mod friction;
 mod guidance;
 mod identity;
 mod influences;
+mod initial;
+mod integration;
 mod method;
+mod rail_equations;
 mod rails;
 mod shape;
 mod springs;
@@ -26,29 +33,26 @@ use fearless_simd::Level;
 
 use self::across::{DamperElement, StopElement};
 use self::assembly::build;
-use self::block::{N, Vector};
+use self::block::Vector;
 pub use self::energy::Energy;
 pub use self::extremes::Extremes;
 use self::friction::FrictionElement;
+use self::guidance::BodyPosition;
 pub use self::guidance::CANT_BASE_M;
-use self::guidance::{BodyPosition, Guidance};
 use self::identity::Identity;
 pub use self::influences::{FRICTION_FACTOR, MAX_APPLIED};
 use self::method::Method;
+use self::rail_equations::RailEquations;
 pub use self::rails::RailSupport;
 use self::shape::Shape;
 use self::springs::Springs;
-use self::state::Work;
 pub use self::state::{Stop, VehicleState};
-use self::step::MAX_DISPLACEMENT;
 use self::structure::{Blocks, Structure};
-use self::tangent::{ContactBlocks, SurfaceConstants};
-use super::body::COORDINATES;
+use self::tangent::SurfaceConstants;
 use super::carried::Carried;
 use super::error::VehicleError;
-use crate::contact::{PatchSource, Tables, WheelsetContact, WheelsetForces};
+use crate::contact::{PatchSource, Tables, WheelsetContact};
 use crate::creep::CreepLaw;
-use crate::track::Track;
 
 /// Bounds of the tick of a [`Vehicle`], s.
 pub const STEP_S: [f64; 2] = [0.02e-3, 2e-3];
@@ -115,6 +119,8 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     structure: Structure,
     /// `M` plus weighted damping and stiffness: the equations of a step without the contact.
     system: Blocks,
+    /// The same for elastically supported rails.
+    rails: Vec<RailEquations>,
     /// Springs and dashpots to the track; `None` if there are none.
     on_track: Option<Springs>,
     dampers: Vec<DamperElement>,
@@ -122,9 +128,17 @@ pub struct Vehicle<L, S: PatchSource = Tables> {
     frictions: Vec<FrictionElement>,
 }
 
+/// Indices of the bodies that a wheelset's contact acts on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct ContactBodies {
+    wheelset: usize,
+    /// Rails, if they are elastically supported.
+    rails: Option<usize>,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct WheelsetConstants {
-    blocks: ContactBlocks,
+    bodies: ContactBodies,
     surface: SurfaceConstants,
     /// Forces on elastically supported rails at standstill, N.
     standing_n: Vector,
@@ -134,74 +148,6 @@ struct WheelsetConstants {
 }
 
 impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
-    /// Returns the state in which the bodies have their equilibrium positions on straight level track. The vehicle runs
-    /// at `speed_m_per_s`, with its middle at `distance_m`.
-    ///
-    /// # Errors
-    /// A speed or distance out of bounds.
-    pub fn at_rest(
-        &self,
-        track: &Track,
-        distance_m: f64,
-        speed_m_per_s: f64,
-    ) -> Result<VehicleState, VehicleError> {
-        VehicleError::check("vehicle", "speed_m_per_s", speed_m_per_s, SPEED_M_PER_S)?;
-        VehicleError::check("vehicle", "distance_m", distance_m, [-1e6, 1e6])?;
-        let mut state = self.undisplaced(distance_m, speed_m_per_s);
-        let guidance = &mut state.work.guidance;
-        guidance.update(track.layout(), distance_m, speed_m_per_s, &self.positions);
-        state.velocities.clone_from(&guidance.pose_rate);
-        state.pose.clone_from(&guidance.pose);
-        self.begin(&mut state, track);
-        Ok(state)
-    }
-
-    /// Returns a state on straight level track without contact forces.
-    fn undisplaced(&self, distance_m: f64, speed_m_per_s: f64) -> VehicleState {
-        let count = self.inertia.len();
-        let zeros = vec![[0.0; N]; count];
-        VehicleState {
-            identity: self.identity,
-            bodies: self.names.len(),
-            ticks: 0,
-            distance_m,
-            speed_m_per_s,
-            coordinates: zeros.clone(),
-            velocities: zeros.clone(),
-            accelerations: zeros.clone(),
-            last_accelerations: zeros.clone(),
-            forces: zeros.clone(),
-            inertia: self.inertia.clone(),
-            pose: zeros.clone(),
-            contacts: vec![WheelsetForces::default(); self.wheelsets.len()],
-            dampers: self.dampers_at_rest(&zeros),
-            damper_displacements_m: vec![0.0; self.dampers.len()],
-            damper_velocities_m_per_s: vec![0.0; self.dampers.len()],
-            damper_forces_n: vec![0.0; self.dampers.len()],
-            outside_forces_n: vec![None; self.dampers.len()],
-            friction_factor: 1.0,
-            applied: zeros.clone(),
-            stop_forces_n: vec![0.0; self.stops.len()],
-            friction_forces_n: vec![0.0; self.frictions.len()],
-            sliders_m: vec![0.0; self.frictions.len()],
-            is_diverged: false,
-            met_other_vehicle: false,
-            work: Work {
-                guidance: Guidance::new(count),
-                system: self.system.clone(),
-                residual: zeros.clone(),
-                in_middle: zeros.clone(),
-                rates_in_middle: zeros.clone(),
-                tick_forces: zeros.clone(),
-                tick_changes: zeros,
-                target_damper_forces_n: vec![0.0; self.dampers.len()],
-                target_stop_forces_n: vec![0.0; self.stops.len()],
-                target_friction_forces_n: vec![0.0; self.frictions.len()],
-                extremes: vec![Extremes::default(); self.wheelsets.len()],
-            },
-        }
-    }
-
     /// Returns true if a state belongs to a vehicle with the same bodies, elements, step and rails as this one. The
     /// parameters of dampers and the contact may differ. A deserialised state may belong to any vehicle, or to none.
     #[inline]
@@ -215,36 +161,6 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         } else {
             Err(VehicleError::OtherVehicle)
         }
-    }
-
-    /// Displaces a body before the first step: adds `displacement` to its coordinates and updates all forces. Dampers
-    /// and friction elements are without force in the new position.
-    ///
-    /// # Errors
-    /// An index out of range, a displacement outside -10 to 10 m or rad, or a state of another vehicle. The state is
-    /// then unchanged.
-    pub fn displace(
-        &self,
-        state: &mut VehicleState,
-        track: &Track,
-        body: usize,
-        displacement: [f64; N],
-    ) -> Result<(), VehicleError> {
-        self.check_state(state)?;
-        let bodies = self.names.len();
-        let Some(name) = self.names.get(body) else {
-            return Err(VehicleError::NoSuchBodyIndex { body, bodies });
-        };
-        let allowed = [-MAX_DISPLACEMENT, MAX_DISPLACEMENT];
-        for (coordinate, change) in COORDINATES.iter().zip(displacement) {
-            VehicleError::check(name, coordinate.name(), change, allowed)?;
-        }
-        for (coordinate, change) in state.coordinates[body].iter_mut().zip(displacement) {
-            *coordinate += change;
-        }
-        state.dampers = self.dampers_at_rest(&state.coordinates);
-        self.begin(state, track);
-        Ok(())
     }
 
     /// Returns the length of a tick, s.

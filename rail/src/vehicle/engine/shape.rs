@@ -32,6 +32,7 @@ pub(super) struct Shape {
 struct WorkShape {
     guidance: GuidanceShape,
     system: BlocksShape,
+    rails: usize,
     residual: usize,
     in_middle: usize,
     rates_in_middle: usize,
@@ -94,6 +95,7 @@ impl WorkShape {
         Self {
             guidance: GuidanceShape::new(&work.guidance),
             system: BlocksShape::new(&work.system),
+            rails: work.rails.len(),
             residual: work.residual.len(),
             in_middle: work.in_middle.len(),
             rates_in_middle: work.rates_in_middle.len(),

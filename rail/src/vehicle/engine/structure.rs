@@ -1,9 +1,9 @@
 //! Sparse block factorisation of symmetric positive definite equations, with one block per body.
 
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 use nalgebra::DMatrix;
 
-use super::block::{Block, N, Vector, coordinates};
+use super::block::{Block, N, Vector, coordinates, subtract};
 
 /// Row and column of an off-diagonal block.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -154,14 +154,6 @@ impl Structure {
         }
     }
 
-    /// Returns the index of the coupling with this row and column.
-    pub fn coupling(&self, row: usize, column: usize) -> Option<usize> {
-        let wanted = Coupling { row, column };
-        self.couplings
-            .iter()
-            .position(|coupling| *coupling == wanted)
-    }
-
     /// Returns the blocks of a matrix.
     pub fn blocks(&self, matrix: &DMatrix<f64>) -> Blocks {
         let block =
@@ -196,12 +188,16 @@ impl Structure {
             }
             for fill in &pivot.fills {
                 let left = &carried[pivot.couplings[fill.row].0];
-                let right = couplings[pivot.couplings[fill.column].0];
-                let target = match fill.target {
-                    Target::Diagonal(body) => &mut diagonal[body],
-                    Target::Coupling(number) => &mut couplings[number],
-                };
-                target.subtract_product(simd, left, &right);
+                let right = pivot.couplings[fill.column].0;
+                match fill.target {
+                    Target::Diagonal(body) => {
+                        diagonal[body].subtract_product(simd, left, &couplings[right]);
+                    }
+                    Target::Coupling(number) => {
+                        let right = couplings[right];
+                        couplings[number].subtract_product(simd, left, &right);
+                    }
+                }
             }
         }
         is_positive
@@ -229,13 +225,6 @@ impl Structure {
             }
             subtract(&mut vector[pivot.body], sum);
         }
-    }
-}
-
-#[inline(always)]
-fn subtract<S: Simd>(vector: &mut Vector, row: f64x8<S>) {
-    for (value, subtrahend) in vector.iter_mut().zip(coordinates(row)) {
-        *value -= subtrahend;
     }
 }
 

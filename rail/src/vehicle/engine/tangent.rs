@@ -2,10 +2,10 @@
 
 use fearless_simd::Simd;
 
-use super::block::Weighted;
-use super::rails::against;
-use super::structure::Blocks;
-use crate::contact::{PatchForces, WheelsetForces, ZONES};
+use super::block::Block;
+use super::columns::Products;
+use super::rail_equations::RailEquations;
+use crate::contact::{PatchForces, WheelsetForces};
 use crate::creep::CreepForces;
 
 /// Kalker's coefficient for both directions: it is 4 to within 25 % for the contact ellipses of wheel and rail.
@@ -25,16 +25,8 @@ pub(super) struct SurfaceConstants {
     pub normal_damping_s_per_m: f64,
 }
 
-/// Indices of the matrix blocks that a wheelset's contact contributes to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ContactBlocks {
-    /// Body index of the wheelset.
-    pub wheelset: usize,
-    /// Body index of the rails and index of their coupling, if they are elastically supported.
-    pub rails: Option<(usize, usize)>,
-}
-
-/// Adds the contact of a wheelset at `speed_m_per_s` to its blocks.
+/// Adds the contact of a wheelset at `speed_m_per_s` to its block and to the equations of its rails, if they are
+/// elastically supported.
 ///
 /// - Normal direction: the stiffness of the patch and the damping `beta N` of Hunt and Crossley.
 /// - Both tangential directions: the damping `f/speed`, where `f` is the force divided by the creepage, limited to
@@ -45,18 +37,16 @@ pub(super) struct ContactBlocks {
 #[inline(always)]
 pub(super) fn add_contact<S: Simd>(
     simd: S,
-    system: &mut Blocks,
-    blocks: &ContactBlocks,
+    wheelset: &mut Block,
+    mut rails: Option<&mut RailEquations>,
     forces: &WheelsetForces,
     surface: SurfaceConstants,
     speed_m_per_s: f64,
     weights: Weights,
 ) {
+    let mut products = Products::new(simd, wheelset);
     for (number, wheel) in forces.wheels.iter().enumerate() {
         let side = if number == 0 { -1.0 } else { 1.0 };
-        let mut all = [Weighted::NONE; 3 * ZONES];
-        let mut on_rails = all;
-        let mut directions = all.iter_mut().zip(&mut on_rails);
         for patch in wheel.loaded_patches() {
             let stiffness = patch.stiffness_n_per_m;
             let damping = creep_coefficient_n(patch, surface.shear_modulus_pa) / speed_m_per_s;
@@ -72,23 +62,16 @@ pub(super) fn add_contact<S: Simd>(
             let normal_damping = patch.load_n * surface.normal_damping_s_per_m;
             let resistance = weights.stiffness * stiffness + weights.damping * normal_damping;
             let damping = weights.damping * damping;
-            let three = [(normal, resistance), (across, damping), (along, damping)];
-            for ((direction, weight), (of_wheelset, of_rails)) in
-                three.into_iter().zip(&mut directions)
-            {
-                *of_wheelset = Weighted::new(direction, weight);
-                if blocks.rails.is_some() {
-                    *of_rails = Weighted::new(against(&direction, number), weight);
-                }
+            let weighted = products.add(&normal, resistance, [0, 1, 2, 4]);
+            let weighted_across = products.add(&across, damping, [0, 1, 2, 3, 4]);
+            products.add(&along, damping, [3, 4]);
+            if let Some(rails) = rails.as_deref_mut() {
+                rails.add(simd, number, [sin, -cos], &weighted);
+                rails.add(simd, number, [cos, sin], &weighted_across);
             }
         }
-        let used = 3 * ZONES - directions.len();
-        system.diagonal[blocks.wheelset].add_along(simd, &all[..used]);
-        if let Some((rails, coupling)) = blocks.rails {
-            system.diagonal[rails].add_along(simd, &on_rails[..used]);
-            system.couplings[coupling].add_between(simd, &on_rails[..used], &all[..used]);
-        }
     }
+    products.write(wheelset);
 }
 
 /// Force divided by creepage, N.
