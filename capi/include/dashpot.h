@@ -546,7 +546,7 @@ dashpot_error dashpot_damper_describe(const dashpot_damper *damper, dashpot_damp
 /**
  * Sets the clearance of a damper in use. The next step of each state adopts it and keeps its force.
  *
- * On a Cortex-M7 this takes about 302 instructions, and the next step of each state then takes about 1690 instructions
+ * On a Cortex-M7 this takes about 302 instructions, and the next step of each state then takes about 1540 instructions
  * instead of the usual number.
  *
  * @param damper       initialised by `dashpot_damper_init`; no step may use it during the call

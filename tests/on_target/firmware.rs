@@ -25,7 +25,7 @@ const FIRMWARE: &str = "docs/firmware.md";
 /// Instructions allowed for a tick on a 400 MHz core at one per cycle: 3 % at 1 kHz.
 const BUDGET_1_KHZ: f64 = 0.03 * 400e6 / 1e3;
 /// Maximum instructions of a slice of a load, as stated in docs/link.md.
-const MAX_SLICE: f64 = 2433.0;
+const MAX_SLICE: f64 = 2082.0;
 /// The same for 25 % at 10 kHz.
 const BUDGET_10_KHZ: f64 = 0.25 * 400e6 / 10e3;
 
