@@ -138,7 +138,7 @@ mod tests {
             of(Source::Counted("missing"), Goal::Ratio(0.02)),
         ];
         let expected = "              \
-                            ours  yardstick             ratio     goal\n\
+                            ours  yardstick              ratio     goal\n\
             tick       10.0 us    1.00 ms  real time  0.0100  5.00 us  2.0 times\n\
             tick       10.0 us    1.00 ms  real time  0.0100   0.0200  reached\n\
             tick  not measured    1.00 ms  real time       -   0.0200\n";
