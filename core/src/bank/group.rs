@@ -252,24 +252,24 @@ fn state_numbers<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
 pub(super) const NUMBERS_PER_PIECE: usize = 4 * ROWS_PER_PIECE;
 
 /// Numbers of a piece and of the next one.
-type Window<T> = [T; 2 * NUMBERS_PER_PIECE];
+pub(super) type Window<T> = [T; 2 * NUMBERS_PER_PIECE];
 
-/// Returns the pieces from an entry of the table's bins on. No check remains in the compiled code.
+/// Returns the pieces from an entry of the table's bins on. Every entry has two pieces, so no check remains in compiled
+/// code that is optimised for speed.
 #[inline(always)]
 fn window<T: Real>(damper: &Damper<T>, entry: u8) -> &Window<T> {
     let numbers = damper.table.pieces.as_flattened().as_flattened();
     let start = NUMBERS_PER_PIECE / 2 * usize::from(entry);
-    let window = numbers[start..start + 2 * NUMBERS_PER_PIECE].first_chunk();
-    window.expect("two pieces")
+    let window = numbers.get(start..).and_then(<[T]>::first_chunk);
+    window.unwrap_or(T::ZEROS)
 }
 
-/// Returns a row of the piece that starts at a number of the window. No check remains in the compiled code.
+/// Returns a row of the piece that starts at a number of the window: `piece` is 0 or [`NUMBERS_PER_PIECE`].
 #[inline(always)]
-fn row<T: Real>(window: &Window<T>, piece: usize, row: usize) -> &[T; 4] {
+fn row<T: Real>(window: &Window<T>, piece: usize, row: usize) -> [T; 4] {
     let start = (piece & NUMBERS_PER_PIECE) + 4 * row;
-    window[start..start + 4]
-        .first_chunk()
-        .expect("four numbers")
+    let row = window.get(start..).and_then(<[T]>::first_chunk);
+    row.copied().unwrap_or([T::ZERO; 4])
 }
 
 /// The piece of each lane's table that contains the reach of a stage, and the reach beyond its knot (m).
@@ -299,7 +299,7 @@ fn locate<'a, T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
             let damper = dampers[vector][lane];
             let entry = damper.table.bins.as_flattened()[entries[lane] % (2 * BINS)];
             let window = window(damper, entry);
-            knots[lane] = *row(window, 0, KNOTS);
+            knots[lane] = row(window, 0, KNOTS);
             windows[vector][lane] = window;
         }
         let [knot, next, ..] = V::columns(simd, &knots);
@@ -320,7 +320,7 @@ impl<T: Real, V: Vector<T, W>, const W: usize, const N: usize> Located<'_, T, V,
             for lane in 0..W {
                 let (window, piece) = (self.windows[vector][lane], self.pieces[vector][lane]);
                 for cubic in 0..C {
-                    numbers[cubic][lane] = *row(window, piece, cubics[cubic]);
+                    numbers[cubic][lane] = row(window, piece, cubics[cubic]);
                 }
             }
             let z = self.z.0[vector];

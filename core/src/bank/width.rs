@@ -7,6 +7,8 @@ use fearless_simd::{Simd, x86::Avx2};
 
 use super::Bank;
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use super::group::{NUMBERS_PER_PIECE, Window};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 use super::transposes::Transposes;
 use crate::real::Real;
 
@@ -133,13 +135,20 @@ fn baseline() -> fearless_simd::aarch64::Neon {
 }
 
 /// Scalars of which several dampers are stepped together.
-pub(crate) trait Groups: Sized {
+pub(crate) trait Groups: Sized + 'static {
+    /// Numbers of two pieces, all zero.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    const ZEROS: &'static Window<Self>;
+
     /// Steps the dampers in whole groups; returns the other dampers.
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
 }
 
 impl Groups for f32 {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    const ZEROS: &'static Window<Self> = &[0.0; 2 * NUMBERS_PER_PIECE];
+
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
     fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
@@ -149,6 +158,9 @@ impl Groups for f32 {
 }
 
 impl Groups for f64 {
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    const ZEROS: &'static Window<Self> = &[0.0; 2 * NUMBERS_PER_PIECE];
+
     #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
     #[inline(always)]
     fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
