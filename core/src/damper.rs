@@ -1,7 +1,5 @@
 //! The damper: constants for one step size, shared by any number of states.
 
-#[cfg(feature = "builder")]
-use crate::build::table_check;
 use crate::parameters::{MAX_CLEARANCE_M, MAX_FORCE_N, Mount};
 use crate::real::Real;
 use crate::revision;
@@ -9,6 +7,8 @@ use crate::scalars::Scalars;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::table::Table;
+#[cfg(feature = "builder")]
+use crate::table_check;
 
 /// A built damper: constants for one step size, shared by any number of states.
 ///
@@ -50,7 +50,7 @@ impl<T: Real> Damper<T> {
             scalars,
             revision: revision::of_damper(table_revision, &scalars),
             table_revision,
-            table_check: table_check(&table),
+            table_check: table_check::of(&table),
             padding: [0; 2],
             table,
         }

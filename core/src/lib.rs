@@ -37,6 +37,8 @@ mod state;
 mod status;
 mod step;
 mod table;
+#[cfg(feature = "builder")]
+mod table_check;
 pub mod telemetry;
 mod unusual;
 

@@ -3,8 +3,9 @@
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::bank::Groups;
-use crate::math::Lanes;
+use crate::math::{Groups, Lanes};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use crate::table::NUMBERS_PER_PIECE;
 use crate::table::Table;
 
 /// Scalar of a damper, implemented only for `f32` and `f64`.
@@ -56,12 +57,15 @@ pub trait Real:
 
 /// Operations of a scalar for the step and the builder. The trait is private, so other crates can neither call them nor
 /// implement [`Real`].
-pub(crate) trait Scalar: Lanes<Self, 1> + Groups {
+pub(crate) trait Scalar: Lanes<Self, 1> + Groups + 'static {
     /// Distance from 1 to the next larger number.
     #[cfg(feature = "builder")]
     const EPSILON: f64;
     /// Number of significant binary digits.
     const MANTISSA_DIGITS: u32;
+    /// Two pieces of zeros.
+    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    const ZERO_PIECES: &'static [Self; 2 * NUMBERS_PER_PIECE];
     /// A table of zeros.
     #[cfg(feature = "builder")]
     const ZERO_TABLE: Table<Self>;
@@ -112,6 +116,9 @@ macro_rules! real {
             #[cfg(feature = "builder")]
             const EPSILON: f64 = $float::EPSILON as f64;
             const MANTISSA_DIGITS: u32 = $float::MANTISSA_DIGITS;
+            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            const ZERO_PIECES: &'static [Self; 2 * NUMBERS_PER_PIECE] =
+                &[0.0; 2 * NUMBERS_PER_PIECE];
             #[cfg(feature = "builder")]
             const ZERO_TABLE: Table<Self> = Table::<$float>::ZERO;
 

@@ -26,6 +26,10 @@ pub(crate) type Piece<T> = [[T; 4]; ROWS_PER_PIECE];
 
 /// Number of rows of a piece.
 pub(crate) const ROWS_PER_PIECE: usize = 4;
+
+/// Number of numbers of a piece.
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) const NUMBERS_PER_PIECE: usize = 4 * ROWS_PER_PIECE;
 /// Row of a piece: flow `v_h` times the step (m). It has the sign of the stretch.
 pub(crate) const FLOW: usize = 0;
 /// Row of a piece: flow potential times the step (m^2), positive.

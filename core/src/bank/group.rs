@@ -5,27 +5,24 @@
 )]
 
 use super::Bank;
-use super::vector::{Vector, Vectors};
 use crate::bins::BINS;
 use crate::damper::Damper;
+use crate::math::vectors::{GroupWork, Vector, Vectors};
 use crate::parameters::MAX_FORCE_N;
 use crate::real::Real;
 use crate::stages::GAMMA;
 use crate::state::DamperState;
 use crate::status::Status;
 use crate::step::{self, MAX_CORRECTION};
-use crate::table::{FLOW, KNOTS, POTENTIAL, ROWS_PER_PIECE, STIFFNESS};
+use crate::table::{FLOW, KNOTS, NUMBERS_PER_PIECE, POTENTIAL, STIFFNESS};
 
 /// Dampers of a group: `N` vectors of `W` lanes.
 type Dampers<'a, T, const W: usize, const N: usize> = [[&'a Damper<T>; W]; N];
 
-impl<'a, T: Real> Bank<'a, T> {
-    /// Steps the dampers in whole groups of `N` vectors; returns the other dampers.
+impl<T: Real> GroupWork<T> for Bank<'_, T> {
+    /// Steps the dampers in whole groups; returns the other dampers.
     #[inline(always)]
-    pub(super) fn step_groups<V: Vector<T, W>, const W: usize, const N: usize>(
-        self,
-        simd: V::Simd,
-    ) -> Self {
+    fn in_groups<V: Vector<T, W>, const W: usize, const N: usize>(self, simd: V::Simd) -> Self {
         let groups = self.dampers.len() / (W * N);
         let (dampers, dampers_left) = self.dampers.split_at(groups * W * N);
         let (states, states_left) = self.states.split_at_mut(groups * W * N);
@@ -248,11 +245,8 @@ fn state_numbers<T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
     )
 }
 
-/// Number of numbers of a piece.
-pub(super) const NUMBERS_PER_PIECE: usize = 4 * ROWS_PER_PIECE;
-
 /// Numbers of a piece and of the next one.
-pub(super) type Window<T> = [T; 2 * NUMBERS_PER_PIECE];
+type Window<T> = [T; 2 * NUMBERS_PER_PIECE];
 
 /// Returns the pieces from an entry of the table's bins on. Every entry has two pieces, so no check remains in compiled
 /// code that is optimised for speed.
@@ -261,7 +255,7 @@ fn window<T: Real>(damper: &Damper<T>, entry: u8) -> &Window<T> {
     let numbers = damper.table.pieces.as_flattened().as_flattened();
     let start = NUMBERS_PER_PIECE / 2 * usize::from(entry);
     let window = numbers.get(start..).and_then(<[T]>::first_chunk);
-    window.unwrap_or(T::ZEROS)
+    window.unwrap_or(T::ZERO_PIECES)
 }
 
 /// Returns a row of the piece that starts at a number of the window: `piece` is 0 or [`NUMBERS_PER_PIECE`].
@@ -305,7 +299,7 @@ fn locate<'a, T: Real, V: Vector<T, W>, const W: usize, const N: usize>(
         let [knot, next, ..] = V::columns(simd, &knots);
         let passed = reach.is_above(next);
         z.0[vector] = reach - V::select(passed, next, knot);
-        pieces[vector] = V::numbers_of_piece(passed);
+        pieces[vector] = V::where_true(passed, NUMBERS_PER_PIECE);
     }
     Located { windows, pieces, z }
 }

@@ -9,13 +9,8 @@ use crate::state::DamperState;
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
 mod group;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-mod transposes;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-mod vector;
 mod width;
 
-pub(crate) use width::Groups;
 pub use width::VectorWidth;
 
 /// Steps `N` dampers: `forces[i] = dampers[i].step(&mut states[i], displacements[i])`, bit for bit.

@@ -1,15 +1,11 @@
 //! Width of the vectors of a bank.
 
 #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use fearless_simd::{Level, f32x8, f64x4};
+use fearless_simd::Level;
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{Simd, x86::Avx2};
 
 use super::Bank;
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::group::{NUMBERS_PER_PIECE, Window};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-use super::transposes::Transposes;
 use crate::real::Real;
 
 /// Vector instructions with which a bank is stepped: a token that proves that the processor has them.
@@ -99,7 +95,7 @@ impl VectorWidth {
             #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
             Width::Baseline => bank,
             #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-            Width::Baseline => T::step_groups(baseline(), bank),
+            Width::Baseline => T::in_groups(baseline(), bank),
             #[cfg(target_arch = "x86_64")]
             Width::Avx2(avx2) => wide(avx2, bank),
         }
@@ -112,7 +108,7 @@ impl VectorWidth {
 fn wide<T: Real>(avx2: Avx2, bank: Bank<'_, T>) -> Bank<'_, T> {
     avx2.vectorize(
         #[inline(always)]
-        || T::step_groups(avx2, bank),
+        || T::in_groups(avx2, bank),
     )
 }
 
@@ -132,38 +128,4 @@ fn baseline() -> fearless_simd::aarch64::Neon {
     Level::baseline()
         .as_neon()
         .expect("the baseline of the processor")
-}
-
-/// Scalars of which several dampers are stepped together.
-pub(crate) trait Groups: Sized + 'static {
-    /// Numbers of two pieces, all zero.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    const ZEROS: &'static Window<Self>;
-
-    /// Steps the dampers in whole groups; returns the other dampers.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self>;
-}
-
-impl Groups for f32 {
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    const ZEROS: &'static Window<Self> = &[0.0; 2 * NUMBERS_PER_PIECE];
-
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    #[inline(always)]
-    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
-        let left = bank.step_groups::<f32x8<S>, 8, 2>(simd);
-        left.step_groups::<f32x8<S>, 8, 1>(simd)
-    }
-}
-
-impl Groups for f64 {
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    const ZEROS: &'static Window<Self> = &[0.0; 2 * NUMBERS_PER_PIECE];
-
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
-    #[inline(always)]
-    fn step_groups<S: Transposes>(simd: S, bank: Bank<'_, Self>) -> Bank<'_, Self> {
-        bank.step_groups::<f64x4<S>, 4, 2>(simd)
-    }
 }

@@ -5,14 +5,12 @@ mod checked;
 mod fit;
 mod knots;
 mod span;
-mod table_check;
 
 pub(crate) use branch::Branch;
 use branch::Law;
 pub use checked::CheckedParameters;
 pub(crate) use checked::ElementLaws;
 use span::Stage;
-pub(crate) use table_check::table_check;
 
 use crate::bins::DOUBLINGS;
 use crate::damper::Damper;

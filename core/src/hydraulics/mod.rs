@@ -3,6 +3,7 @@
 mod compressed;
 mod corner;
 mod flow;
+mod largest_pressure;
 mod side;
 mod two_chamber;
 

@@ -2,6 +2,8 @@
 
 pub(crate) mod approximate;
 mod lanes;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) mod vectors;
 
 #[cfg(feature = "builder")]
 pub(crate) mod elementary;
@@ -13,3 +15,13 @@ pub(crate) mod roots;
 pub(crate) mod square_roots;
 
 pub(crate) use lanes::Lanes;
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+pub(crate) use vectors::Groups;
+
+/// Scalars that fill vectors; this processor has none.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) trait Groups {}
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+impl Groups for f32 {}
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+impl Groups for f64 {}

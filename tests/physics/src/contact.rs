@@ -1,9 +1,12 @@
-//! Forces of a wheelset's contact.
+//! Forces of a wheelset's contact, and elastic patches without tables.
 
 use std::f64::consts::TAU;
 
 use dashpot_files::case::Case;
-use dashpot_rail::contact::{Motion, RailDisplacement, WheelsetForces};
+use dashpot_rail::contact::elastic::{Fineness, Given, NormalContact, TurnedStrips};
+use dashpot_rail::contact::{
+    ContactGeometry, Installation, Motion, Pair, RailDisplacement, Steel, WheelsetForces,
+};
 use dashpot_vehicle_run::contact::ContactSetup;
 
 use crate::bits;
@@ -34,6 +37,26 @@ pub(super) fn forces() -> Vec<String> {
         {
             let numbers = [patch.load_n, patch.dissipation_w, patch.peak_pressure_pa];
             results.extend(numbers.map(bits));
+        }
+    }
+    results
+}
+
+/// Elastic patches of the standard wheel and rail, from the field side to the flange, under two loads.
+pub(super) fn elastic() -> Vec<String> {
+    let pair = Pair::standard(Installation::default()).expect("the standard pair");
+    let geometry = ContactGeometry::new(pair, Steel::default()).expect("the standard pair");
+    let wheel = TurnedStrips::new(geometry.pair(), 1e-3, 5e-3, Fineness::Medium);
+    let mut contact = NormalContact::default();
+    let mut results = Vec::new();
+    for step in -4..=8 {
+        for load_n in [50e3, 120e3] {
+            let (lateral_m, load) = (1e-3 * f64::from(step), Given::LoadN(load_n));
+            let patches = geometry.elastic_patches(&wheel, lateral_m, load, &mut contact);
+            for patch in patches {
+                let sizes = [patch.load_n, patch.slope, patch.peak_pressure_pa];
+                results.extend(sizes.map(bits));
+            }
         }
     }
     results

@@ -61,6 +61,7 @@ impl Results {
         for (name, bits) in [
             ("bank, f32", damper::bank::<f32>()),
             ("bank, f64", damper::bank::<f64>()),
+            ("elastic contact", contact::elastic()),
             ("contact", contact::forces()),
             ("vehicle", vehicle::state()),
         ] {

@@ -2,7 +2,6 @@
 
 use fearless_simd::{Simd, SimdBase, f64x8};
 
-use super::columns::Columns;
 use crate::vehicle::body::COORDINATES;
 
 /// Number of coordinates of a body.
@@ -95,40 +94,6 @@ impl Block {
                 sum += simd.splat_f64x8(left[i]) * f64x8::from_slice(simd, right);
             }
             sum.store_slice(row);
-        }
-    }
-
-    /// Inverts a symmetric block in place (Gauss-Jordan elimination without row exchange). Returns true if it is
-    /// positive definite, that is, if all pivots are positive.
-    #[inline(always)]
-    pub fn invert<S: Simd>(&mut self, simd: S) -> bool {
-        let columns = Columns::new(simd, self);
-        let (columns, a) = columns.eliminate::<0>();
-        let (columns, b) = columns.eliminate::<1>();
-        let (columns, c) = columns.eliminate::<2>();
-        let (columns, d) = columns.eliminate::<3>();
-        let (columns, e) = columns.eliminate::<4>();
-        columns.write(self);
-        a & b & c & d & e
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use fearless_simd::{Level, dispatch};
-
-    use super::*;
-
-    #[test]
-    fn a_block_with_a_zero_pivot_is_not_positive_definite() {
-        let diagonal = |last: f64| {
-            let entries = [1.0, 2.0, 3.0, 4.0, last];
-            Block::new(|i, j| if i == j { entries[i] } else { 0.0 })
-        };
-        for (last, expected) in [(1e-3, true), (0.0, false), (-1e-3, false)] {
-            let mut block = diagonal(last);
-            let found = dispatch!(Level::new(), simd => block.invert(simd));
-            assert_eq!(found, expected, "{last}");
         }
     }
 }

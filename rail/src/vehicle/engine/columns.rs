@@ -99,6 +99,22 @@ impl<S: Simd> Columns<S> {
     }
 }
 
+impl Block {
+    /// Inverts a symmetric block in place (Gauss-Jordan elimination without row exchange). Returns true if it is
+    /// positive definite, that is, if all pivots are positive.
+    #[inline(always)]
+    pub fn invert<S: Simd>(&mut self, simd: S) -> bool {
+        let columns = Columns::new(simd, self);
+        let (columns, a) = columns.eliminate::<0>();
+        let (columns, b) = columns.eliminate::<1>();
+        let (columns, c) = columns.eliminate::<2>();
+        let (columns, d) = columns.eliminate::<3>();
+        let (columns, e) = columns.eliminate::<4>();
+        columns.write(self);
+        a & b & c & d & e
+    }
+}
+
 /// Selects column `J`.
 #[inline(always)]
 fn at<const J: usize, S: Simd>(simd: S) -> mask64x4<S> {
@@ -173,6 +189,19 @@ mod tests {
     use fearless_simd::{Level, dispatch};
 
     use super::*;
+
+    #[test]
+    fn a_block_with_a_zero_pivot_is_not_positive_definite() {
+        let diagonal = |last: f64| {
+            let entries = [1.0, 2.0, 3.0, 4.0, last];
+            Block::new(|i, j| if i == j { entries[i] } else { 0.0 })
+        };
+        for (last, expected) in [(1e-3, true), (0.0, false), (-1e-3, false)] {
+            let mut block = diagonal(last);
+            let found = dispatch!(Level::new(), simd => block.invert(simd));
+            assert_eq!(found, expected, "{last}");
+        }
+    }
 
     #[test]
     fn a_direction_adds_its_weighted_outer_product() {

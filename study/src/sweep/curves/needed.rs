@@ -18,7 +18,7 @@ impl Study {
     /// use dashpot_files::study::StudyParameters;
     /// use dashpot_study::sweep::Study;
     /// let study = Study::new(StudyParameters::load("paper")?)?;
-    /// // Two figures of a single case with one and two dampers, and three of a signal for three values and eight seeds.
+    /// // Two figures of one case each, and three of a signal for three values and eight seeds.
     /// assert_eq!(study.needed_curves().len(), 1 + 1 + 3 * 3 * 8);
     /// # Ok::<(), dashpot_files::study::StudyFileError>(())
     /// ```

@@ -10,7 +10,7 @@ const ROWS_PER_PART: usize = ROWS / PARTS;
 const POLYNOMIAL: u32 = 0xedb8_8320;
 
 /// Returns the CRC-32 of a table; see [`Table::check`].
-pub(crate) fn table_check<T: Real>(table: &Table<T>) -> u32 {
+pub(crate) fn of<T: Real>(table: &Table<T>) -> u32 {
     let mut parts = [0; PARTS];
     for row in 0..ROWS_PER_PART {
         for (part, crc) in parts.iter_mut().enumerate() {
@@ -72,10 +72,7 @@ mod tests {
         let damper: Damper<T> = crate::example::reduced_vertical()
             .build(1e-3)
             .expect("a valid damper");
-        assert_eq!(
-            super::table_check(&damper.table),
-            T::table_check(&damper.table)
-        );
+        assert_eq!(super::of(&damper.table), T::table_check(&damper.table));
     }
 
     #[test]

@@ -8,12 +8,11 @@ use core::ops::{Add, BitOr, Div, Mul, Neg, Sub};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x4, f32x8, f64x4, u32x8, u64x4};
 
-use super::group::NUMBERS_PER_PIECE;
 use super::transposes::Transposes;
 use crate::bins::{BINS, bin_shift};
 
 /// Vector of `W` numbers.
-pub(super) trait Vector<T, const W: usize>:
+pub(crate) trait Vector<T, const W: usize>:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -49,8 +48,8 @@ pub(super) trait Vector<T, const W: usize>:
     fn is_beyond(self, doubled_bits: Self) -> Self::Mask;
     /// One bit for each lane.
     fn bits(mask: Self::Mask) -> u64;
-    /// [`NUMBERS_PER_PIECE`] for each true lane, else zero.
-    fn numbers_of_piece(mask: Self::Mask) -> [usize; W];
+    /// The number in each true lane, else zero.
+    fn where_true(mask: Self::Mask, number: usize) -> [usize; W];
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self;
     /// Index of the entry of the table's bins: two for each bin, the second for a negative direction.
     fn entries(self, direction: Self) -> [usize; W];
@@ -135,9 +134,9 @@ macro_rules! vector {
                 mask.to_bitmask()
             }
             #[inline(always)]
-            fn numbers_of_piece(mask: Self::Mask) -> [usize; $width] {
+            fn where_true(mask: Self::Mask, number: usize) -> [usize; $width] {
                 let numbers: $words<S> = mask.to_vector().bitcast();
-                let words: [$word; $width] = (numbers & NUMBERS_PER_PIECE as $word).into();
+                let words: [$word; $width] = (numbers & number as $word).into();
                 let mut numbers = [0; $width];
                 for lane in 0..$width {
                     numbers[lane] = words[lane] as usize;
@@ -230,7 +229,7 @@ mod four {
 
 /// `N` vectors. The processor works on one while another waits for a result.
 #[derive(Clone, Copy)]
-pub(super) struct Vectors<V, const N: usize>(pub(super) [V; N]);
+pub(crate) struct Vectors<V, const N: usize>(pub(crate) [V; N]);
 
 macro_rules! operator {
     ($operator:ident, $method:ident) => {
@@ -256,7 +255,7 @@ operator!(Div, div);
 macro_rules! method {
     ($method:ident($($other:ident),*)) => {
         #[inline(always)]
-        pub(super) fn $method<T, const W: usize>(self, $($other: Self),*) -> Self
+        pub(crate) fn $method<T, const W: usize>(self, $($other: Self),*) -> Self
         where
             V: Vector<T, W>,
         {
