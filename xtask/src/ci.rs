@@ -1,7 +1,7 @@
 //! Runs all checks; those that fail soonest come first.
 
 use crate::firmware;
-use crate::packages::rehearse_publishing;
+use crate::packages::{rehearse_publishing, with_features};
 use crate::processor::CORTEX_M7;
 use crate::run::{Outcome, cargo, cargo_with};
 use crate::rust_version;
@@ -51,20 +51,17 @@ fn lint(packages: &[&str]) -> Outcome {
     cargo(&[&["clippy"], packages, &["--", "-D", "warnings"]].concat())
 }
 
-/// Checks each package without features, with each feature alone, and with all features.
+/// Checks each package that has features without them, with each feature alone, and with all features. The package in
+/// the top folder is left out: its only feature is for a bench.
 fn each_feature() -> Outcome {
     CARGO_HACK.install()?;
-    cargo(&[
-        "hack",
-        "clippy",
-        "--workspace",
-        // For the package in the top folder, cargo would check the default members instead. Its only feature is for a
-        // bench.
-        "--exclude",
-        "dashpot",
-        "--each-feature",
-        "--",
-        "-D",
-        "warnings",
-    ])
+    let packages = with_features()?;
+    let mut arguments = vec!["hack", "clippy", "--each-feature"];
+    arguments.extend(
+        packages
+            .iter()
+            .flat_map(|package| ["--package", &package.name]),
+    );
+    arguments.extend(["--", "-D", "warnings"]);
+    cargo(&arguments)
 }

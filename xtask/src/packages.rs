@@ -80,6 +80,23 @@ fn missing(list: &str) -> Vec<&'static str> {
 /// # Errors
 /// A manifest is missing or names no package.
 pub fn published() -> Outcome<Vec<Package>> {
+    packages(|manifest| !has_line(manifest, "publish = false"))
+}
+
+/// Returns the packages of the workspace that have features.
+///
+/// # Errors
+/// A manifest is missing or names no package.
+pub fn with_features() -> Outcome<Vec<Package>> {
+    packages(|manifest| has_line(manifest, "[features]"))
+}
+
+fn has_line(manifest: &str, line: &str) -> bool {
+    manifest.lines().any(|other| other.trim() == line)
+}
+
+/// Returns the packages of the workspace below the top folder whose manifest is selected.
+fn packages(is_selected: impl Fn(&str) -> bool) -> Outcome<Vec<Package>> {
     let read = |folder: &str| {
         let path = repository().join(folder).join("Cargo.toml");
         fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
@@ -87,10 +104,7 @@ pub fn published() -> Outcome<Vec<Package>> {
     let mut packages = Vec::new();
     for folder in members(&read("")?) {
         let manifest = read(&folder)?;
-        if !manifest
-            .lines()
-            .any(|line| line.trim() == "publish = false")
-        {
+        if is_selected(&manifest) {
             let name =
                 name(&manifest).ok_or_else(|| format!("{folder}/Cargo.toml names no package"))?;
             packages.push(Package { name, folder });
@@ -122,7 +136,7 @@ fn name(manifest: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{members, missing, name, published};
+    use super::{members, missing, name, published, with_features};
 
     #[test]
     fn manifests_are_read() {
@@ -141,6 +155,17 @@ mod tests {
                 .any(|package| package.name == "dashpot-core" && package.folder == "core")
         );
         assert!(packages.iter().all(|package| package.name != "xtask"));
+    }
+
+    #[test]
+    fn the_core_has_features_and_this_package_has_none() {
+        let names: Vec<String> = with_features()
+            .unwrap()
+            .into_iter()
+            .map(|package| package.name)
+            .collect();
+        assert!(names.iter().any(|name| name == "dashpot-core"));
+        assert!(names.iter().all(|name| name != "xtask"));
     }
 
     #[test]
