@@ -34,8 +34,7 @@ impl<T: Real> Damper<T> {
     /// A state that another damper stepped before is adopted first and keeps its force. An impossible state (a stretch
     /// or displacement that is not finite, a stretch beyond the reach of the damper, a displacement outside its range)
     /// restarts at rest and latches [`Status::CORRUPTED`].
-    // A call would take four instructions of a step.
-    #[inline(always)]
+    #[inline]
     pub fn step(&self, state: &mut DamperState<T>, displacement: T) -> T {
         let (dampers, states) = ([self], core::array::from_mut(state));
         let travel = displacement - states[0].displacement;

@@ -59,10 +59,6 @@ impl Cost {
     }
 }
 
-extern "C" fn step(damper: &Damper<f32>, state: &mut DamperState<f32>, displacement: f32) -> f32 {
-    damper.step(state, displacement)
-}
-
 extern "C" fn bank(
     dampers: &[&Damper<f32>; BANK],
     states: &mut [DamperState<f32>; BANK],
@@ -126,6 +122,9 @@ fn timed_step(damper: &Damper<f32>, state: &mut DamperState<f32>, displacement: 
         0,
         0,
     ];
+    // On this processor Rust passes these arguments and returns the force as C does; other forces would have another
+    // digest. A wrapper in C would add its own call.
+    let step: fn(&Damper<f32>, &mut DamperState<f32>, f32) -> f32 = Damper::step;
     timed(step as *const (), integers, displacement)
 }
 

@@ -38,7 +38,7 @@ fn header_and_source_are_named_and_always_the_same() {
         "{text}"
     );
     assert!(
-        text.contains(": 12288 bytes of constants, state 24 bytes"),
+        text.contains(": 12416 bytes of constants, state 24 bytes"),
         "{text}"
     );
     assert!(!text.contains("image"), "{text}");
