@@ -118,6 +118,20 @@ fn text(separator: &'static str) -> impl Strategy<Value = Vec<u8>> {
         })
 }
 
+/// A text and its separator, rarely another one. The separator is given, because its detection looks at the rows that
+/// have arrived, at most eight: it may differ for a text that arrives byte by byte.
+fn separated_text() -> impl Strategy<Value = (Vec<u8>, Separator)> {
+    prop_oneof![
+        text(",").prop_map(|text| (text, Separator::Comma)),
+        text(";").prop_map(|text| (text, Separator::Semicolon)),
+        text("\t").prop_map(|text| (text, Separator::Tab)),
+        text(" ").prop_map(|text| (text, Separator::Spaces)),
+        text("  ").prop_map(|text| (text, Separator::Spaces)),
+        text("|").prop_map(|text| (text, Separator::Bar)),
+        text(",").prop_map(|text| (text, Separator::Semicolon)),
+    ]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(
         std::env::var("PROPTEST_CASES").map_or(512, |cases| cases.parse().expect("a number"))
@@ -125,15 +139,14 @@ proptest! {
 
     #[test]
     fn plain_rows_are_read_as_by_the_csv_reader(
-        text in prop_oneof![text(","), text(";"), text("\t"), text(" "), text("|"), text("  ")],
+        (text, separator) in separated_text(),
         mark in prop_oneof![
             3 => Just(None), 1 => Just(Some(DecimalMark::Point)), 1 => Just(Some(DecimalMark::Comma)),
         ],
-        separator in prop_oneof![4 => Just(None), 1 => Just(Some(Separator::Semicolon))],
         skip_invalid in prop::bool::weighted(0.6),
     ) {
         let channels = Channels {
-            text: TextOptions { decimal_mark: mark, separator, ..TextOptions::default() },
+            text: TextOptions { decimal_mark: mark, separator: Some(separator), ..TextOptions::default() },
             skip_invalid,
             ..Channels::default()
         };
