@@ -11,20 +11,20 @@ fn main() {
     let folder = target_folder();
     let measured = Measured::read(
         &folder.join("criterion"),
-        &folder.join("target_figures.json"),
+        &in_repository("target/target_figures.json"),
         &folder.join("gungraun"),
     );
     println!("{}, {}\n", processor(), compiler());
     print!("{}", table(&LINES, &measured));
 }
 
-/// Folder of the figures, as cargo chooses it.
+/// Folder in which cargo keeps the times and counts.
 fn target_folder() -> PathBuf {
     let chosen = env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     chosen.unwrap_or_else(|| in_repository("target"))
 }
 
-/// Name of the processor, where the system tells it.
+/// Name of the processor; its architecture if the system gives no name.
 fn processor() -> String {
     let text = std::fs::read_to_string(Path::new("/proc/cpuinfo")).unwrap_or_default();
     let name = text.lines().find_map(|line| {

@@ -26,7 +26,7 @@ Commands:
   firmware               build the images for the target
   target [--format json] measure the core on emulated processors against its budget
   bench                  measure times and instructions, and print one table: ours, a yardstick from the same run,
-                         their ratio and the goal (docs/performance.md explains it; about twenty minutes)
+                         their ratio and the goal (docs/performance.md explains the lines)
   bench --instructions   count only instructions on this machine (needs Valgrind and gungraun-runner)
   c-library [--target NAME]... [--output FOLDER]
                          build the C library into an install tree for each target: cortex-m4f, cortex-m7, cortex-m33,
