@@ -511,7 +511,7 @@ extern "C" {
  * `DASHPOT_CHECK_SLICES` calls are one round, which checks all constants. A flipped bit is found in the next round. To
  * hold a force from before the damage, store the force at the first call of each round, and use the one stored in the
  * last round that ended without an error. Between calls you may load the damper again or set its clearance. A call
- * takes at most about 370 instructions on a Cortex-M7.
+ * takes at most about 390 instructions on a Cortex-M7.
  *
  * @param damper  initialised by `dashpot_damper_init`
  * @param state   a state of this damper
