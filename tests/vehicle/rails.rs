@@ -146,8 +146,8 @@ fn an_invalid_support_is_rejected() {
 }
 
 #[test]
-fn a_tick_of_1_ms_has_four_steps_on_rigid_rails_and_seven_on_the_default_ones() {
-    for (support, steps) in [(None, 4.0), (Some(RailSupport::BALLASTED), 7.0)] {
+fn a_tick_of_1_ms_has_four_steps_on_rigid_rails_and_five_on_the_default_ones() {
+    for (support, steps) in [(None, 4.0), (Some(RailSupport::BALLASTED), 5.0)] {
         let vehicle = Vehicle::on_rails(&locomotive(), contact(0.3), 1e-3, support).unwrap();
         assert_eq!((1e-3 / vehicle.inner_step_s()).round(), steps);
     }

@@ -16,6 +16,7 @@
 //! from [`WheelsetForces`](crate::contact::WheelsetForces), or from a time series and its rate. Declare and re-export
 //! it here, and test it in `rail/tests/` against a closed form or published values.
 
+mod band;
 mod comfort;
 mod conicity;
 mod limits;

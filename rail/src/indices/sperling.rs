@@ -2,7 +2,8 @@
 
 use realfft::num_complex::Complex;
 
-use super::spectrum::{SpectrumError, Transform, check_signal, mean, samples_of_window};
+use super::band::Band;
+use super::spectrum::{SpectrumError, check_signal, mean, samples_of_window};
 
 /// Direction of a ride acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,9 +48,9 @@ impl RideDirection {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Sperling {
-    transform: Transform,
-    /// First line of the band.
-    first: usize,
+    band: Band,
+    /// A window without its mean.
+    about_mean: Vec<f64>,
     /// Weight of the cubed magnitude of each line of the band, lateral.
     lateral: Vec<f64>,
     /// Weight of the cubed magnitude of each line of the band, vertical.
@@ -67,7 +68,8 @@ impl Sperling {
         let is_in_band = |line: &usize| {
             (SPERLING_BAND_HZ[0]..=SPERLING_BAND_HZ[1]).contains(&frequency_hz(*line))
         };
-        let band: Vec<usize> = (1..=length / 2).filter(is_in_band).collect();
+        let lines: Vec<usize> = (1..=length / 2).filter(is_in_band).collect();
+        let first = lines.first().copied().unwrap_or(0);
         // One-sided spectrum: the amplitude is 2/length times the magnitude of a line.
         let scale = (2.0 / length as f64).powi(3);
         let weights = |direction: RideDirection| {
@@ -75,11 +77,11 @@ impl Sperling {
                 let f = frequency_hz(*line);
                 scale * direction.correction(f) / f
             };
-            band.iter().map(weight).collect()
+            lines.iter().map(weight).collect()
         };
         Ok(Self {
-            transform: Transform::new(length),
-            first: band.first().copied().unwrap_or(0),
+            band: Band::new(length, first..first + lines.len()),
+            about_mean: Vec::with_capacity(length),
             lateral: weights(RideDirection::Lateral),
             vertical: weights(RideDirection::Vertical),
         })
@@ -87,14 +89,17 @@ impl Sperling {
 
     /// Returns the number of samples of a window.
     pub fn samples(&self) -> usize {
-        self.transform.samples()
+        self.band.samples()
     }
 
     /// Returns the index of a window of [`samples`](Self::samples) accelerations, m/s^2, without their mean.
     pub fn of_window(&mut self, acceleration_m_per_s2: &[f64], direction: RideDirection) -> f64 {
         let mean = mean(acceleration_m_per_s2);
         let about_mean = acceleration_m_per_s2.iter().map(|value| value - mean);
-        let lines = self.transform.lines(about_mean);
+        self.about_mean.clear();
+        self.about_mean.extend(about_mean);
+        self.about_mean.resize(self.band.samples(), 0.0);
+        let lines = self.band.lines(&self.about_mean);
         let weights = match direction {
             RideDirection::Lateral => &self.lateral,
             RideDirection::Vertical => &self.vertical,
@@ -103,11 +108,7 @@ impl Sperling {
             let square = line.norm_sqr();
             weight * square * square.sqrt()
         };
-        let sum: f64 = lines[self.first..]
-            .iter()
-            .zip(weights)
-            .map(contribution)
-            .sum();
+        let sum: f64 = lines.iter().zip(weights).map(contribution).sum();
         3.57 * libm::pow(sum, 0.1)
     }
 }

@@ -16,6 +16,8 @@ pub(super) struct Carried {
     pub wheel_forces_n: [[f64; 3]; 2],
     /// Stiffness of the contact of the stiffer wheel along the normal, N/m.
     pub wheel_stiffness_n_per_m: f64,
+    /// Product of the semi-axes of the contact, summed over the patches of the wheel with the larger sum, m^2.
+    pub wheel_axes_m2: f64,
 }
 
 /// Speed at which the contact is evaluated, m/s. Creep forces do not depend on it.
@@ -55,10 +57,18 @@ impl Carried {
             let patches = wheel.loaded_patches();
             patches.map(|patch| patch.stiffness_n_per_m).sum()
         };
-        let [left, right] = forces.wheels.each_ref().map(stiffness);
+        let axes = |wheel: &WheelForces| -> f64 {
+            let patches = wheel.loaded_patches();
+            patches
+                .map(|patch| patch.semi_axes_m[0] * patch.semi_axes_m[1])
+                .sum()
+        };
+        let larger =
+            |of: &dyn Fn(&WheelForces) -> f64| of(&forces.wheels[0]).max(of(&forces.wheels[1]));
         Some(Self {
             contact_j,
-            wheel_stiffness_n_per_m: left.max(right),
+            wheel_stiffness_n_per_m: larger(&stiffness),
+            wheel_axes_m2: larger(&axes),
             wheel_forces_n: [forces.wheels[0].force_n, forces.wheels[1].force_n],
             vertical_m: motion.vertical_m,
             rolling_radius_m: SPEED_M_PER_S / motion.rotation_rad_per_s,

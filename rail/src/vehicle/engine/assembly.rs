@@ -17,7 +17,7 @@ use super::rails::{self, RailSupport};
 use super::shape::Shape;
 use super::springs::Springs;
 use super::structure::Structure;
-use super::tangent::SurfaceConstants;
+use super::tangent::{KALKER, SurfaceConstants};
 use super::{ContactBodies, STEP_S, Vehicle, WheelsetConstants};
 use crate::contact::{PatchSource, WheelsetContact};
 use crate::creep::CreepLaw;
@@ -126,16 +126,17 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         }
         friction::check_stiffness(&stuck, step_s)?;
         let (first, count) = (parameters.bodies.len(), parameters.wheelsets.len());
-        let Linear {
-            mut inertia,
-            mut stiffness,
-            mut damping,
-            ..
-        } = linear;
         if let Some(support) = support {
             support.check()?;
-            support.append(count, &mut inertia, &mut stiffness, &mut damping);
+            support.append(count, &mut linear);
         }
+        let on_springs_rad_per_s = linear.fastest_rad_per_s();
+        let Linear {
+            inertia,
+            stiffness,
+            damping,
+            ..
+        } = linear;
         let with_contacts = parameters.wheelsets.iter().zip(&contacts);
         let carried = with_contacts
             .zip(standstill.axle_loads_n())
@@ -161,10 +162,11 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
                         .map_or(of_wheel_kg, |rail| rail.least_mass_kg().min(of_wheel_kg)),
                     stiffness_n_per_m: carried.wheel_stiffness_n_per_m,
                     damping_n_s_per_m: 0.5 * load_n * contact.normal_damping_s_per_m(),
+                    creep_n: KALKER * contact.shear_modulus_pa() * carried.wheel_axes_m2,
                 }
             })
             .collect();
-        let method = Method::new(step_s, &on_contacts)?;
+        let method = Method::new(step_s, &on_contacts, on_springs_rad_per_s)?;
         let system = DMatrix::from_diagonal(&inertia)
             + &damping * method.damping_weight()
             + &stiffness * method.stiffness_weight();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DVector, SymmetricEigen, Vector3};
+use nalgebra::Vector3;
 
 use super::Vehicle;
 use super::across::Across;
@@ -129,13 +129,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
 
 /// Checks that the step follows the oscillation of the bodies on `stuck`, the springs of all friction elements.
 pub(super) fn check_stiffness(stuck: &Linear, step_s: f64) -> Result<(), VehicleError> {
-    let root: DVector<f64> = stuck.inertia.map(|inertia| 1.0 / inertia.sqrt());
-    let scaled = stuck.stiffness.component_mul(&(&root * root.transpose()));
-    let fastest = SymmetricEigen::new(scaled)
-        .eigenvalues
-        .max()
-        .max(0.0)
-        .sqrt();
+    let fastest = stuck.fastest_rad_per_s();
     if fastest * step_s <= MAX_PHASE_RAD {
         return Ok(());
     }

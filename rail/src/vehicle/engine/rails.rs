@@ -1,10 +1,9 @@
 //! Elastically supported rails: a mass on springs under each wheel.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::block::{N, Vector};
 use crate::contact::{RailDisplacement, WheelsetForces};
 use crate::vehicle::error::VehicleError;
+use crate::vehicle::linear::Linear;
 
 /// Elastic support of a rail under a wheel: a mass that moves along the track with the wheel, on a spring and a dashpot
 /// in the lateral and in the vertical direction.
@@ -133,13 +132,13 @@ impl RailSupport {
     }
 
     /// Appends the rails under `wheelsets` wheelsets to the equations of the bodies.
-    pub(super) fn append(
-        &self,
-        wheelsets: usize,
-        inertia: &mut DVector<f64>,
-        stiffness: &mut DMatrix<f64>,
-        damping: &mut DMatrix<f64>,
-    ) {
+    pub(super) fn append(&self, wheelsets: usize, linear: &mut Linear) {
+        let Linear {
+            inertia,
+            stiffness,
+            damping,
+            ..
+        } = linear;
         let first = inertia.len();
         let size = first + N * wheelsets;
         *inertia = inertia.clone().resize_vertically(size, 1.0);

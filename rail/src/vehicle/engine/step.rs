@@ -75,8 +75,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
         let pull = [&state.work.tick_forces[..], &state.work.tick_changes];
         for_all(simd, &Share(share), pull, [&mut forces]);
         self.act(simd, state, track, distance, &mut forces);
-        // Impacts last longer than two steps, so two consecutive steps share one factorisation.
-        if substep % 2 == 1 {
+        if self.method.factorises(substep - 1, state.speed_m_per_s) {
             self.factorise(simd, state);
         }
         self.correct(simd, state, &mut forces);

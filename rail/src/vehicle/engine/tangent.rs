@@ -8,8 +8,8 @@ use super::rail_equations::RailEquations;
 use crate::contact::{PatchForces, WheelsetForces};
 use crate::creep::CreepForces;
 
-/// Kalker's coefficient for both directions: it is 4 to within 25 % for the contact ellipses of wheel and rail.
-const KALKER: f64 = 4.0;
+/// Kalker's coefficient for both directions: at most this for the contact ellipses of wheel and rail, and at least 3.
+pub(super) const KALKER: f64 = 5.0;
 
 /// Weights of the contact's stiffness and damping in the equations of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,7 +30,7 @@ pub(super) struct SurfaceConstants {
 ///
 /// - Normal direction: the stiffness of the patch and the damping `beta N` of Hunt and Crossley.
 /// - Both tangential directions: the damping `f/speed`, where `f` is the force divided by the creepage, limited to
-///   `4 G a b`.
+///   `5 G a b`.
 ///
 /// An estimate is sufficient if it keeps the correction stable and small: the next step corrects the remaining force
 /// error.

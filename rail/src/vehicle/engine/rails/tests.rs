@@ -1,5 +1,7 @@
 //! Bounds, motion and equations of the rails.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::*;
 
 #[test]
@@ -90,10 +92,19 @@ fn rails_follow_the_bodies_in_the_equations() {
         .with_lateral_mass(50.0)
         .with_vertical(4.0, 5.0);
     let bodies = 3 * N;
-    let mut inertia = DVector::from_element(bodies, 7.0);
-    let mut stiffness = DMatrix::from_element(bodies, bodies, 8.0);
-    let mut damping = DMatrix::from_element(bodies, bodies, 9.0);
-    support.append(2, &mut inertia, &mut stiffness, &mut damping);
+    let mut linear = Linear {
+        inertia: DVector::from_element(bodies, 7.0),
+        stiffness: DMatrix::from_element(bodies, bodies, 8.0),
+        damping: DMatrix::from_element(bodies, bodies, 9.0),
+        series: Vec::new(),
+    };
+    support.append(2, &mut linear);
+    let Linear {
+        inertia,
+        stiffness,
+        damping,
+        ..
+    } = linear;
     assert_eq!((inertia.len(), stiffness.shape()), (25, (25, 25)));
     for wheelset in 0..2 {
         let first = bodies + N * wheelset;
