@@ -1,12 +1,11 @@
 //! Elastic energy of the contact.
 
-use fearless_simd::dispatch;
-
 use super::motion::{Motion, RailDisplacement};
 use super::source::{PatchReader, PatchSource};
 use super::wheelset::WheelsetContact;
 use super::zones::ZONES;
 use crate::creep::CreepLaw;
+use crate::math::dispatch::dispatch;
 
 /// Number of intervals of Simpson's rule, an even number.
 const INTERVALS: usize = 64;

@@ -2,8 +2,6 @@
 
 use std::array::from_fn;
 
-use fearless_simd::dispatch;
-
 use super::forces::{WheelDerivatives, WheelsetForces};
 use super::frame::Frame;
 use super::loaded_zones::LoadedZones;
@@ -13,6 +11,7 @@ use super::wheel::{MovingWheel, status};
 use super::wheelset::WheelsetContact;
 use super::wrench::Wrench;
 use crate::creep::CreepLaw;
+use crate::math::dispatch::dispatch;
 
 /// Sign of quantities that change when mirrored about the track centre, for the left (0) and the right wheel.
 fn sign(side: usize) -> f64 {

@@ -4,7 +4,7 @@
 //! a second patch of each. The instruction set is detected once. On processors with fused multiply-add, the last bits
 //! of single precision differ from those on processors without.
 
-use fearless_simd::{Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::{Simd, SimdBase, f64x4};
 
 use super::forces::WheelsetForces;
 use super::frame::Frame;
@@ -16,6 +16,7 @@ use super::wheel::{MovingWheel, status};
 use super::wheelset::WheelsetContact;
 use super::wrench::Wrench;
 use crate::creep::CreepLaw;
+use crate::math::dispatch::dispatch;
 use crate::math::number::{Number, load};
 
 #[inline(always)]

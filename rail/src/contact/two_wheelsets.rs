@@ -1,6 +1,6 @@
 //! Contact of two wheelsets that share their tables: one wheel in each vector lane.
 
-use fearless_simd::{Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::{Simd, SimdBase, f64x4};
 
 use super::forces::WheelsetForces;
 use super::frame::Frame;
@@ -12,6 +12,7 @@ use super::wheel::{MovingWheel, status};
 use super::wheelset::WheelsetContact;
 use super::wrench::Wrench;
 use crate::creep::CreepLaw;
+use crate::math::dispatch::dispatch;
 use crate::math::number::{Number, load};
 
 /// Patches of a wheel up to which their forces add up in the same order as in

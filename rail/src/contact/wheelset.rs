@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Level;
 
 use super::forces::{WheelDerivatives, WheelsetForces};
 use super::geometry::ContactGeometry;
@@ -12,6 +12,7 @@ use super::surface::{MAX_NORMAL_DAMPING_S_PER_M, Surface, SurfaceError};
 use super::tables::Tables;
 use super::wheel_lengths::WheelLengths;
 use crate::creep::{CreepLaw, Friction};
+use crate::math::dispatch::dispatch;
 
 /// The contact of a wheelset. It is constant and can be shared by all wheelsets with the same profiles.
 ///

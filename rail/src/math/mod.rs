@@ -1,5 +1,6 @@
 //! Numerical tools of this crate.
 
+pub(crate) mod dispatch;
 pub(crate) mod dual;
 pub(crate) mod each;
 pub(crate) mod eigenvalues;

@@ -144,7 +144,9 @@ pub fn transposed<S: Simd>(simd: S, [a, b, c, d]: [f32x4<S>; 4]) -> [f64x4<S>; 4
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
+
+    use crate::math::dispatch::dispatch;
 
     use super::*;
 

@@ -1,7 +1,8 @@
 //! The linear equations of strips in contact: coefficients and two right sides.
 
-use fearless_simd::{Bytes, Simd, SimdBase, dispatch, f64x4, u64x4};
+use fearless_simd::{Bytes, Simd, SimdBase, f64x4, u64x4};
 
+use crate::math::dispatch::dispatch;
 use crate::math::each::Each;
 use crate::math::number::load;
 

@@ -210,7 +210,9 @@ impl Axis {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
+
+    use crate::math::dispatch::dispatch;
 
     use super::*;
 

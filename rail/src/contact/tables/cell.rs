@@ -4,7 +4,7 @@
 //! are reached from the first node of the cell by steps along the axes, the axis of the greatest position first (Kuhn's
 //! triangulation). Four nodes cost half as much as eight, and derivatives are differences of neighbours.
 
-use fearless_simd::{Simd, SimdBase, dispatch, f32x8, f64x4, i16x16};
+use fearless_simd::{Simd, SimdBase, f32x8, f64x4, i16x16};
 
 use super::axis::{Located, falling_order};
 use super::load::Load;
@@ -15,6 +15,7 @@ use crate::contact::patch_numbers::PatchNumbers;
 use crate::contact::silhouette::WheelPose;
 use crate::contact::source::PatchReader;
 use crate::contact::zones::ZONES;
+use crate::math::dispatch::dispatch;
 use crate::math::each::Each;
 use crate::math::number::{load, transposed};
 

@@ -116,7 +116,9 @@ impl KalkerLookup {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
+
+    use crate::math::dispatch::dispatch;
 
     use super::*;
     use crate::math::number::load;

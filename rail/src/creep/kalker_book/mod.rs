@@ -6,7 +6,7 @@ mod pages;
 use std::ops::Mul;
 
 use coordinates::{Contact, Coordinates, TINY, components};
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::{Level, Simd, SimdBase, f64x4};
 pub use pages::Layout;
 use pages::{BookPositions, Coefficients, pages};
 
@@ -16,6 +16,7 @@ use super::derivatives::CreepDerivatives;
 use super::forces::CreepForces;
 use super::law::{CreepLaw, forces_one_by_one, is_loaded};
 use super::loaded_contact::LoadedContact;
+use crate::math::dispatch::dispatch;
 use crate::math::dual::Dual;
 use crate::math::each::Each;
 use crate::math::number::{Number, are_within, transposed};

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use dashpot_core::{Damper, DamperParameters};
-use fearless_simd::dispatch;
 use nalgebra::DMatrix;
 
 use super::across::{Across, DamperElement, StopElement};
@@ -21,6 +20,7 @@ use super::tangent::{KALKER, SurfaceConstants};
 use super::{ContactBodies, STEP_S, Vehicle, WheelsetConstants};
 use crate::contact::{PatchSource, WheelsetContact};
 use crate::creep::CreepLaw;
+use crate::math::dispatch::dispatch;
 use crate::vehicle::carried::Carried;
 use crate::vehicle::element::Law;
 use crate::vehicle::error::VehicleError;

@@ -186,7 +186,9 @@ impl<S: Simd> Products<S> {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
+
+    use crate::math::dispatch::dispatch;
 
     use super::*;
 

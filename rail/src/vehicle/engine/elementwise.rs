@@ -85,7 +85,9 @@ pub(super) fn are_below<S: Simd>(simd: S, numbers: &[Vector], limit: f64) -> boo
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
+
+    use crate::math::dispatch::dispatch;
 
     use super::*;
 

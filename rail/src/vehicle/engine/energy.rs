@@ -1,13 +1,12 @@
 //! Energy of a vehicle on straight level track.
 
-use fearless_simd::dispatch;
-
 use super::block::Vector;
 use super::rails::displace;
 use super::state::VehicleState;
 use super::{ContactBodies, Vehicle};
 use crate::contact::{PatchSource, RailDisplacement};
 use crate::creep::CreepLaw;
+use crate::math::dispatch::dispatch;
 use crate::vehicle::error::VehicleError;
 
 /// Energy of a vehicle relative to its equilibrium on straight level track at the same speed.

@@ -113,7 +113,9 @@ fn products<S: Simd>(simd: S, acting: &[Acting], motions: &[Vector]) -> f64x8<S>
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::Level;
+
+    use crate::math::dispatch::dispatch;
     use nalgebra::DVector;
 
     use super::*;

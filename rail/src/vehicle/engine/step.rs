@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::Simd;
 
 use super::Vehicle;
 use super::block::N;
@@ -11,6 +11,7 @@ use super::extremes::Extremes;
 use super::state::VehicleState;
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
+use crate::math::dispatch::dispatch;
 use crate::math::number::Number;
 use crate::track::Track;
 

@@ -1,9 +1,10 @@
 //! Elimination and solution against those of whole blocks.
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Level;
 use nalgebra::DMatrix;
 
 use super::*;
+use crate::math::dispatch::dispatch;
 use crate::vehicle::engine::columns::Products;
 use crate::vehicle::engine::structure::Structure;
 

@@ -1,6 +1,7 @@
 //! Solutions against those of a dense solver.
 
-use fearless_simd::{Level, dispatch};
+use crate::math::dispatch::dispatch;
+use fearless_simd::Level;
 use nalgebra::DVector;
 
 use super::*;

@@ -1,9 +1,10 @@
 //! Resistances of patches against the kinematics of a rigid body.
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Level;
 
 use super::*;
 use crate::creep::Creepage;
+use crate::math::dispatch::dispatch;
 use crate::vehicle::engine::block::{Block, Vector, coordinates};
 
 const SURFACE: SurfaceConstants = SurfaceConstants {
