@@ -7,4 +7,4 @@
 /// ```
 /// assert_eq!(dashpot_study::sweep::PHYSICS.len(), 16);
 /// ```
-pub const PHYSICS: &str = "a25ae391b08579be";
+pub const PHYSICS: &str = "5e94a4874684b433";

@@ -34,6 +34,7 @@ clone_by_field!(VehicleState {
     inertia,
     pose,
     contacts,
+    last_loads,
     dampers,
     damper_displacements_m,
     damper_velocities_m_per_s,

@@ -187,7 +187,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             ..
         } = constants;
         let contact = &state.contacts[number];
-        state.work.extremes[number].add(contact);
+        let extremes = &mut state.work.extremes[number];
+        extremes.add(contact);
+        state.last_loads[number].add(contact, extremes);
         let [_, fy, fz] = contact.force_n;
         let [mx, my, mz] = contact.moment_n_m;
         let turned = state.work.guidance.relative[*body][2];

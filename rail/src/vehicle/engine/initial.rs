@@ -1,7 +1,7 @@
 //! States before the first step.
 
 use super::block::N;
-use super::extremes::Extremes;
+use super::extremes::{Extremes, LastLoads};
 use super::guidance::Guidance;
 use super::integration::MAX_DISPLACEMENT;
 use super::state::{VehicleState, Work};
@@ -53,6 +53,7 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             inertia: self.inertia.clone(),
             pose: zeros.clone(),
             contacts: vec![WheelsetForces::default(); self.wheelsets.len()],
+            last_loads: vec![LastLoads::default(); self.wheelsets.len()],
             dampers: self.dampers_at_rest(&zeros),
             damper_displacements_m: vec![0.0; self.dampers.len()],
             damper_velocities_m_per_s: vec![0.0; self.dampers.len()],

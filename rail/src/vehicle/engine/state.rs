@@ -3,7 +3,7 @@
 use dashpot_core::DamperState;
 
 use super::block::{N, Vector};
-use super::extremes::Extremes;
+use super::extremes::{Extremes, LastLoads};
 use super::guidance::Guidance;
 use super::identity::Identity;
 use super::rail_equations::RailEquations;
@@ -39,6 +39,8 @@ pub struct VehicleState {
     pub(super) inertia: Vec<Vector>,
     pub(super) pose: Vec<Vector>,
     pub(super) contacts: Vec<WheelsetForces>,
+    /// Wheel loads of each wheelset in the last two steps.
+    pub(super) last_loads: Vec<LastLoads>,
     /// Padded to whole banks with copies of the last damper.
     pub(super) dampers: Vec<DamperState<f64>>,
     pub(super) damper_displacements_m: Vec<f64>,
@@ -159,7 +161,8 @@ impl VehicleState {
     /// Returns the extremes of each wheelset during the last tick.
     ///
     /// A tick consists of several steps, so an impact may be over before the tick ends. [`contacts`](Self::contacts)
-    /// returns only the forces at the end of the tick.
+    /// returns only the forces at the end of the tick. A greatest load is that of the parabola through the loads of three
+    /// steps; it counts for the tick in which the third step lies.
     pub fn extremes(&self) -> &[Extremes] {
         &self.work.extremes
     }

@@ -7,7 +7,7 @@ use fearless_simd::Simd;
 use super::Vehicle;
 use super::block::N;
 use super::elementwise::{Formula, for_all};
-use super::extremes::Extremes;
+use super::extremes::{Extremes, LastLoads};
 use super::state::VehicleState;
 use crate::contact::PatchSource;
 use crate::creep::CreepLaw;
@@ -64,6 +64,9 @@ impl<L: CreepLaw, S: PatchSource> Vehicle<L, S> {
             state.accelerations[body] = from_fn(|i| forces[i] / self.inertia[body][i]);
         }
         state.last_accelerations.clone_from(&state.accelerations);
+        for (last, contact) in state.last_loads.iter_mut().zip(&state.contacts) {
+            *last = LastLoads::constant(contact);
+        }
         self.relax_friction(state);
     }
 
