@@ -25,7 +25,7 @@ pub(crate) unsafe fn made<'a>(
 /// Initialises a damper from an image, the bytes from `dashpot export --lang c` or `--lang bin`.
 ///
 /// The whole image is checked first and is not needed afterwards. The next step adopts states of the old damper and
-/// keeps their force. Do not call it within a tick: it takes about 376 000 instructions on a Cortex-M7.
+/// keeps their force. Do not call it within a tick: it takes about 367 000 instructions on a Cortex-M7.
 ///
 /// @param damper  storage with any content; written
 /// @param image   the bytes, at any alignment, outside the storage of the damper
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn dashpot_damper_describe(
 
 /// Sets the clearance of a damper in use. The next step of each state adopts it and keeps its force.
 ///
-/// On a Cortex-M7 this takes about 302 instructions, and the next step of each state then takes about 1540 instructions
+/// On a Cortex-M7 this takes about 324 instructions, and the next step of each state then takes about 1540 instructions
 /// instead of the usual number.
 ///
 /// @param damper       initialised by `dashpot_damper_init`; no step may use it during the call

@@ -30,7 +30,7 @@ fn check_state(damper: &Damper<f32>, state: &DamperState<f32>) -> Result<(), Das
 /// A displacement that is NaN, infinite, out of range or too fast is not an error: it is held or limited, latched in
 /// the status and counted. If it is too far away to catch up with, the damper restarts there at rest. An impossible
 /// state restarts at rest and latches `DASHPOT_STATUS_CORRUPTED`. The force is finite and within the force limit, even
-/// if the damper or the state is damaged. A step takes about 195 instructions on a Cortex-M7.
+/// if the damper or the state is damaged. A step takes about 191 instructions on a Cortex-M7.
 ///
 /// @param damper          initialised by `dashpot_damper_init`
 /// @param state           from `dashpot_state_init` or `dashpot_state_restore`, changed
