@@ -8,8 +8,10 @@
 //! reproduce bit by bit, and the digests of the parts into their file.
 
 use std::collections::BTreeSet;
+use std::io::{Write, stderr};
 
 use dashpot::document;
+use dashpot_core::VectorWidth;
 use dashpot_physics::{Results, STUDY};
 use dashpot_rail::vehicle::Law;
 use dashpot_rail::with_narrowest_vectors;
@@ -35,6 +37,10 @@ fn computed() -> Results {
 #[test]
 fn the_digest_of_physics_is_that_of_the_model() {
     let results = computed();
+    let [widest, narrowest] =
+        [VectorWidth::detect(), VectorWidth::baseline()].map(VectorWidth::name);
+    // Written past the capture of a test's output: the log says which vectors were compared.
+    writeln!(stderr(), "physics: vectors compared: {widest}, {narrowest}").expect("standard error");
     assert_eq!(
         with_narrowest_vectors(self::computed),
         results,
