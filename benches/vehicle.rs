@@ -1,6 +1,6 @@
 //! Time of a millisecond tick of the six-axle locomotive, and of its parts in the same run.
 //!
-//! An element is a tick. `contact` is the contact of six wheelsets in each of the four steps of a tick, with two loaded
+//! An element is a tick. `contact` is the contact of six wheelsets in each of the five steps of a tick, with two loaded
 //! patches each; `dampers` is the step of the twenty dampers; the rest of a tick is springs, track, rails, factors and
 //! solution.
 #![allow(missing_docs)] // criterion's macros
@@ -17,7 +17,7 @@ use dashpot_vehicle_run::contact::{Contact, ContactSetup};
 const STEP_S: f64 = 1e-3;
 /// Number of ticks in one sample; each sample starts from the same state.
 const TICKS: usize = 200;
-const STEPS_A_TICK: usize = 4;
+const STEPS_A_TICK: usize = 5;
 const WHEELSETS: usize = 6;
 const DAMPERS: usize = 20;
 /// Dampers are stepped in groups of eight, so twenty take twenty-four lanes.
