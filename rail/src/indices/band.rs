@@ -115,29 +115,3 @@ fn smallest_factor(number: usize) -> usize {
     let mut divisors = factors.filter(|factor| number.is_multiple_of(*factor));
     divisors.next().unwrap_or(number)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::indices::spectrum::Transform;
-
-    /// Lengths with powers, with different factors, and primes.
-    #[test]
-    fn lines_are_those_of_a_library() {
-        for samples in [2, 8, 11, 30, 49, 101, 500, 5000] {
-            let window: Vec<f64> = (0..samples).map(|i| ((i * i) as f64).sin()).collect();
-            let mut library = Transform::new(samples);
-            let expected = library.lines(window.iter().copied());
-            let lines = samples / 7..samples / 2;
-            let mut band = Band::new(samples, lines.clone());
-            let found = band.lines(&window);
-            assert_eq!(found.len(), lines.len());
-            for (found, expected) in found.iter().zip(&expected[lines]) {
-                assert!(
-                    (found - expected).norm() < 1e-9,
-                    "{found} for {expected}, {samples}"
-                );
-            }
-        }
-    }
-}

@@ -163,15 +163,10 @@ mod tests {
                 assert_eq!(lanes.lane(lane), formula(x[lane], y[lane]));
             }
             let numbers = load(simd, &[-3.0, 0.2, 0.0, 5.0]);
-            assert_eq!(
-                <[f64; 4]>::from(numbers.limited(1.0)),
-                [-1.0, 0.2, 0.0, 1.0]
-            );
-            assert_eq!(
-                <[f64; 4]>::from(numbers.not_negative()),
-                [0.0, 0.2, 0.0, 5.0]
-            );
-            assert_eq!(<[f64; 4]>::from(numbers.sign()), [-1.0, 1.0, 1.0, 1.0]);
+            let array = <[f64; 4]>::from;
+            assert_eq!(array(numbers.limited(1.0)), [-1.0, 0.2, 0.0, 1.0]);
+            assert_eq!(array(numbers.not_negative()), [0.0, 0.2, 0.0, 5.0]);
+            assert_eq!(array(numbers.sign()), [-1.0, 1.0, 1.0, 1.0]);
             let rows = [0.0f32, 1.0, 2.0, 3.0]
                 .map(|row| f32x4::from_slice(simd, &[row, row + 10.0, row + 20.0, row + 30.0]));
             let columns = transposed(simd, rows).map(<[f64; 4]>::from);
@@ -179,11 +174,8 @@ mod tests {
             assert_eq!(columns[2], [20.0, 21.0, 22.0, 23.0]);
             assert!(are_within(numbers, -3.5, 5.0));
             assert!(!are_within(numbers, -3.0, 5.0));
-            assert!(!are_within(
-                load(simd, &[1.0, f64::NAN, 1.0, 1.0]),
-                0.0,
-                2.0
-            ));
+            let with_nan = load(simd, &[1.0, f64::NAN, 1.0, 1.0]);
+            assert!(!are_within(with_nan, 0.0, 2.0));
         }
         dispatch!(Level::new(), simd => check(simd));
         dispatch!(Level::baseline(), simd => check(simd));

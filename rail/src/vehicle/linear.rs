@@ -41,6 +41,18 @@ pub(super) struct Attachment {
     pub is_axlebox: bool,
 }
 
+impl Attachment {
+    /// A point that turns with its body.
+    pub fn new(body: Option<usize>, from_centre: Vector3<f64>) -> Self {
+        let is_axlebox = false;
+        Self {
+            body,
+            from_centre,
+            is_axlebox,
+        }
+    }
+}
+
 /// Velocity amplitude at which the secant of a damper's characteristic gives its damping in small motion, m/s.
 const SMALL_VELOCITY_M_PER_S: f64 = 1e-4;
 
@@ -262,24 +274,9 @@ mod tests {
 
     #[test]
     fn a_point_moves_as_its_body_turns() {
-        let body = Body {
-            name: "body".into(),
-            mass_kg: 1.0,
-            inertia_kg_m2: [1.0; 3],
-            x_m: 0.0,
-            height_m: 1.0,
-        };
-        let linear = Linear::new(&[body]);
-        let held = Attachment {
-            body: None,
-            from_centre: Vector3::zeros(),
-            is_axlebox: false,
-        };
-        let end = Attachment {
-            body: Some(0),
-            from_centre: Vector3::new(2.0, 3.0, 5.0),
-            is_axlebox: false,
-        };
+        let linear = Linear::new(&[Body::new("body", 1.0, [1.0; 3], 1.0)]);
+        let held = Attachment::new(None, Vector3::zeros());
+        let end = Attachment::new(Some(0), Vector3::new(2.0, 3.0, 5.0));
         let rows = linear.displacement(&[held, end]);
         let (roll, pitch, yaw) = (1e-3, 2e-3, -3e-3);
         let moved = rows * DVector::from_vec(vec![0.1, 0.2, roll, pitch, yaw]);

@@ -175,18 +175,11 @@ pub(super) fn attach(
     let attach_end = |element: &Element, end: &End| {
         let at = Vector3::from(end.position_m());
         let Some(name) = &end.on else {
-            return Ok(Attachment {
-                body: None,
-                from_centre: at,
-                is_axlebox: false,
-            });
+            return Ok(Attachment::new(None, at));
         };
         if let Some(index) = index_of(&vehicle.bodies, end) {
-            return Ok(Attachment {
-                body: Some(index),
-                from_centre: at - Vector3::from(vehicle.bodies[index].centre_m()),
-                is_axlebox: false,
-            });
+            let centre = Vector3::from(vehicle.bodies[index].centre_m());
+            return Ok(Attachment::new(Some(index), at - centre));
         }
         let Some(index) = index_of(&wheelsets, end) else {
             let all = vehicle.bodies.iter().chain(&wheelsets);

@@ -10,6 +10,7 @@ mod flange;
 mod friction;
 mod limits;
 mod modes_turned_in_a_circle;
+mod rail_support;
 mod random;
 mod running;
 mod states;

@@ -29,8 +29,8 @@ pub const TOLERANCE: f64 = 1e-7;
 /// Relative tolerance of a second reference solution, which shows whether a case is chaotic.
 pub const LOOSER_TOLERANCE: f64 = 1e-5;
 
-/// Times within a tick at which the reference solution is examined for extremes, at most this far apart, s. The greatest
-/// load of a wheel on the rail is then 0.1 % too low at most, with samples of 0.125 ms up to 3 %.
+/// Times within a tick at which the reference solution is examined for extremes, at most this far apart, s. With
+/// 0.125 ms, the peaks of impacts would be up to 3 % too low.
 const SAMPLE_S: f64 = 0.02e-3;
 
 /// Runs the case with its step size divided by `every`, and records the ticks of the case.

@@ -99,10 +99,8 @@ mod tests {
     #[test]
     fn far_away_a_strip_is_a_point_load() {
         for u in [20.0, 100.0, 900.0] {
-            assert!(
-                (HalfSpace::tables().beside(u) * u - 1.0).abs() < 1e-3,
-                "{u}"
-            );
+            let beside = HalfSpace::tables().beside(u);
+            assert!((beside * u - 1.0).abs() < 1e-3, "{u}");
         }
     }
 
@@ -111,15 +109,10 @@ mod tests {
         // 4/pi (ln(4/u) - 1), and its mean over a width.
         for u in [0.002_f64, 0.01] {
             let line = 4.0 / PI * ((4.0 / u).ln() - 1.0);
-            assert!(
-                (HalfSpace::tables().beside(u) / line - 1.0).abs() < 1e-3,
-                "{u}"
-            );
-            let mean = 4.0 / PI * (8.0 / u).ln();
-            assert!(
-                (HalfSpace::tables().own(u) / mean - 1.0).abs() < 1e-3,
-                "{u}"
-            );
+            let beside = HalfSpace::tables().beside(u);
+            assert!((beside / line - 1.0).abs() < 1e-3, "{u}");
+            let (mean, own) = (4.0 / PI * (8.0 / u).ln(), HalfSpace::tables().own(u));
+            assert!((own / mean - 1.0).abs() < 1e-3, "{u}");
         }
     }
 

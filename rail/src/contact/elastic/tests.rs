@@ -41,17 +41,12 @@ fn patches_of_smooth_bodies_are_hertzs() {
             let pressure_pa = 1.5 * load_n / (std::f64::consts::PI * a_m * b_m);
             let patch = contact.patches(&gap, &pair, &[-1.0, 1.0, 2.0])[1];
             let case = format!("{radius_m} m, {across_m} m, {load_n} N: {patch:?}");
-            assert!(
-                (contact.depth_m / penetration_m - 1.0).abs() < 0.01,
-                "{case}"
-            );
-            assert!((patch.semi_axes_m[0] / a_m - 1.0).abs() < 0.03, "{case}");
-            assert!((patch.semi_axes_m[1] / b_m - 1.0).abs() < 0.05, "{case}");
-            assert!(
-                (patch.peak_pressure_pa / pressure_pa - 1.0).abs() < 0.03,
-                "{case}"
-            );
-            assert!((patch.load_n / load_n - 1.0).abs() < 1e-9, "{case}");
+            let error = |found: f64, expected: f64| (found / expected - 1.0).abs();
+            assert!(error(contact.depth_m, penetration_m) < 0.01, "{case}");
+            assert!(error(patch.semi_axes_m[0], a_m) < 0.03, "{case}");
+            assert!(error(patch.semi_axes_m[1], b_m) < 0.05, "{case}");
+            assert!(error(patch.peak_pressure_pa, pressure_pa) < 0.03, "{case}");
+            assert!(error(patch.load_n, load_n) < 1e-9, "{case}");
             assert!(patch.wheel_y_m.abs() < 1e-9 && patch.slope == 0.0, "{case}");
         }
     }

@@ -83,17 +83,17 @@ impl LastLoads {
         Self(from_fn(|side| [load_n(&contact.wheels[side]); 2]))
     }
 
-    /// Adds the loads of a step, and to `extremes` the vertex of the parabola through the last three loads if the one in
-    /// the middle is the greatest. The vertex is above it by at most an eighth of the change over both steps.
+    /// Adds the loads of a step, and to `extremes` the vertex of the parabola through the last three loads if the one
+    /// in the middle is the greatest. The vertex is above it by at most an eighth of the change over both steps.
     ///
-    /// A least load is taken as it is: it changes slowly near the point where the wheel lifts, and a parabola goes beyond.
+    /// A least load is taken as it is: near the point where the wheel lifts, a parabola would go too far.
     #[inline(always)]
     pub fn add(&mut self, contact: &WheelsetForces, extremes: &mut Extremes) {
         for (side, (last, wheel)) in self.0.iter_mut().zip(&contact.wheels).enumerate() {
             let ([before, middle], after) = (*last, load_n(wheel));
             *last = [middle, after];
             let (rise, fall) = (middle - before, middle - after);
-            if rise > 0.0 && fall > 0.0 {
+            if rise > 0.0 && fall >= 0.0 {
                 let change = after - before;
                 let vertex_n = middle + 0.125 * change * change / (rise + fall);
                 let greatest_n = &mut extremes.greatest_loads_n[side];

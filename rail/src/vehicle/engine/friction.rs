@@ -146,11 +146,7 @@ mod tests {
 
     fn element() -> FrictionElement {
         let linear = Linear::new(&[]);
-        let held = Attachment {
-            body: None,
-            from_centre: Vector3::zeros(),
-            is_axlebox: false,
-        };
+        let held = Attachment::new(None, Vector3::zeros());
         FrictionElement {
             name: "friction".to_owned(),
             across: Across::new(&linear, &[held; 2], 0),

@@ -122,20 +122,12 @@ mod tests {
     use crate::track::Part;
 
     const SPEED: f64 = 30.0;
-    const POSITIONS: [BodyPosition; 3] = [
-        BodyPosition {
-            x_m: 0.0,
-            height_m: 1.5,
-        },
-        BodyPosition {
-            x_m: 9.0,
-            height_m: 0.6,
-        },
-        BodyPosition {
-            x_m: -7.0,
-            height_m: 2.0,
-        },
-    ];
+    const POSITIONS: [BodyPosition; 3] =
+        [position(0.0, 1.5), position(9.0, 0.6), position(-7.0, 2.0)];
+
+    const fn position(x_m: f64, height_m: f64) -> BodyPosition {
+        BodyPosition { x_m, height_m }
+    }
 
     /// A transition of 100 m from 1000 m to 250 m, with cant from 0.06 m to 0.15 m.
     fn clothoid() -> Layout {

@@ -97,33 +97,29 @@ impl RailSupport {
     /// # Errors
     /// A mass outside 1 to 1e5 kg, a stiffness outside 1e5 to 1e12 N/m, or a damping outside 0 to 1e9 N s/m.
     pub fn check(&self) -> Result<(), VehicleError> {
-        for (name, value, allowed) in [
-            ("lateral_mass_kg", self.lateral_mass_kg, MASS_KG),
-            ("vertical_mass_kg", self.vertical_mass_kg, MASS_KG),
-            (
-                "lateral_stiffness_n_per_m",
-                self.lateral_stiffness_n_per_m,
-                STIFFNESS,
-            ),
-            (
-                "lateral_damping_n_s_per_m",
-                self.lateral_damping_n_s_per_m,
-                DAMPING,
-            ),
-            (
-                "vertical_stiffness_n_per_m",
-                self.vertical_stiffness_n_per_m,
-                STIFFNESS,
-            ),
-            (
-                "vertical_damping_n_s_per_m",
-                self.vertical_damping_n_s_per_m,
-                DAMPING,
-            ),
-        ] {
-            VehicleError::check("rails", name, value, allowed)?;
-        }
-        Ok(())
+        let check = |name, value, allowed| VehicleError::check("rails", name, value, allowed);
+        check("lateral_mass_kg", self.lateral_mass_kg, MASS_KG)?;
+        check(
+            "lateral_stiffness_n_per_m",
+            self.lateral_stiffness_n_per_m,
+            STIFFNESS,
+        )?;
+        check(
+            "lateral_damping_n_s_per_m",
+            self.lateral_damping_n_s_per_m,
+            DAMPING,
+        )?;
+        check("vertical_mass_kg", self.vertical_mass_kg, MASS_KG)?;
+        check(
+            "vertical_stiffness_n_per_m",
+            self.vertical_stiffness_n_per_m,
+            STIFFNESS,
+        )?;
+        check(
+            "vertical_damping_n_s_per_m",
+            self.vertical_damping_n_s_per_m,
+            DAMPING,
+        )
     }
 
     /// Returns the smaller of the two masses, kg.

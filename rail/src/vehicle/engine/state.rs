@@ -161,8 +161,8 @@ impl VehicleState {
     /// Returns the extremes of each wheelset during the last tick.
     ///
     /// A tick consists of several steps, so an impact may be over before the tick ends. [`contacts`](Self::contacts)
-    /// returns only the forces at the end of the tick. A greatest load is that of the parabola through the loads of three
-    /// steps; it counts for the tick in which the third step lies.
+    /// returns only the forces at the end of the tick. A greatest load is that of the parabola through the loads of
+    /// three steps; it counts for the tick in which the third step lies.
     pub fn extremes(&self) -> &[Extremes] {
         &self.work.extremes
     }
