@@ -121,14 +121,15 @@ mod tests {
         extremes
     }
 
-    /// A load of `100 + 50 cos(w t + phase)` kN in steps of `w h = 0.7`: at worst, 3 kN are missed at the steps.
+    /// A load of `100 + 50 cos(w t + phase)` kN in steps of `w h = 0.7`: the steps miss up to 3 kN, the parabola up
+    /// to 270 N.
     #[test]
     fn a_peak_between_steps_is_found() {
         for phase in [0.0, 0.1, 0.2, 0.35, 0.5, 0.6] {
             let load_n = |step| 100e3 + 50e3 * (0.7 * f64::from(step) + phase).cos();
             let found = extremes((-5..5).map(load_n));
             let greatest_n = found.greatest_loads_n[1];
-            assert!((greatest_n - 150e3).abs() < 150.0, "{greatest_n}");
+            assert!((greatest_n - 150e3).abs() < 280.0, "{greatest_n}");
         }
     }
 
