@@ -14,7 +14,6 @@ use realfft::num_complex::Complex;
 /// step computes only the lines of the band, so a prime length costs `n` products for each line.
 #[derive(Debug, Clone)]
 pub(super) struct Band {
-    samples: usize,
     lines: Range<usize>,
     /// `exp(-2 pi i k/n)`.
     turns: Vec<Complex<f64>>,
@@ -33,14 +32,13 @@ impl Band {
             turns: (0..samples).map(turn).collect(),
             transformed: vec![Complex::ZERO; samples],
             parts: vec![Complex::ZERO; samples],
-            samples,
             lines,
         }
     }
 
     /// Number of samples of a window.
     pub fn samples(&self) -> usize {
-        self.samples
+        self.turns.len()
     }
 
     /// Returns the complex amplitudes of the lines of the band, for a window of [`samples`](Self::samples) values.

@@ -2,7 +2,7 @@
 
 use dashpot_core::DamperParameters;
 use dashpot_core::characteristic::Characteristic;
-use nalgebra::{DMatrix, DVector, Matrix3, RowDVector, SymmetricEigen, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, RowDVector, Vector3};
 
 use super::body::{Body, COORDINATES};
 use super::element::{Element, Law};
@@ -86,8 +86,7 @@ impl Linear {
     pub fn fastest_rad_per_s(&self) -> f64 {
         let root = self.inertia.map(|inertia| 1.0 / inertia.sqrt());
         let scaled = self.stiffness.component_mul(&(&root * root.transpose()));
-        let squares = SymmetricEigen::new(scaled).eigenvalues;
-        squares.max().max(0.0).sqrt()
+        scaled.symmetric_eigenvalues().max().max(0.0).sqrt()
     }
 
     /// Displacement of the second end relative to the first along x, y and z, per unit of each coordinate.
