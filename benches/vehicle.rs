@@ -35,11 +35,9 @@ fn ticks(criterion: &mut Criterion, name: &str, case: &Case, seconds: f64) {
     for _ in 0..(seconds / STEP_S) as usize {
         vehicle.step(&mut start, &track);
     }
-    let wheels = start.contacts().iter().flat_map(|contact| &contact.wheels);
-    let patches: usize = wheels.map(|wheel| wheel.loaded_patches().count()).sum();
     let mut group = criterion.benchmark_group("vehicle");
     group.throughput(Throughput::Elements(TICKS as u64));
-    group.bench_function(format!("{name} ({patches} patches)"), |bencher| {
+    group.bench_function(name, |bencher| {
         let mut state = start.clone();
         bencher.iter(|| {
             state.clone_from(&start);

@@ -2,7 +2,7 @@
 
 use dashpot::document;
 use dashpot_files::case::Case;
-use dashpot_vehicle_run::{Run, signals};
+use dashpot_vehicle_run::Run;
 
 use crate::FOLDER;
 
@@ -97,7 +97,7 @@ impl Histories {
         self.body_lateral_mm
             .push(1e3 * (lateral_m - height_m * roll_rad));
         self.load_kn
-            .push(1e-3 * signals::load_n(&state.contacts()[0], 1));
+            .push(1e-3 * state.contacts()[0].wheels[1].load_n());
         let [rails, _] =
             (run.track().irregularity()).channels(state.distance_m() + FIRST_WHEELSET_M);
         let shift_m = state.coordinates()[BODIES][0] - rails.lateral;

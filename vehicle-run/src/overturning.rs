@@ -2,8 +2,6 @@
 
 use dashpot_rail::vehicle::VehicleState;
 
-use super::signals::load_n;
-
 /// Vehicle that is tipping over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Overturned {
@@ -42,7 +40,7 @@ impl Overturned {
         let roll_of = |coordinates: &[f64; 5]| outward * coordinates[2];
         let is_raised = |index: &usize| {
             let contact = &contacts[*index];
-            load_n(contact, raised) <= 0.0 && load_n(contact, side) > 0.0
+            contact.wheels[raised].load_n() <= 0.0 && contact.wheels[side].load_n() > 0.0
         };
         let unloaded_wheels = (0..contacts.len()).filter(is_raised).count();
         let tilted = (0..contacts.len()).filter(is_raised);

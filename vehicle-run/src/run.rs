@@ -15,7 +15,7 @@ use super::hunting::push_aside;
 use super::influences::Influences;
 use super::outside_loss::OutsideLoss;
 use super::overturning::Overturned;
-use super::signals::{SIDES, load_n};
+use super::signals::SIDES;
 use super::validity::END_LOAD_RATIO;
 use dashpot_files::case::{Case, Fault};
 use dashpot_files::did_you_mean;
@@ -286,7 +286,7 @@ impl Run {
                 wheelset: self.wheelset_name(index),
                 side: SIDES[side],
                 derailment: contact.derailment_coefficients()[side],
-                load_n: load_n(contact, side),
+                load_n: contact.wheels[side].load_n(),
                 lateral_m,
                 yaw_rad,
                 place: self.place(),

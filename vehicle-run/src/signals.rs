@@ -174,7 +174,9 @@ impl Signal {
             Source::Ride { at, across } => {
                 at.acceleration(|body| state.acceleration(body))[*across]
             }
-            Source::WheelLoad { wheelset, side } => load_n(&state.contacts()[*wheelset], *side),
+            Source::WheelLoad { wheelset, side } => {
+                state.contacts()[*wheelset].wheels[*side].load_n()
+            }
             Source::WheelLateral { wheelset, side } => {
                 lateral_n(&state.contacts()[*wheelset], *side)
             }
@@ -190,12 +192,6 @@ impl Signal {
             Source::FrictionForce(element) => state.friction_forces_n()[*element],
         }
     }
-}
-
-/// Load `Q` of a wheel, positive down on the rail, N.
-pub fn load_n(contact: &WheelsetForces, side: usize) -> f64 {
-    // Subtracting from zero avoids -0.0 for a lifted wheel.
-    0.0 - contact.wheels[side].force_n[2]
 }
 
 /// Lateral position on the wheel of the patch with the greatest load, from the tread datum, field side positive, m; 0

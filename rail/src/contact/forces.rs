@@ -199,6 +199,12 @@ impl WheelsetForces {
 }
 
 impl WheelForces {
+    /// Load `Q`, positive down on the rail, N.
+    #[inline(always)]
+    pub fn load_n(&self) -> f64 {
+        0.0 - self.force_n[2] // not -0.0 for a lifted wheel
+    }
+
     /// The patches that carry load.
     pub fn loaded_patches(&self) -> impl Iterator<Item = &PatchForces> {
         self.patches.iter().filter(|patch| patch.load_n > 0.0)

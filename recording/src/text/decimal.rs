@@ -45,7 +45,7 @@ pub(super) fn parse(text: &[u8], mark: u8) -> Option<Decimal> {
     let end = start + count + usize::from(has_mark);
     if *text.get(end)? | 0x20 != b'e' && count <= MAX_DIGITS && value <= MAX_EXACT {
         // Both numbers are exact, so that the quotient is rounded once.
-        let magnitude = value as f64 / POWERS[decimals % POWERS.len()];
+        let magnitude = value as f64 / POWERS.get(decimals)?;
         return Some(Decimal {
             number: if first == b'-' { -magnitude } else { magnitude },
             length: end,

@@ -49,3 +49,15 @@ fn the_longest_gap_is_the_first_of_equal_ones() {
     };
     assert_eq!(found.longest, Some(expected));
 }
+
+/// Intervals (s): 1, 1, 6, 6, 6, 1, 1. Equal intervals that follow one another are counted one by one.
+#[test]
+fn equal_gaps_in_a_row_are_all_counted() {
+    let found = gaps([0.0, 1.0, 2.0, 8.0, 14.0, 20.0, 21.0, 22.0]);
+    assert_eq!((found.median_interval_s, found.count), (Some(1.0), 3));
+    let at_the_end = gaps([0.0, 1.0, 2.0, 3.0, 4.0, 10.0, 16.0]);
+    assert_eq!(
+        (at_the_end.median_interval_s, at_the_end.count),
+        (Some(1.0), 2)
+    );
+}

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use dashpot_files::case::Case;
 use dashpot_rail::track::Track;
 use dashpot_vehicle_run::contact::Contact;
-use dashpot_vehicle_run::signals::load_n;
 use dashpot_vehicle_run::wear::WearLaw;
 use dashpot_vehicle_run::{Indexer, Run, RunWear, VehicleTick};
 
@@ -78,7 +77,7 @@ impl Trace {
         }
         for (series, contact) in self.loads.iter_mut().zip(tick.contacts()) {
             for (side, series) in series.iter_mut().enumerate() {
-                series.push(load_n(contact, side));
+                series.push(contact.wheels[side].load_n());
             }
         }
         self.indexer.add(tick);

@@ -8,7 +8,6 @@ use serde::Serialize;
 use super::sums::{Range, Statistics, Windowed};
 use super::wheel::{WheelIndices, WheelSums, WheelTick};
 use super::{FILTER_HZ, Ticks};
-use crate::signals::load_n;
 
 /// Indices of a wheelset.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -75,7 +74,7 @@ impl WheelsetSums {
         for (side, (wheel, derailment)) in self.wheels.iter_mut().zip(coefficients).enumerate() {
             let wheel_tick = WheelTick {
                 derailment,
-                load_n: load_n(contact, side),
+                load_n: contact.wheels[side].load_n(),
                 loads_n: Range {
                     min: extremes.least_loads_n[side],
                     max: extremes.greatest_loads_n[side],

@@ -2,13 +2,7 @@
 
 use std::array::from_fn;
 
-use crate::contact::{WheelForces, WheelsetForces};
-
-/// Load of a wheel, N. Subtracting from zero avoids -0.0 for a lifted wheel.
-#[inline(always)]
-fn load_n(wheel: &WheelForces) -> f64 {
-    0.0 - wheel.force_n[2]
-}
+use crate::contact::WheelsetForces;
 
 /// Extremes of a wheelset's contact over a time in which it is evaluated several times.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -51,7 +45,7 @@ impl Extremes {
             .iter_mut()
             .zip(&mut self.greatest_loads_n);
         for ((least_n, greatest_n), wheel) in loads.zip(&contact.wheels) {
-            let load_n = load_n(wheel);
+            let load_n = wheel.load_n();
             *least_n = least_n.min(load_n);
             *greatest_n = greatest_n.max(load_n);
         }
@@ -80,7 +74,7 @@ pub(super) struct LastLoads([[f64; 2]; 2]);
 impl LastLoads {
     /// Loads that have not changed.
     pub fn constant(contact: &WheelsetForces) -> Self {
-        Self(from_fn(|side| [load_n(&contact.wheels[side]); 2]))
+        Self(from_fn(|side| [contact.wheels[side].load_n(); 2]))
     }
 
     /// Adds the loads of a step, and to `extremes` the vertex of the parabola through the last three loads if the one
@@ -90,7 +84,7 @@ impl LastLoads {
     #[inline(always)]
     pub fn add(&mut self, contact: &WheelsetForces, extremes: &mut Extremes) {
         for (side, (last, wheel)) in self.0.iter_mut().zip(&contact.wheels).enumerate() {
-            let ([before, middle], after) = (*last, load_n(wheel));
+            let ([before, middle], after) = (*last, wheel.load_n());
             *last = [middle, after];
             let (rise, fall) = (middle - before, middle - after);
             if rise > 0.0 && fall >= 0.0 {
