@@ -34,6 +34,7 @@ typedef struct place {
     double derivative_m_per_s;  /* of the displacement, for the next communication step; */
     double is_derived;          /* valid if this is not 0 */
     double derivative_m_per_s2; /* of the velocity, for the next communication step */
+    double from_m, to_m;        /* ends of the current communication step */
 } place;
 
 struct model {
@@ -265,27 +266,37 @@ static double velocity(const place *at, double h)
     return at->derivative_m_per_s2 == 0 ? at->velocity_m_per_s : at->velocity_m_per_s + 0.5 * h * at->derivative_m_per_s2;
 }
 
+/* All dampers take an internal step before any takes the next one: the processor works on one damper while another
+ * waits for a result. */
 uint64_t model_step(model *this, uint64_t steps)
 {
+    const double h = (double)steps * model_step_s;
     unsigned number;
     uint64_t step;
 
     for (number = 0; number < dampers_count; number++) {
-        const damper_damper *damper = &this->dampers[number];
         place *at = &this->places[number];
-        const double h = (double)steps * model_step_s;
-        const double to = at->displacement_m + velocity(at, h) * h;
-        const double from = at->reached_m == nowhere_m ? to : at->reached_m;
 
-        for (step = 1; step < steps; step++) {
-            const double part = (double)step / (double)steps;
-
-            (void)damper_step(damper, &at->state, (damper_real)(from + (to - from) * part));
-        }
-        (void)damper_step(damper, &at->state, (damper_real)to);
+        at->to_m = at->displacement_m + velocity(at, h) * h;
+        at->from_m = at->reached_m == nowhere_m ? at->to_m : at->reached_m;
         forget_derivatives(at);
-        if (is_good(damper, to)) {
-            at->reached_m = to;
+    }
+    for (step = 1; step < steps; step++) {
+        const double part = (double)step / (double)steps;
+
+        for (number = 0; number < dampers_count; number++) {
+            place *at = &this->places[number];
+            const double displacement_m = at->from_m + (at->to_m - at->from_m) * part;
+
+            (void)damper_step(&this->dampers[number], &at->state, (damper_real)displacement_m);
+        }
+    }
+    for (number = 0; number < dampers_count; number++) {
+        place *at = &this->places[number];
+
+        (void)damper_step(&this->dampers[number], &at->state, (damper_real)at->to_m);
+        if (is_good(&this->dampers[number], at->to_m)) {
+            at->reached_m = at->to_m;
         }
     }
     return steps;
