@@ -7,12 +7,13 @@ use std::process::Command;
 use dashpot::controller::{assert_same_run, compile_with_archive, succeed, tree_of};
 use xtask::c_library::{self, Platform};
 use xtask::processor::{CORTEX_M4F, CORTEX_M7, CORTEX_M33, Processor};
-use xtask::tools::{ARM_GCC, ARM_LIBC, QEMU, have, have_target};
+use xtask::tools::{ARM_GCC, ARM_LIBC, ARM_OBJDUMP, QEMU, have, have_target};
 
 /// The image for a processor; `None`, after a message, if a tool is missing.
 fn image_for(processor: &Processor, folder: &Path) -> Option<PathBuf> {
     let what = format!("the C library on {}", processor.title);
-    have_target(processor.target, &what).filter(|_| have(&[ARM_GCC, ARM_LIBC, QEMU], &what))?;
+    have_target(processor.target, &what)
+        .filter(|_| have(&[ARM_GCC, ARM_OBJDUMP, ARM_LIBC, QEMU], &what))?;
     let platform = Platform::Bare(*processor);
     let tree = tree_of(&platform, folder);
     let library = format!("lib{}.a", platform.library());
@@ -116,7 +117,7 @@ fn the_image_has_no_panic_no_heap_and_no_double_precision() {
     };
     assert_eq!(symbols.iter().find(double), None);
     // A Cortex-M7 may have single precision only, so there must be no instruction on doubles either.
-    let listing = succeed(Command::new("arm-none-eabi-objdump").arg("-d").arg(&image));
+    let listing = succeed(Command::new(ARM_OBJDUMP.program).arg("-d").arg(&image));
     let listing = String::from_utf8_lossy(&listing.stdout);
     assert!(
         listing.contains("vmul.f32"),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::processor::{CORTEX_M7, Processor};
 use crate::run::{Outcome, repository};
 use crate::target_toolchain::TargetToolchain;
+use crate::tools::ARM_LD;
 
 /// Builds every image for a processor and returns the folder of the images.
 ///
@@ -18,10 +19,7 @@ pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<Path
     if matches!(toolchain, TargetToolchain::FromSource { .. }) {
         // A distribution's compiler does not come with a linker for the target.
         let variable = processor.target.to_uppercase().replace(['-', '.'], "_");
-        command.env(
-            format!("CARGO_TARGET_{variable}_LINKER"),
-            "arm-none-eabi-ld",
-        );
+        command.env(format!("CARGO_TARGET_{variable}_LINKER"), ARM_LD.program);
     }
     let status = command
         .status()

@@ -6,13 +6,13 @@ use crate::processor::{CORTEX_M7, CORTEX_M33, TARGETS};
 use crate::python;
 use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
-use crate::tools::{ARM_GCC, ARM_LIBC, QEMU, TEST_TOOLS, Tool, install, missing};
+use crate::tools::{ARM_GCC, ARM_LD, ARM_LIBC, QEMU, TEST_TOOLS, Tool, install, missing};
 
 /// Debian packages with a compiler for the Cortex-M processors, for a machine without rustup.
 const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
 
 /// Tools for the tests that measure the core on emulated processors.
-const TARGET_TOOLS: [Tool; 3] = [ARM_GCC, ARM_LIBC, QEMU];
+const TARGET_TOOLS: [Tool; 4] = [ARM_GCC, ARM_LD, ARM_LIBC, QEMU];
 
 /// Installs what all tests need. If that fails, prints the command to run by hand; the tests that need it are skipped.
 pub fn install_for_tests() {

@@ -23,6 +23,10 @@ pub const GXX: Tool = program("g++", "g++");
 pub const VALGRIND: Tool = program("valgrind", "valgrind");
 /// C compiler and linker for the Cortex-M processors.
 pub const ARM_GCC: Tool = program("arm-none-eabi-gcc", "gcc-arm-none-eabi");
+/// Linker for the Cortex-M processors, which links the firmware without a C compiler.
+pub const ARM_LD: Tool = program("arm-none-eabi-ld", "binutils-arm-none-eabi");
+/// Lists the instructions of a program for the Cortex-M processors.
+pub const ARM_OBJDUMP: Tool = program("arm-none-eabi-objdump", "binutils-arm-none-eabi");
 /// C library for the Cortex-M processors, which the compiler's package only recommends.
 pub const ARM_LIBC: Tool = header("arm-none-eabi-gcc", "string.h", "libnewlib-arm-none-eabi");
 /// Emulator of the Cortex-M processors.
@@ -63,12 +67,14 @@ pub const SBATCH: Tool = program("sbatch", "slurm-wlm");
 pub const PARALLEL: Tool = program("parallel", "parallel");
 
 /// Tools that tests need.
-pub const TEST_TOOLS: [Tool; 17] = [
+pub const TEST_TOOLS: [Tool; 19] = [
     GCC,
     CLANG,
     GXX,
     VALGRIND,
     ARM_GCC,
+    ARM_LD,
+    ARM_OBJDUMP,
     ARM_LIBC,
     QEMU,
     AARCH64_GCC,

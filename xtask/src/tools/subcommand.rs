@@ -5,28 +5,29 @@ use crate::run::{Outcome, cargo, cargo_output};
 /// A subcommand of cargo. Only the developer command that runs it installs it, and only once.
 #[derive(Clone, Copy, Debug)]
 pub struct Subcommand {
-    name: &'static str,
+    /// Its package, whose name is `cargo-` and the name of the subcommand.
+    package: &'static str,
     version: &'static str,
 }
 
 /// Runs cargo with each feature.
 pub const CARGO_HACK: Subcommand = Subcommand {
-    name: "hack",
+    package: "cargo-hack",
     version: "0.6.46",
 };
 /// Builds and runs fuzz targets.
 pub const CARGO_FUZZ: Subcommand = Subcommand {
-    name: "fuzz",
+    package: "cargo-fuzz",
     version: "0.13.2",
 };
 /// Makes small changes to the code, one at a time, and lists the changes that no test notices.
 pub const CARGO_MUTANTS: Subcommand = Subcommand {
-    name: "mutants",
+    package: "cargo-mutants",
     version: "27.1.0",
 };
 /// Finds changes to a public interface that the version number does not allow.
 pub const CARGO_SEMVER_CHECKS: Subcommand = Subcommand {
-    name: "semver-checks",
+    package: "cargo-semver-checks",
     version: "0.51.0",
 };
 
@@ -36,11 +37,11 @@ impl Subcommand {
     /// # Errors
     /// The subcommand does not build.
     pub fn install(self) -> Outcome {
-        let Self { name, version } = self;
+        let Self { package, version } = self;
+        let name = package.trim_start_matches("cargo-");
         if cargo_output(&[name, "--version"]).is_ok() {
             return Ok(());
         }
-        let package = format!("cargo-{name}");
-        cargo(&["install", "--locked", &package, "--version", version])
+        cargo(&["install", "--locked", package, "--version", version])
     }
 }
