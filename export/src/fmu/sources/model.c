@@ -281,12 +281,12 @@ uint64_t model_step(model *this, uint64_t steps)
         at->from_m = at->reached_m == nowhere_m ? at->to_m : at->reached_m;
         forget_derivatives(at);
     }
-    for (step = 1; step < steps; step++) {
+    for (step = 1; step <= steps; step++) {
         const double part = (double)step / (double)steps;
 
         for (number = 0; number < dampers_count; number++) {
             place *at = &this->places[number];
-            const double displacement_m = at->from_m + (at->to_m - at->from_m) * part;
+            const double displacement_m = step < steps ? at->from_m + (at->to_m - at->from_m) * part : at->to_m;
 
             (void)damper_step(&this->dampers[number], &at->state, (damper_real)displacement_m);
         }
@@ -294,7 +294,6 @@ uint64_t model_step(model *this, uint64_t steps)
     for (number = 0; number < dampers_count; number++) {
         place *at = &this->places[number];
 
-        (void)damper_step(&this->dampers[number], &at->state, (damper_real)at->to_m);
         if (is_good(&this->dampers[number], at->to_m)) {
             at->reached_m = at->to_m;
         }
