@@ -1,22 +1,26 @@
 //! Time of a step through the interface of an FMU, in a library built for this platform, compared with the step alone
 //! in the same run.
 //!
-//! One element is the work of an importer at a communication point: set the displacement, step, get the force.
+//! One element is the work of an importer at a communication point for one damper: set the displacement, step, get the
+//! force.
 
 use std::f64::consts::TAU;
 use std::ffi::{CString, c_char, c_int, c_void};
 use std::hint::black_box;
 use std::ptr;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
 use dashpot_export::fmu::{Fmu, Interface, NamedDamper, compile};
 use dashpot_files::damper;
 use libloading::{Library, Symbol};
 
 const STEP_S: f64 = 1e-3;
+/// Numbers of the first damper's variables, and from one damper to the next.
 const DISPLACEMENT: u32 = 1;
 const FORCE: u32 = 3;
+const VARIABLES: u32 = 6;
 
 type Instance = *mut c_void;
 type Instantiate = unsafe extern "C" fn(
@@ -58,9 +62,10 @@ fn displacement(tick: u32) -> f64 {
 fn fmu(criterion: &mut Criterion) {
     let parameters = damper::load("in-service", &[]).expect("a preset");
     let damper: Damper<f32> = parameters.build(STEP_S).expect("a step");
+    let clearance_m = parameters.mount.clearance_m;
     let displacements: Vec<f64> = (0..TICKS).map(displacement).collect();
     let mut group = criterion.benchmark_group("fmu");
-    group.throughput(Throughput::Elements(displacements.len() as u64));
+    group.throughput(Throughput::Elements(u64::from(TICKS)));
     group.bench_function("step alone", |bencher| {
         let mut state = damper.at_rest(0.0);
         bencher.iter(|| {
@@ -70,16 +75,34 @@ fn fmu(criterion: &mut Criterion) {
         });
     });
 
-    let named = NamedDamper {
-        name: "in-service".into(),
-        damper,
-        clearance_m: parameters.mount.clearance_m,
-    };
-    let fmu = Fmu::of_dampers(Interface::Three, "it", &[named], STEP_S, false).expect("a name");
+    for count in [1, 16] {
+        let named = NamedDamper {
+            name: "in-service".into(),
+            damper: damper.clone(),
+            clearance_m,
+        };
+        bench_fmu(&mut group, &vec![named; count], &displacements);
+    }
+    group.finish();
+}
+
+/// Measures an FMU with these dampers.
+fn bench_fmu(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    dampers: &[NamedDamper<f32>],
+    displacements: &[f64],
+) {
+    let count = dampers.len();
+    let numbers = |first| (0..count as u32).map(move |damper| first + VARIABLES * damper);
+    let inputs: Vec<u32> = numbers(DISPLACEMENT).collect();
+    let outputs: Vec<u32> = numbers(FORCE).collect();
+    let fmu = Fmu::of_dampers(Interface::Three, "it", dampers, STEP_S, false).expect("a name");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("it.so");
     std::fs::write(&path, compile(&fmu).expect("a C compiler").content).expect("a temporary file");
     let token = CString::new(fmu.token()).expect("a token");
+    let (mut displacements_m, mut forces_n) = (vec![0.0; count], vec![0.0; count]);
+    group.throughput(Throughput::Elements(u64::from(TICKS) * count as u64));
     // SAFETY: the library was just built, its functions have the types of fmi3FunctionTypes.h, and each gets its own
     // instance with pointers to the stated number of elements.
     unsafe {
@@ -115,14 +138,22 @@ fn fmu(criterion: &mut Criterion) {
         assert_eq!(begin(instance, false, 0.0, 0.0, false, 0.0), 0);
         assert_eq!(initialized(instance), 0);
         let mut tick = 0_u64;
-        group.bench_function("set, step and get by FMI 3", |bencher| {
-            bencher.iter(|| {
-                for x in &displacements {
-                    let (mut event, mut end, mut early) = (false, false, false);
-                    let (mut reached_s, mut force_n) = (0.0, 0.0);
-                    let at_s = tick as f64 * STEP_S;
-                    let ended = set(instance, &DISPLACEMENT, 1, x, 1)
-                        | step(
+        group.bench_function(
+            format!("set, step and get by FMI 3, {count} dampers"),
+            |bencher| {
+                bencher.iter(|| {
+                    for x in displacements {
+                        let (mut event, mut end, mut early) = (false, false, false);
+                        let mut reached_s = 0.0;
+                        let at_s = tick as f64 * STEP_S;
+                        displacements_m.fill(*x);
+                        let ended = set(
+                            instance,
+                            inputs.as_ptr(),
+                            count,
+                            displacements_m.as_ptr(),
+                            count,
+                        ) | step(
                             instance,
                             at_s,
                             STEP_S,
@@ -131,19 +162,24 @@ fn fmu(criterion: &mut Criterion) {
                             &mut end,
                             &mut early,
                             &mut reached_s,
-                        )
-                        | get(instance, &FORCE, 1, &mut force_n, 1);
-                    tick += 1;
-                    assert_eq!(ended, 0);
-                    black_box(force_n);
-                }
-            });
-        });
+                        ) | get(
+                            instance,
+                            outputs.as_ptr(),
+                            count,
+                            forces_n.as_mut_ptr(),
+                            count,
+                        );
+                        tick += 1;
+                        assert_eq!(ended, 0);
+                        black_box(&forces_n);
+                    }
+                });
+            },
+        );
         let free: Symbol<'_, unsafe extern "C" fn(Instance)> =
             library.get(b"fmi3FreeInstance").expect("a function");
         free(instance);
     }
-    group.finish();
 }
 
 criterion_group!(benches, fmu);

@@ -9,7 +9,7 @@ use maud::{Markup, html};
 use super::sources::{Source, fixed, of_interface, with_own_names};
 use super::variable::{Kind, Variable};
 use super::{Fmu, Interface, check, token_of};
-use crate::standalone::{constants_of, header_of_step, source_of_step};
+use crate::standalone::{constants_of, header_of_step, source_with_bank};
 use crate::{ExportError, Word};
 use dashpot_files::nearest_nanosecond;
 
@@ -24,6 +24,7 @@ const BUILT_IN: &str = include_str!("sources/built_in.c");
 const LOADED: &str = include_str!("sources/loaded.c");
 
 /// Damper with its name.
+#[derive(Clone, Debug)]
 pub struct NamedDamper<T> {
     /// Preset or file of the damper.
     pub name: String,
@@ -165,7 +166,7 @@ fn source<T: Word>(
     let mut text = String::from(
         "/* The step of a damper, and the constants of the dampers of this FMU. */\n\n#include \"damper.h\"\n\n",
     );
-    text += &source_of_step::<T>("DAMPER");
+    text += &source_with_bank::<T>("DAMPER");
     let mut names = Vec::new();
     for (number, named) in (1..).zip(dampers) {
         let name = format!("damper_{number}");
@@ -179,7 +180,9 @@ fn source<T: Word>(
          const double model_step_s = {step_s:e};\n\
          const char model_token[] = \"{token}\";\n\n\
          const unsigned dampers_count = {};\n\
-         const damper_damper *const dampers_as_built[] = {{{}}};\n",
+         const damper_damper *const dampers_as_built[] = {{{}}};\n\n\
+         void dampers_step(const damper_damper *dampers, damper_state *states, const damper_real *displacements_m)\n\
+         {{\n    damper_step_bank(dampers, states, displacements_m, dampers_count);\n}}\n",
         dampers.len(),
         names.join(", "),
     );

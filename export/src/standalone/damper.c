@@ -347,14 +347,19 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
 PREFIX_COLD prefix_real prefix_unusual_step(const prefix_damper *damper, prefix_state *state,
                                             prefix_real displacement_m);
 
+/* True if a state, its damper and its displacement allow the usual step. */
+PREFIX_INLINE bool prefix_is_usual(const prefix_damper *damper, const prefix_state *state, prefix_real displacement_m)
+{
+    return state->revision == damper->revision
+           && prefix_is_within(displacement_m - state->displacement_m, damper->move_bound)
+           && prefix_is_within(displacement_m, damper->displacement_bound)
+           && prefix_is_within(state->stretch_m, damper->stretch_bound);
+}
+
 prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix_real displacement_m)
 {
-    const prefix_real travel = displacement_m - state->displacement_m;
-
-    if (state->revision == damper->revision && prefix_is_within(travel, damper->move_bound)
-        && prefix_is_within(displacement_m, damper->displacement_bound)
-        && prefix_is_within(state->stretch_m, damper->stretch_bound)) {
-        return prefix_move(damper, state, travel);
+    if (prefix_is_usual(damper, state, displacement_m)) {
+        return prefix_move(damper, state, displacement_m - state->displacement_m);
     }
     return prefix_unusual_step(damper, state, displacement_m);
 }
@@ -745,27 +750,3 @@ uint32_t prefix_digest(const prefix_damper *damper)
     }
     return hash;
 }
-
-#undef PREFIX_INLINE
-#undef PREFIX_COLD
-#undef PREFIX_REGISTER
-#undef PREFIX_ROUND
-#undef PREFIX_ALWAYS
-#undef PREFIX_HAS_MAXIMUM
-#undef PREFIX_GAMMA
-#undef PREFIX_REST_OF_GAMMA
-#undef PREFIX_LARGEST_CORRECTION
-#undef PREFIX_LARGEST_FORCE_N
-#undef PREFIX_LARGEST_CLEARANCE_M
-#undef PREFIX_LARGEST_BOUND_M
-#undef PREFIX_CATCH_UP_S
-#undef PREFIX_LEAST_FALL
-#undef PREFIX_MARK
-#undef PREFIX_MARK_BITS
-#undef PREFIX_HASH_START
-#undef PREFIX_HASH_FACTOR
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC pop_options
-#elif defined(__clang__) && (defined(__x86_64__) || defined(__i386__))
-#pragma float_control(pop)
-#endif

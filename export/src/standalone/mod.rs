@@ -1,6 +1,7 @@
 //! A damper in C99 without a library: step and constants in one header and one source.
 //!
-//! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. In names that
+//! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. `bank.c` adds the
+//! step of several dampers for FMUs, and `end.c` closes the source. In names that
 //! start with `prefix_` or `PREFIX_`, the name of the constant replaces the prefix, so that several dampers link into
 //! one program. The constants are separate from the step, so the step works with any damper of the same scalar type.
 
@@ -14,7 +15,12 @@ use super::{ExportError, Provenance, Word, name};
 use dashpot_files::Scalar;
 
 const HEADER: &str = include_str!("damper.h");
-const SOURCE: &str = include_str!("damper.c");
+const SOURCE: &str = concat!(include_str!("damper.c"), include_str!("end.c"));
+const SOURCE_WITH_BANK: &str = concat!(
+    include_str!("damper.c"),
+    include_str!("bank.c"),
+    include_str!("end.c")
+);
 
 /// End of the header, which closes the C++ block and the include guard.
 const END_OF_HEADER: &str = "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
@@ -59,9 +65,9 @@ pub(super) fn header_of_step<T: Word>(constant: &str) -> String {
     rendered::<T>(HEADER, constant) + END_OF_HEADER
 }
 
-/// Source of the step alone; the names in it start with `constant`.
-pub(super) fn source_of_step<T: Word>(constant: &str) -> String {
-    rendered::<T>(SOURCE, constant)
+/// Source of the step of one damper and of a bank; the names in it start with `constant`.
+pub(super) fn source_with_bank<T: Word>(constant: &str) -> String {
+    rendered::<T>(SOURCE_WITH_BANK, constant)
 }
 
 /// Constants of a damper; their names start with `name`, and the names of the step start with `prefix`.

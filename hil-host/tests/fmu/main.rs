@@ -1,6 +1,7 @@
 //! FMUs as importers use them: through a driver in C with the official headers, and through FMPy.
 
 mod another_processors_library;
+mod bank;
 #[path = "../common/mod.rs"]
 mod common;
 mod driver;

@@ -19,4 +19,8 @@ extern const double dampers_largest_clearance_m;
 damper_damper *dampers_new(const char *resources, char *reason, size_t reason_bytes);
 void dampers_free(damper_damper *dampers);
 
+/* Steps all dampers of an instance one tick, each to its displacement (m). The states and forces are those of
+ * damper_step. */
+void dampers_step(const damper_damper *dampers, damper_state *states, const damper_real *displacements_m);
+
 #endif

@@ -26,7 +26,6 @@ enum {
 };
 
 typedef struct place {
-    damper_state state;
     double displacement_m;
     double velocity_m_per_s;
     double clearance_m;         /* as set, before rounding */
@@ -40,6 +39,8 @@ typedef struct place {
 struct model {
     damper_damper *dampers;
     damper_damper *as_loaded;
+    damper_state *states;
+    damper_real *displacements_m; /* of the current internal step */
     unsigned reported;          /* status bits that were already reported, of all dampers */
     bool is_started;
     place places[];
@@ -62,7 +63,7 @@ static void start(model *this, unsigned number)
 {
     place *at = &this->places[number];
 
-    damper_at_rest(&this->dampers[number], &at->state, (damper_real)at->displacement_m);
+    damper_at_rest(&this->dampers[number], &this->states[number], (damper_real)at->displacement_m);
     at->reached_m = is_good(&this->dampers[number], at->displacement_m) ? at->displacement_m : nowhere_m;
 }
 
@@ -93,14 +94,18 @@ model *model_new(const char *resources, char *reason, size_t reason_bytes)
         return NULL;
     }
     this = malloc(sizeof *this + dampers_count * sizeof this->places[0]);
-    if (this != NULL) {
-        this->as_loaded = loaded;
-        this->dampers = malloc(dampers_count * sizeof *this->dampers);
-    }
-    if (this == NULL || this->dampers == NULL) {
+    if (this == NULL) {
         (void)snprintf(reason, reason_bytes, "not enough memory");
         dampers_free(loaded);
-        free(this);
+        return NULL;
+    }
+    this->as_loaded = loaded;
+    this->dampers = malloc(dampers_count * sizeof *this->dampers);
+    this->states = malloc(dampers_count * sizeof *this->states);
+    this->displacements_m = malloc(dampers_count * sizeof *this->displacements_m);
+    if (this->dampers == NULL || this->states == NULL || this->displacements_m == NULL) {
+        (void)snprintf(reason, reason_bytes, "not enough memory");
+        model_free(this);
         return NULL;
     }
     model_reset(this);
@@ -112,6 +117,8 @@ void model_free(model *this)
     if (this != NULL) {
         dampers_free(this->as_loaded);
         free(this->dampers);
+        free(this->states);
+        free(this->displacements_m);
         free(this);
     }
 }
@@ -147,7 +154,7 @@ model_result model_get_real(const model *this, uint32_t variable, double *value)
         *value = at->velocity_m_per_s;
         return MODEL_DONE;
     case FORCE:
-        *value = (double)at->state.force_n;
+        *value = (double)this->states[at - this->places].force_n;
         return MODEL_DONE;
     case CLEARANCE:
         *value = at->clearance_m;
@@ -197,9 +204,9 @@ void model_set_real(model *this, uint32_t variable, double value)
         (void)damper_set_clearance_m(damper, (damper_real)value);
         if (!this->is_started) {
             start(this, (unsigned)number);
-        } else if (at->state.revision != damper->revision) {
+        } else if (this->states[number].revision != damper->revision) {
             /* The next step would do the same; this way, a state always belongs to its damper. */
-            damper_adopt(damper, &at->state);
+            damper_adopt(damper, &this->states[number]);
         }
     }
 }
@@ -233,9 +240,9 @@ model_result model_get_integer(const model *this, uint32_t variable, int32_t *va
     const place *at = find(this, variable, &kind);
 
     if (at != NULL && kind == STATUS) {
-        *value = (int32_t)damper_status(&at->state);
+        *value = (int32_t)damper_status(&this->states[at - this->places]);
     } else if (at != NULL && kind == REJECTED_INPUTS) {
-        *value = at->state.rejected_inputs;
+        *value = this->states[at - this->places].rejected_inputs;
     } else {
         return MODEL_NO_VARIABLE;
     }
@@ -266,8 +273,6 @@ static double velocity(const place *at, double h)
     return at->derivative_m_per_s2 == 0 ? at->velocity_m_per_s : at->velocity_m_per_s + 0.5 * h * at->derivative_m_per_s2;
 }
 
-/* All dampers take an internal step before any takes the next one: the processor works on one damper while another
- * waits for a result. */
 uint64_t model_step(model *this, uint64_t steps)
 {
     const double h = (double)steps * model_step_s;
@@ -285,11 +290,12 @@ uint64_t model_step(model *this, uint64_t steps)
         const double part = (double)step / (double)steps;
 
         for (number = 0; number < dampers_count; number++) {
-            place *at = &this->places[number];
+            const place *at = &this->places[number];
             const double displacement_m = step < steps ? at->from_m + (at->to_m - at->from_m) * part : at->to_m;
 
-            (void)damper_step(&this->dampers[number], &at->state, (damper_real)displacement_m);
+            this->displacements_m[number] = (damper_real)displacement_m;
         }
+        dampers_step(this->dampers, this->states, this->displacements_m);
     }
     for (number = 0; number < dampers_count; number++) {
         place *at = &this->places[number];
@@ -318,7 +324,7 @@ const char *model_notice(model *this)
     unsigned number, bits = 0;
 
     for (number = 0; number < dampers_count; number++) {
-        bits |= damper_status(&this->places[number].state);
+        bits |= damper_status(&this->states[number]);
     }
     bits &= (DAMPER_INPUT_HELD | DAMPER_INPUT_LIMITED | DAMPER_CORRUPTED | DAMPER_RESTARTED) & ~this->reported;
     this->reported |= bits;
@@ -376,19 +382,20 @@ void model_save(const model *this, uint8_t *bytes)
     bytes = model_put(bytes, this->is_started, 4);
     for (number = 0; number < dampers_count; number++) {
         bytes = put_reals(bytes, &this->places[number]);
-        damper_save(&this->places[number].state, bytes);
+        damper_save(&this->states[number], bytes);
         bytes += DAMPER_STATE_BYTES;
     }
 }
 
 /* Reads a damper's clearance and state from bytes. */
-static bool restored(const damper_damper *of, damper_damper *damper, place *at, const uint8_t *bytes)
+static bool restored(const damper_damper *of, damper_damper *damper, place *at, damper_state *state,
+                     const uint8_t *bytes)
 {
     *damper = *of;
     bytes = take_reals(bytes, at);
     return at->clearance_m >= 0 && at->clearance_m <= dampers_largest_clearance_m && at->reached_m - at->reached_m == 0
            && damper_set_clearance_m(damper, (damper_real)at->clearance_m) == DAMPER_DONE
-           && damper_restore(damper, &at->state, bytes) == DAMPER_DONE;
+           && damper_restore(damper, state, bytes) == DAMPER_DONE;
 }
 
 /* All dampers are read before any is changed. */
@@ -396,12 +403,13 @@ model_result model_restore(model *this, const uint8_t *bytes)
 {
     const uint8_t *const first = bytes + 2 * 4;
     damper_damper damper;
+    damper_state state;
     place at;
     uint64_t reported, is_started;
     unsigned number;
 
     for (number = 0; number < dampers_count; number++) {
-        if (!restored(&this->dampers[number], &damper, &at, first + (size_t)number * PLACE_BYTES)) {
+        if (!restored(&this->dampers[number], &damper, &at, &state, first + (size_t)number * PLACE_BYTES)) {
             return MODEL_OTHER;
         }
     }
@@ -409,9 +417,10 @@ model_result model_restore(model *this, const uint8_t *bytes)
     this->reported = (unsigned)reported;
     this->is_started = is_started != 0;
     for (number = 0; number < dampers_count; number++) {
-        (void)restored(&this->dampers[number], &damper, &at, first + (size_t)number * PLACE_BYTES);
+        (void)restored(&this->dampers[number], &damper, &at, &state, first + (size_t)number * PLACE_BYTES);
         this->dampers[number] = damper;
         this->places[number] = at;
+        this->states[number] = state;
     }
     return MODEL_DONE;
 }
