@@ -18,6 +18,7 @@ mod error;
 #[cfg(feature = "builder")]
 mod example;
 pub mod health;
+pub mod hybrid;
 #[cfg(feature = "builder")]
 mod hydraulics;
 pub mod integrity;

@@ -1,0 +1,158 @@
+//! Compensator, tracking, energy and guard in one tick.
+
+use super::compensator::Compensator;
+use super::energy::{AddedEnergy, EnergySettings};
+use super::guard::{Guard, GuardSettings, Phase};
+use super::motion::Motion;
+use super::status::HybridStatus;
+use super::tracking::{Tracking, TrackingReading};
+use crate::BuildError;
+
+/// Measured values of a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measured {
+    /// Displacement of the damper's ends (m), positive in extension.
+    pub displacement_m: f32,
+    /// Force of the damper (N), positive when it resists extension.
+    pub force_n: f32,
+}
+
+/// Result of a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Command {
+    /// Command of the actuator (m).
+    pub command_m: f32,
+    /// Force for the vehicle (N): the measured one, or the last valid one; after the end of a test it fades to 0.
+    pub force_n: f32,
+    /// What has been noticed since the last clear.
+    pub status: HybridStatus,
+}
+
+/// Settings of a [`TransferSystem`] except those of its compensator.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TransferSettings {
+    /// Limits of the test.
+    pub guard: GuardSettings,
+    /// Alarm of the added energy.
+    pub energy: EnergySettings,
+    /// Time after which past motion counts 1/e in the tracking (s), 0.05 to 1000.
+    pub tracking_window_s: f32,
+}
+
+/// All that stands between a simulated vehicle and an actuator.
+///
+/// ```
+/// use dashpot_core::hybrid::{
+///     EnergySettings, GuardSettings, InverseModel, Measured, Motion, TransferSettings, TransferSystem,
+/// };
+///
+/// let settings = TransferSettings {
+///     guard: GuardSettings::new(0.1, 1.0, 20e3),
+///     energy: EnergySettings::default(),
+///     tracking_window_s: 1.0,
+/// };
+/// let mut transfer = TransferSystem::new(InverseModel::of_delay(0.01)?, &settings, 1e-3)?;
+/// let desired = Motion { velocity_m_per_s: 0.01, ..Motion::at_rest(0.0) };
+/// let command = transfer.tick(&desired, Some(Measured::default()));
+/// assert!(command.status.is_empty());
+/// assert!((command.command_m - 0.05e-3).abs() < 1e-10); // it approaches at 0.05 m/s
+/// # Ok::<(), dashpot_core::BuildError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransferSystem<C> {
+    compensator: C,
+    tracking: Tracking,
+    energy: AddedEnergy,
+    guard: Guard,
+    /// Decrease of the force's share in a tick after the end.
+    fading: f32,
+    /// Share of the force that the vehicle gets.
+    share: f32,
+    was_running: bool,
+}
+
+impl<C: Compensator> TransferSystem<C> {
+    /// A transfer system at rest at 0.
+    ///
+    /// # Errors
+    /// A setting is outside its range.
+    pub fn new(
+        compensator: C,
+        settings: &TransferSettings,
+        step_s: f32,
+    ) -> Result<Self, BuildError> {
+        Ok(Self {
+            compensator,
+            tracking: Tracking::new(settings.tracking_window_s, step_s)?,
+            energy: AddedEnergy::new(&settings.energy, step_s)?,
+            guard: Guard::new(&settings.guard, step_s)?,
+            fading: step_s / settings.guard.ramp_s,
+            share: 1.0,
+            was_running: false,
+        })
+    }
+
+    /// Places a transfer system that has not ended a test at the actuator's present displacement (m).
+    pub fn place(&mut self, displacement_m: f32) {
+        self.guard.place(displacement_m);
+    }
+
+    /// Takes the desired motion and the measured values of this tick, or none if none came; returns the command and the
+    /// force for the vehicle.
+    #[inline]
+    pub fn tick(&mut self, desired: &Motion, measured: Option<Measured>) -> Command {
+        let pair = measured.map(|measured| (measured.displacement_m, measured.force_n));
+        let wanted_m = self.compensator.command_m(desired);
+        let command_m = self.guard.step(wanted_m, desired.displacement_m, pair);
+        let (displacement_m, force_n) = self.guard.last_measured();
+        let is_running = self.guard.phase() == Phase::Running;
+        if is_running && !self.was_running {
+            self.compensator.rest_at(desired.displacement_m);
+            self.energy.rest_at(desired.displacement_m, force_n);
+        }
+        self.was_running = is_running;
+        self.tracking.observe(desired, displacement_m);
+        self.energy
+            .observe(desired.displacement_m, displacement_m, force_n);
+        if is_running {
+            self.compensator.observe(command_m, displacement_m);
+            let mut found = HybridStatus::ENERGY.only_if(self.energy.is_alarm());
+            found |= HybridStatus::SIGN.only_if(self.energy.is_reversed());
+            if !found.is_empty() {
+                self.guard.end(found);
+            }
+        }
+        let has_ended = matches!(self.guard.phase(), Phase::Ending | Phase::Held);
+        let share = if has_ended {
+            self.share - self.fading
+        } else {
+            self.share + self.fading
+        };
+        self.share = share.clamp(0.0, 1.0);
+        Command {
+            command_m,
+            force_n: self.share * force_n,
+            status: self.guard.status(),
+        }
+    }
+
+    /// The compensator.
+    pub fn compensator(&self) -> &C {
+        &self.compensator
+    }
+
+    /// Delay, amplitude and errors over the fading past.
+    pub fn tracking(&self) -> TrackingReading {
+        self.tracking.reading()
+    }
+
+    /// The energy that the actuator adds.
+    pub fn energy(&self) -> &AddedEnergy {
+        &self.energy
+    }
+
+    /// The guard, to see its state, to end a test or to clear it.
+    pub fn guard(&mut self) -> &mut Guard {
+        &mut self.guard
+    }
+}
