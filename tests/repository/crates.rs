@@ -9,7 +9,7 @@ use crate::files::{line_count, rust_files};
 use crate::workspaces::{WORKSPACES, folder_of, packages};
 
 /// Folders of all crates, from the bottom up. A crate may use only those listed before it; tests may use any.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "xtask",
     "core",
     "capi",
@@ -19,6 +19,7 @@ const ORDER: [&str; 26] = [
     "rail",
     "wear",
     "reference",
+    "hybrid",
     "workers",
     "files",
     "recording",

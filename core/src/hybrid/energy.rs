@@ -154,9 +154,9 @@ impl AddedEnergy {
         self.added_j
     }
 
-    /// Share of the exchanged energy that the actuator added over the fading past (1).
+    /// Share of the exchanged energy that the actuator added over the fading past (1); 0 below a mean power of 1 nW.
     pub fn added_share(&self) -> f32 {
-        match self.exchanged_w > 0.0 {
+        match self.exchanged_w > 1e-9 {
             true => self.added_w / self.exchanged_w,
             false => 0.0,
         }

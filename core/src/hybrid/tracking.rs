@@ -122,27 +122,33 @@ impl Tracking {
         }
     }
 
-    /// Delay, amplitude and errors so far. A result that cannot be computed, because nothing has moved, is 0.
+    /// Delay, amplitude and errors so far. All but `error_m` are 0 if the desired displacement has hardly moved (less
+    /// than 1 nm or 0.1 um/s, root mean square).
     pub fn reading(&self) -> TrackingReading {
-        let ratio = |a: f32, b: f32| if b > 0.0 { a / b } else { 0.0 };
         let [xx, vv, xv] = [self.desired_square, self.velocity_square, self.crossed];
         let [ex, ev] = [self.with_desired, self.with_velocity];
-        let omega = libm::sqrtf(ratio(vv, xx));
-        // error = p x + q v; for a sine, v = omega times the displacement a quarter of a period ahead.
+        let error_m = libm::sqrtf(self.error_square);
         let determinant = xx * vv - xv * xv;
-        let in_phase = 1.0 + ratio(ex * vv - ev * xv, determinant);
-        let behind = -omega * ratio(ev * xx - ex * xv, determinant);
-        let moves = self.desired_square > 0.0;
+        let has_moved = xx > 1e-18 && vv > 1e-14 && determinant > 1e-4 * xx * vv;
+        if !has_moved {
+            return TrackingReading {
+                error_m,
+                ..TrackingReading::default()
+            };
+        }
+        // error = p x + q v; for a sine, v = omega times the displacement a quarter of a period ahead.
+        let omega = libm::sqrtf(vv / xx);
+        let in_phase = 1.0 + (ex * vv - ev * xv) / determinant;
+        let behind = -omega * ((ev * xx - ex * xv) / determinant);
         TrackingReading {
-            delay_s: ratio(libm::atan2f(behind, in_phase), omega),
-            amplitude: if moves {
-                libm::sqrtf(in_phase * in_phase + behind * behind)
-            } else {
-                0.0
+            delay_s: libm::atan2f(behind, in_phase) / omega,
+            amplitude: libm::sqrtf(in_phase * in_phase + behind * behind),
+            relative_error: error_m / libm::sqrtf(xx),
+            relative_peak_error: match self.desired_peak > 0.0 {
+                true => self.error_peak / self.desired_peak,
+                false => 0.0,
             },
-            relative_error: libm::sqrtf(ratio(self.error_square, self.desired_square)),
-            relative_peak_error: ratio(self.error_peak, self.desired_peak),
-            error_m: libm::sqrtf(self.error_square),
+            error_m,
         }
     }
 }

@@ -1,0 +1,8 @@
+#![doc = include_str!("../README.md")]
+
+pub mod benchmark;
+mod linear;
+mod sensor;
+
+pub use linear::LinearSystem;
+pub use sensor::{Noise, Sensor, SensorSettings};

@@ -1,0 +1,4 @@
+//! Hybrid tests: compensators, guards and the published benchmark.
+
+mod benchmark;
+mod guard;
