@@ -3,6 +3,7 @@
 mod aarch64;
 mod firmware;
 mod health;
+mod hybrid;
 mod no_panic;
 mod outputs;
 mod processors;

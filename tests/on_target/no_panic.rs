@@ -122,6 +122,7 @@ fn firmware_calls_reach_no_panic() {
             "checked_bank",
             "checked_change",
             "checked_image",
+            "checked_transfer",
             "checked_slices",
             "checked_telemetry",
         ] {

@@ -2,7 +2,7 @@
 
 use super::compensator::Compensator;
 use super::inverse;
-use super::limits::{self, clamped};
+use super::limits::{self, clamped, credible};
 use super::motion::{Chain, Motion};
 use crate::BuildError;
 
@@ -110,8 +110,8 @@ pub struct AdaptiveTimeSeries {
     fading: f32,
     /// Largest move of a coefficient in a tick, as a share of its largest change.
     largest_move: f32,
-    commands: Chain,
-    measurements: Chain,
+    commands: Chain<3>,
+    measurements: Chain<3>,
     /// Means of the products of the sensitivities: rows of the lower triangle.
     products: [[f32; COUNT]; COUNT],
     /// Means of the products of sensitivity and misfit.
@@ -168,6 +168,11 @@ impl AdaptiveTimeSeries {
             *nominal *= power;
             *sensitivity *= power / settings.noise_m;
             power *= pole_per_s;
+            if *sensitivity > 1e8 {
+                let allowed = "so large that largest_change times the powers of the pole is at most 1e8 noises a metre";
+                let noise_m = f64::from(settings.noise_m);
+                return Err(BuildError::new(SECTION, "noise_m", noise_m, allowed));
+            }
         }
         let chain = Chain::new(pole_per_s, step_s);
         Ok(Self {
@@ -209,25 +214,27 @@ impl AdaptiveTimeSeries {
     #[inline]
     fn solution(&self) -> [f32; COUNT] {
         let mut lower = self.products;
-        let mut pivots = [1.0; COUNT];
+        let mut inverse_pivots = [1.0; COUNT];
         let mut x = self.misfits;
         for row in 0..COUNT {
             // The equations are those of 1 plus a sum of squares.
             let mut pivot = 1.0 + lower[row][row];
             for column in 0..row {
                 let mut product = lower[row][column];
+                // Above the diagonal are the products before their division by the pivots.
                 for inner in 0..column {
-                    product -= lower[row][inner] * lower[column][inner] * pivots[inner];
+                    product -= lower[inner][row] * lower[column][inner];
                 }
-                let factor = product / pivots[column];
+                let factor = product * inverse_pivots[column];
+                lower[column][row] = product;
                 lower[row][column] = factor;
                 pivot -= factor * product;
                 x[row] -= factor * x[column];
             }
-            pivots[row] = if pivot > 1.0 { pivot } else { 1.0 };
+            inverse_pivots[row] = if pivot > 1.0 { 1.0 / pivot } else { 1.0 };
         }
         for row in (0..COUNT).rev() {
-            x[row] /= pivots[row];
+            x[row] *= inverse_pivots[row];
             for below in row + 1..COUNT {
                 x[row] -= lower[below][row] * x[below];
             }
@@ -244,9 +251,9 @@ impl Compensator for AdaptiveTimeSeries {
 
     #[inline]
     fn observe(&mut self, sent_m: f32, measured_m: f32) {
-        // Limits far beyond any damper keep all products finite.
-        let [command, ..] = self.commands.push(clamped(sent_m, 1.0));
-        let low_passed = self.measurements.push(clamped(measured_m, 1.0));
+        // The bounds keep all products finite.
+        let [command, ..] = self.commands.push(credible(sent_m, 1.0));
+        let low_passed = self.measurements.push(credible(measured_m, 1.0));
         let mut misfit = command;
         let mut sensed = [0.0; COUNT];
         for index in 0..COUNT {

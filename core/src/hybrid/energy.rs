@@ -1,6 +1,6 @@
 //! Energy that the actuator adds to the vehicle.
 
-use super::limits::{self, clamped};
+use super::limits::{self, clamped, credible};
 use super::motion::Chain;
 use crate::BuildError;
 
@@ -34,7 +34,8 @@ impl Default for EnergySettings {
 ///
 /// A delay makes the actuator add energy in every cycle, long before the motion grows; an actuator that leads takes
 /// energy away. (Mosqueda, Stojadinovic and Mahin 2007, hybrid simulation error monitors.) Displacements and force pass
-/// the same low-pass filters, so their delay does not matter.
+/// the same low-pass filters, so their delay does not matter. There is no alarm in the first `window_s`, in which the
+/// means still depend on single ticks.
 ///
 /// ```
 /// use dashpot_core::hybrid::{AddedEnergy, EnergySettings};
@@ -61,15 +62,18 @@ pub struct AddedEnergy {
     fading: f32,
     largest_share: f32,
     least_power_w: f32,
-    desired: Chain,
-    errors: Chain,
-    forces: Chain,
+    desired: Chain<1>,
+    errors: Chain<1>,
+    forces: Chain<1>,
     added_j: f32,
     /// Mean powers over the fading past (W).
     added_w: f32,
     exchanged_w: f32,
     /// Mean power that the vehicle gives (W): positive for a damper.
     given_w: f32,
+    /// Ticks of the window, and those that are left before the first alarm.
+    window_ticks: u32,
+    ticks_left: u32,
 }
 
 impl AddedEnergy {
@@ -122,31 +126,35 @@ impl AddedEnergy {
             added_w: 0.0,
             exchanged_w: 0.0,
             given_w: 0.0,
+            window_ticks: (settings.window_s / step_s) as u32,
+            ticks_left: (settings.window_s / step_s) as u32,
         })
     }
 
     /// Starts over at rest at a displacement (m), with a force (N).
     pub fn rest_at(&mut self, displacement_m: f32, force_n: f32) {
-        self.desired.rest_at(clamped(displacement_m, 1.0));
+        self.desired.rest_at(credible(displacement_m, 1.0));
         self.errors.rest_at(0.0);
-        self.forces.rest_at(clamped(force_n, 1e7));
+        self.forces.rest_at(credible(force_n, 1e7));
         (self.added_j, self.added_w) = (0.0, 0.0);
         (self.exchanged_w, self.given_w) = (0.0, 0.0);
+        self.ticks_left = self.window_ticks;
     }
 
     /// Takes desired and measured displacement (m) and the measured force (N) of a tick.
     #[inline]
     pub fn observe(&mut self, desired_m: f32, measured_m: f32, force_n: f32) {
-        let desired_m = clamped(desired_m, 1.0);
-        let [_, desired, ..] = self.desired.push(desired_m);
-        let [_, error, ..] = self.errors.push(clamped(measured_m, 1.0) - desired_m);
-        let [force, ..] = self.forces.push(clamped(force_n, 1e7));
+        let desired_m = credible(desired_m, 1.0);
+        let [_, desired] = self.desired.push(desired_m);
+        let [_, error] = self.errors.push(credible(measured_m, 1.0) - desired_m);
+        let [force, _] = self.forces.push(credible(force_n, 1e7));
         let added_w = force * error * self.pole_per_s;
         let given_w = force * desired * self.pole_per_s;
         self.added_j = clamped(self.added_j + added_w * self.step_s, 1e12);
         self.added_w += self.fading * (added_w - self.added_w);
         self.exchanged_w += self.fading * (given_w.abs() - self.exchanged_w);
         self.given_w += self.fading * (given_w - self.given_w);
+        self.ticks_left = self.ticks_left.saturating_sub(1);
     }
 
     /// Energy added since the start (J); negative if the actuator took energy away.
@@ -166,13 +174,18 @@ impl AddedEnergy {
     /// energy back, which no damper can give. A sensor with the wrong sign looks like this.
     #[inline]
     pub fn is_reversed(&self) -> bool {
-        self.exchanged_w >= self.least_power_w && self.given_w < -0.5 * self.exchanged_w
+        self.is_known() && self.given_w < -0.5 * self.exchanged_w
     }
 
     /// True while the added share is above its limit.
     #[inline]
     pub fn is_alarm(&self) -> bool {
-        self.exchanged_w >= self.least_power_w
-            && self.added_w > self.largest_share * self.exchanged_w
+        self.is_known() && self.added_w > self.largest_share * self.exchanged_w
+    }
+
+    /// True if enough energy has been exchanged for an alarm.
+    #[inline]
+    fn is_known(&self) -> bool {
+        self.ticks_left == 0 && self.exchanged_w >= self.least_power_w
     }
 }

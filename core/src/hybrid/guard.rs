@@ -166,10 +166,14 @@ pub struct Guard {
     /// Travel of the command since each measured value changed (m).
     displacement_same_m: f32,
     force_same_m: f32,
-    /// Times without a break (s).
-    age_s: f32,
-    limited_s: f32,
-    error_s: f32,
+    /// Numbers of ticks without a break, and their limits: without a valid measurement, with a limited command, with a
+    /// large error.
+    age: u32,
+    limited: u32,
+    off: u32,
+    most_age: u32,
+    most_limited: u32,
+    most_off: u32,
     /// Course of the end: position and change per tick at its beginning, way to the position without force (m), time
     /// since then, and duration (s).
     from_m: f32,
@@ -187,6 +191,8 @@ impl Guard {
     pub fn new(settings: &GuardSettings, step_s: f32) -> Result<Self, BuildError> {
         limits::step(SECTION, step_s)?;
         settings.check()?;
+        // A time that is a whole number of ticks must not lose one by rounding.
+        let ticks = |time_s: f32| (time_s / step_s + 0.01) as u32;
         Ok(Self {
             settings: *settings,
             step_s,
@@ -198,9 +204,12 @@ impl Guard {
             force_n: 0.0,
             displacement_same_m: 0.0,
             force_same_m: 0.0,
-            age_s: 0.0,
-            limited_s: 0.0,
-            error_s: 0.0,
+            age: 0,
+            limited: 0,
+            off: 0,
+            most_age: ticks(settings.age_s),
+            most_limited: ticks(settings.limited_s),
+            most_off: ticks(settings.error_s),
             from_m: 0.0,
             from_change_m: 0.0,
             release_m: 0.0,
@@ -260,7 +269,7 @@ impl Guard {
         }
         self.status = HybridStatus::empty();
         self.phase = Phase::Approaching;
-        (self.age_s, self.limited_s, self.error_s) = (0.0, 0.0, 0.0);
+        (self.age, self.limited, self.off) = (0, 0, 0);
         (self.displacement_same_m, self.force_same_m) = (0.0, 0.0);
         true
     }
@@ -278,12 +287,12 @@ impl Guard {
         let way = wanted_m - self.command_m;
         let is_running = self.phase == Phase::Running;
         let is_limited = is_running && way.abs() > most;
-        self.limited_s = self.timed(is_limited, self.limited_s);
+        self.limited = counted(is_limited, self.limited);
         found |= HybridStatus::COMMAND_LIMITED.only_if(is_limited);
-        found |= HybridStatus::VELOCITY.only_if(self.limited_s > self.settings.limited_s);
+        found |= HybridStatus::VELOCITY.only_if(self.limited > self.most_limited);
         let is_off = is_running && (self.displacement_m - desired_m).abs() > self.settings.error_m;
-        self.error_s = self.timed(is_off, self.error_s);
-        found |= HybridStatus::TRACKING.only_if(self.error_s > self.settings.error_s);
+        self.off = counted(is_off, self.off);
+        found |= HybridStatus::TRACKING.only_if(self.off > self.most_off);
 
         self.status |= found;
         let change = match self.phase {
@@ -315,7 +324,7 @@ impl Guard {
     #[inline]
     fn measure(&mut self, measured: Option<(f32, f32)>) -> HybridStatus {
         let settings = &self.settings;
-        let since_s = self.age_s + self.step_s;
+        let since_s = self.step_s * (self.age as f32 + 1.0);
         let mut found = HybridStatus::empty();
         let (displacement, force) = measured.unwrap_or((f32::NAN, f32::NAN));
         // The first measurement of all has nothing to be compared with.
@@ -338,11 +347,11 @@ impl Guard {
                 self.force_same_m
             };
             (self.displacement_m, self.force_n) = (displacement, force);
-            self.age_s = 0.0;
+            self.age = 0;
         } else {
-            self.age_s = if since_s < 100.0 { since_s } else { 100.0 };
+            self.age = self.age.saturating_add(1);
             found |= HybridStatus::MEASUREMENT_MISSED;
-            let too_old = self.age_s > settings.age_s;
+            let too_old = self.age > self.most_age;
             found |= HybridStatus::AGE.only_if(too_old && measured.is_none());
             found |= HybridStatus::IMPLAUSIBLE.only_if(too_old && measured.is_some());
         }
@@ -352,21 +361,11 @@ impl Guard {
         found | HybridStatus::FORCE.only_if(self.force_n.abs() > settings.force_n)
     }
 
-    /// Time for which a condition has held (s), at most 100.
-    #[inline]
-    fn timed(&self, holds: bool, so_far_s: f32) -> f32 {
-        match holds && so_far_s < 100.0 {
-            true => so_far_s + self.step_s,
-            false if holds => so_far_s,
-            false => 0.0,
-        }
-    }
-
     /// Plans the end: the velocity falls to zero evenly, and the way to the position without force has a smooth start
     /// and end. The time is longer than stated if the way would need more than half the velocity limit.
     fn begin_to_end(&mut self) {
         let settings = &self.settings;
-        let is_releasing = settings.action == GuardAction::ZeroForce && self.age_s == 0.0;
+        let is_releasing = settings.action == GuardAction::ZeroForce && self.age == 0;
         self.release_m = match is_releasing {
             true => clamped(
                 -self.force_n / settings.stiffness_n_per_m,
@@ -400,5 +399,14 @@ impl Guard {
             + run_out * share * (1.0 - 0.5 * share)
             + self.release_m * share * share * (3.0 - 2.0 * share);
         at - self.command_m
+    }
+}
+
+/// Number of ticks for which a condition has held without a break.
+#[inline]
+fn counted(holds: bool, so_far: u32) -> u32 {
+    match holds {
+        true => so_far.saturating_add(1),
+        false => 0,
     }
 }

@@ -28,16 +28,18 @@ pub(super) fn fading(step_s: f32, window_s: f32) -> f32 {
     1.0 - libm::expf(-step_s / window_s)
 }
 
-/// `value` limited to `most` in either direction; 0 if it is not a number.
+/// `value` limited to `most` in either direction; `most` if it is not a number.
 #[inline]
 pub(super) fn clamped(value: f32, most: f32) -> f32 {
-    if value >= most {
-        most
-    } else if value > -most {
-        value
-    } else if value <= -most {
-        -most
+    if value < most {
+        if value > -most { value } else { -most }
     } else {
-        0.0
+        most
     }
+}
+
+/// `value` if its magnitude is at most `most`, else 0: a number that no sensor delivers must not spoil sums.
+#[inline]
+pub(super) fn credible(value: f32, most: f32) -> f32 {
+    if value.abs() <= most { value } else { 0.0 }
 }

@@ -49,49 +49,67 @@ impl Motion {
     }
 }
 
-/// Three low-pass filters of first order in a chain, by the trapezoidal rule.
+/// Low-pass filters of first order in a chain, by the trapezoidal rule.
 ///
 /// The difference between neighbouring stages is a derivative, so the chain gives the low-passed displacement and its
 /// derivatives without dividing by the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Chain {
+pub(super) struct Chain<const STAGES: usize> {
     /// Memory of the trapezoidal integrators.
-    memory: [f32; 3],
+    memory: [f32; STAGES],
     /// `g/(1+g)` with `g` half the step times the pole.
     gain: f32,
 }
 
-impl Chain {
+impl<const STAGES: usize> Chain<STAGES> {
     /// A chain with the pole `pole_per_s` (rad/s), at rest at 0.
     pub(super) fn new(pole_per_s: f32, step_s: f32) -> Self {
         let g = 0.5 * pole_per_s * step_s;
         Self {
-            memory: [0.0; 3],
+            memory: [0.0; STAGES],
             gain: g / (1.0 + g),
         }
     }
 
-    /// Puts the chain at rest at a displacement (m).
-    pub(super) fn rest_at(&mut self, displacement_m: f32) {
-        self.memory = [displacement_m; 3];
+    /// Puts the chain at rest at a value.
+    pub(super) fn rest_at(&mut self, value: f32) {
+        self.memory = [value; STAGES];
     }
 
+    /// Takes a value; returns those after each stage.
+    #[inline]
+    fn stages(&mut self, mut value: f32) -> [f32; STAGES] {
+        let gain = self.gain;
+        self.memory.each_mut().map(|memory| {
+            let change = (value - *memory) * gain;
+            value = *memory + change;
+            *memory = value + change;
+            value
+        })
+    }
+}
+
+impl Chain<1> {
+    /// Takes a value; returns the low-passed value and its derivative divided by the pole.
+    #[inline]
+    pub(super) fn push(&mut self, x: f32) -> [f32; 2] {
+        let [a] = self.stages(x);
+        [a, x - a]
+    }
+}
+
+impl Chain<3> {
     /// Takes a displacement `x`; returns the low-passed displacement and its first three derivatives, divided by the
     /// first three powers of the pole (all in m).
     #[inline]
     pub(super) fn push(&mut self, x: f32) -> [f32; 4] {
-        let mut stages = [x; 4];
-        for stage in 0..3 {
-            let change = (stages[stage] - self.memory[stage]) * self.gain;
-            stages[stage + 1] = self.memory[stage] + change;
-            self.memory[stage] = stages[stage + 1] + change;
-        }
-        let [x, a, b, c] = stages;
+        let [a, b, c] = self.stages(x);
+        let [first, second, third] = [x - a, a - b, b - c];
         [
             c,
-            b - c,
-            (a - b) - (b - c),
-            (x - a) - 2.0 * (a - b) + (b - c),
+            third,
+            second - third,
+            (first - second) - (second - third),
         ]
     }
 }
@@ -116,7 +134,7 @@ impl Chain {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionFilter {
-    chain: Chain,
+    chain: Chain<3>,
     pole_per_s: f32,
 }
 
@@ -185,7 +203,7 @@ mod tests {
 
     #[test]
     fn a_chain_at_rest_stays_at_rest() {
-        let mut chain = Chain::new(100.0, 1e-3);
+        let mut chain = Chain::<3>::new(100.0, 1e-3);
         chain.rest_at(0.25);
         assert_eq!(chain.push(0.25), [0.25, 0.0, 0.0, 0.0]);
     }

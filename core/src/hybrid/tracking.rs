@@ -1,6 +1,6 @@
 //! How well the measured displacement follows the desired one.
 
-use super::limits::{self, clamped};
+use super::limits::{self, credible};
 use super::motion::Motion;
 use crate::BuildError;
 
@@ -90,9 +90,9 @@ impl Tracking {
     /// Takes the desired motion and the measured displacement (m) of a tick.
     #[inline]
     pub fn observe(&mut self, desired: &Motion, measured_m: f32) {
-        let x = clamped(desired.displacement_m, 1.0);
-        let v = clamped(desired.velocity_m_per_s, 100.0);
-        let error = clamped(measured_m, 1.0) - x;
+        let x = credible(desired.displacement_m, 1.0);
+        let v = credible(desired.velocity_m_per_s, 100.0);
+        let error = credible(measured_m, 1.0) - x;
         let fading = self.fading;
         for (mean, value) in [
             (&mut self.desired_mean, x),

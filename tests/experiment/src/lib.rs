@@ -10,6 +10,7 @@
 #![no_std]
 
 pub mod digest;
+pub mod transfer;
 pub mod watch;
 
 use dashpot_core::{Damper, DamperState};

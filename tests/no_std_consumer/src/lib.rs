@@ -1,6 +1,10 @@
 //! All calls that a firmware makes in a tick, without `std`, heap and builder.
 #![no_std]
 
+use dashpot_core::hybrid::{
+    AdaptiveTimeSeries, Command, InverseModel, Measured, Motion, PolynomialExtrapolation,
+    TransferSystem,
+};
 use dashpot_core::integrity::Check;
 use dashpot_core::telemetry::{Sample, Telemetry};
 use dashpot_core::{Damper, DamperState, Loading, step_bank};
@@ -52,6 +56,26 @@ pub extern "C" fn checked_change(
     damper.adopt(state);
     state.clear_status();
     set.is_ok()
+}
+
+/// A tick of a hybrid test with each compensator.
+#[unsafe(no_mangle)]
+pub extern "C" fn checked_transfer(
+    adaptive: &mut TransferSystem<AdaptiveTimeSeries>,
+    polynomial: &mut TransferSystem<PolynomialExtrapolation>,
+    inverse: &mut TransferSystem<InverseModel>,
+    desired: &Motion,
+    measured: Option<&Measured>,
+    commands: &mut [Command; 3],
+) -> f32 {
+    let measured = measured.copied();
+    *commands = [
+        adaptive.tick(desired, measured),
+        polynomial.tick(desired, measured),
+        inverse.tick(desired, measured),
+    ];
+    adaptive.guard().clear();
+    adaptive.tracking().delay_s + adaptive.energy().added_share()
 }
 
 /// Loads a damper from a link. True if it was accepted.

@@ -1,0 +1,85 @@
+//! Counts the instructions that a tick of a hybrid test takes: adaptive compensator, tracking, energy and guard. Also
+//! computes a digest of the results.
+//!
+//! The host reads one JSON object from the link's UART. The documentation of the image `step-cost` explains the counts.
+#![no_std]
+#![no_main]
+
+use core::fmt::Write;
+
+use cortex_m_rt::entry;
+use dashpot_core::hybrid::{Command, HybridStatus, Measured, Motion};
+use dashpot_experiment::transfer::{self, System};
+use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
+use dashpot_firmware::counted_call::{Arguments, counted_call};
+use dashpot_firmware::printer::Printer;
+
+/// A tick whose arguments and result are in memory.
+extern "C" fn tick(
+    system: &mut System,
+    desired: &Motion,
+    measured: &Option<Measured>,
+    command: &mut Command,
+) {
+    *command = system.tick(desired, *measured);
+}
+
+/// A function that only returns.
+#[unsafe(naked)]
+extern "C" fn nothing() {
+    core::arch::naked_asm!("bx lr")
+}
+
+fn timed(function: *const (), integers: [usize; 5]) -> u32 {
+    let arguments = Arguments {
+        integers,
+        real: 0.0,
+    };
+    // SAFETY: every caller below passes valid arguments of the function's types.
+    unsafe { counted_call(function, arguments).ticks }
+}
+
+#[entry]
+fn main() -> ! {
+    board::start_clock();
+    let mut printer = Printer(Uart::start(Port::Link, 1_000_000));
+    match transfer::system() {
+        Ok(mut system) => measure(&mut system, &mut printer),
+        Err(_) => drop(writeln!(printer, "the settings are not allowed")),
+    }
+    loop {
+        cortex_m::asm::wfi();
+    }
+}
+
+fn measure(system: &mut System, printer: &mut Printer) {
+    let call = timed(nothing as *const (), [0; 5]);
+    let (mut min, mut max, mut sum) = (u32::MAX, 0, 0_u64);
+    let (digest, noticed) = transfer::run(system, |system, desired, measured| {
+        let mut command = Command {
+            command_m: 0.0,
+            force_n: 0.0,
+            status: HybridStatus::empty(),
+        };
+        let integers = [
+            (&raw mut *system).expose_provenance(),
+            (&raw const *desired).expose_provenance(),
+            (&raw const *measured).expose_provenance(),
+            (&raw mut command).expose_provenance(),
+            0,
+        ];
+        let ticks = timed(tick as *const (), integers);
+        min = ticks.min(min);
+        max = ticks.max(max);
+        sum += u64::from(ticks);
+        command
+    });
+    let _ = writeln!(
+        printer,
+        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {min}, \"most\": {max}, \"sum\": {sum}, \
+         \"digest\": \"{:016x}\", \"noticed\": {}, \"system_bytes\": {}}}",
+        digest.value(),
+        noticed.bits(),
+        size_of::<System>(),
+    );
+}
