@@ -62,7 +62,7 @@ proptest! {
                 prop_assert!((out.command_m - last).abs() <= 0.5 * STEP_S * 1.0001, "{last} {out:?}");
                 prop_assert!(out.command_m.abs() <= 0.05 && out.force_n.is_finite());
                 let reading = system.tracking();
-                for value in [reading.delay_s, reading.amplitude, reading.relative_error, reading.relative_peak_error] {
+                for value in [reading.delay_s, reading.amplitude, reading.relative_error] {
                     prop_assert!(value.is_finite(), "{reading:?}");
                 }
                 prop_assert!(system.energy().added_j().is_finite() && system.energy().added_share().is_finite());
@@ -169,7 +169,7 @@ fn each_fault_ends_the_test_with_its_reason() {
 fn single_bad_measurements_are_survived() {
     let (found, _) = after(|tick, measured| match tick % 20 {
         ..8 => None,
-        9 => Some(Measured {
+        12 => Some(Measured {
             displacement_m: 3.0,
             ..measured
         }),

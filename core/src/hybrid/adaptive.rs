@@ -64,11 +64,11 @@ impl AdaptiveSettings {
 
 /// The command `u = a0 x + a1 x' + a2 x'' + a3 x'''`, with coefficients that follow the actuator.
 ///
-/// In each tick the coefficients minimise, over the fading past, the squared difference between the low-passed command
-/// and the same series of the low-passed measurement, in units of `noise_m`, plus the squared change from `nominal` in
-/// units of `largest_change`. Motion that says nothing about a coefficient thus leaves it at its nominal value. The
-/// four normal equations are solved by `L D L'`, whose pivots are at least 1, so the work is fixed and cannot fail.
-/// Each coefficient stays within its bounds and moves at most at its rate.
+/// The coefficients minimise, over the fading past, the squared difference between the low-passed command and the same
+/// series of the low-passed measurement, in units of `noise_m`, plus the squared change from `nominal` in units of
+/// `largest_change`. Motion that says nothing about a coefficient thus leaves it at its nominal value. In each tick one
+/// coefficient in turn takes the products of the tick into its means, and moves towards the minimum along it, within
+/// its bounds and at most at its rate. This coordinate descent has a fixed cost and divides by at least 1.
 ///
 /// ```
 /// use dashpot_core::hybrid::{AdaptiveSettings, AdaptiveTimeSeries, Compensator, Motion};
@@ -107,17 +107,20 @@ pub struct AdaptiveTimeSeries {
     sensitivity: [f32; COUNT],
     noise_per_m: f32,
     least_square: f32,
+    /// Share of the past that fades from one turn of a coefficient to the next.
     fading: f32,
-    /// Largest move of a coefficient in a tick, as a share of its largest change.
+    /// Largest move of a coefficient in its turn, as a share of its largest change.
     largest_move: f32,
     commands: Chain<3>,
     measurements: Chain<3>,
-    /// Means of the products of the sensitivities: rows of the lower triangle.
+    /// Means of the products of the sensed derivatives; each row is taken at the turns of its coefficient.
     products: [[f32; COUNT]; COUNT],
-    /// Means of the products of sensitivity and misfit.
+    /// Means of the products of sensed derivative and misfit.
     misfits: [f32; COUNT],
     /// Changes of the coefficients as shares of the largest change, -1 to 1.
     shares: [f32; COUNT],
+    /// The coefficient whose turn it is.
+    turn: usize,
     /// Fading peak of the squared motion (m^2).
     motion_square: f32,
     is_frozen: bool,
@@ -182,13 +185,14 @@ impl AdaptiveTimeSeries {
             sensitivity,
             noise_per_m: 1.0 / settings.noise_m,
             least_square: settings.least_motion_m * settings.least_motion_m,
-            fading: limits::fading(step_s, settings.memory_s),
-            largest_move: step_s / settings.change_s,
+            fading: limits::fading(COUNT as f32 * step_s, settings.memory_s),
+            largest_move: COUNT as f32 * step_s / settings.change_s,
             commands: chain,
             measurements: chain,
             products: [[0.0; COUNT]; COUNT],
             misfits: [0.0; COUNT],
             shares: [0.0; COUNT],
+            turn: 0,
             motion_square: 0.0,
             is_frozen: true,
         })
@@ -208,38 +212,6 @@ impl AdaptiveTimeSeries {
     /// True if the last motion was too small to learn from.
     pub fn is_frozen(&self) -> bool {
         self.is_frozen
-    }
-
-    /// Solves the normal equations for the shares.
-    #[inline]
-    fn solution(&self) -> [f32; COUNT] {
-        let mut lower = self.products;
-        let mut inverse_pivots = [1.0; COUNT];
-        let mut x = self.misfits;
-        for row in 0..COUNT {
-            // The equations are those of 1 plus a sum of squares.
-            let mut pivot = 1.0 + lower[row][row];
-            for column in 0..row {
-                let mut product = lower[row][column];
-                // Above the diagonal are the products before their division by the pivots.
-                for inner in 0..column {
-                    product -= lower[inner][row] * lower[column][inner];
-                }
-                let factor = product * inverse_pivots[column];
-                lower[column][row] = product;
-                lower[row][column] = factor;
-                pivot -= factor * product;
-                x[row] -= factor * x[column];
-            }
-            inverse_pivots[row] = if pivot > 1.0 { 1.0 / pivot } else { 1.0 };
-        }
-        for row in (0..COUNT).rev() {
-            x[row] *= inverse_pivots[row];
-            for below in row + 1..COUNT {
-                x[row] -= lower[below][row] * x[below];
-            }
-        }
-        x
     }
 }
 
@@ -262,28 +234,25 @@ impl Compensator for AdaptiveTimeSeries {
         }
         misfit *= self.noise_per_m;
         let square = low_passed[1] * low_passed[1];
-        let faded = self.motion_square * (1.0 - self.fading);
+        let faded = self.motion_square - self.fading * self.motion_square;
         self.motion_square = if square > faded { square } else { faded };
         self.is_frozen = self.motion_square < self.least_square;
-        let fading = if self.is_frozen { 0.0 } else { self.fading };
-        for row in 0..COUNT {
-            for column in 0..=row {
-                let mean = &mut self.products[row][column];
-                *mean += fading * (sensed[row] * sensed[column] - *mean);
-            }
-            let mean = &mut self.misfits[row];
-            *mean += fading * (sensed[row] * misfit - *mean);
+        if self.is_frozen {
+            return;
         }
-        let targets = self.solution();
-        let largest_move = if self.is_frozen {
-            0.0
-        } else {
-            self.largest_move
-        };
-        for (share, target) in self.shares.iter_mut().zip(targets) {
-            let change = clamped(target - *share, largest_move);
-            *share = clamped(*share + change, 1.0);
+        let row = self.turn % COUNT;
+        self.turn = row + 1;
+        let (fading, weight, share) = (self.fading, sensed[row], self.shares[row]);
+        let mean = &mut self.misfits[row];
+        *mean += fading * (weight * misfit - *mean);
+        let mut slope = *mean - share;
+        let products = &mut self.products[row];
+        for column in 0..COUNT {
+            products[column] += fading * (weight * sensed[column] - products[column]);
+            slope -= products[column] * self.shares[column];
         }
+        let change = slope / (1.0 + products[row]);
+        self.shares[row] = clamped(share + clamped(change, self.largest_move), 1.0);
     }
 
     fn rest_at(&mut self, displacement_m: f32) {

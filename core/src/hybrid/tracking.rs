@@ -41,9 +41,6 @@ pub struct Tracking {
     with_desired: f32,
     with_velocity: f32,
     error_square: f32,
-    /// Fading peaks (m).
-    desired_peak: f32,
-    error_peak: f32,
 }
 
 /// Result of [`Tracking`] over the fading past.
@@ -55,9 +52,6 @@ pub struct TrackingReading {
     pub amplitude: f32,
     /// Root mean square of measured minus desired displacement, relative to that of the desired one about its mean (1).
     pub relative_error: f32,
-    /// Largest magnitude of measured minus desired displacement, relative to that of the desired one about its mean
-    /// (1).
-    pub relative_peak_error: f32,
     /// Root mean square of measured minus desired displacement (m).
     pub error_m: f32,
 }
@@ -82,8 +76,6 @@ impl Tracking {
             with_desired: 0.0,
             with_velocity: 0.0,
             error_square: 0.0,
-            desired_peak: 0.0,
-            error_peak: 0.0,
         })
     }
 
@@ -113,13 +105,6 @@ impl Tracking {
         ] {
             *mean += fading * (product - *mean);
         }
-        for (peak, magnitude) in [
-            (&mut self.desired_peak, about_mean.abs()),
-            (&mut self.error_peak, error.abs()),
-        ] {
-            let faded = *peak - fading * *peak;
-            *peak = if magnitude > faded { magnitude } else { faded };
-        }
     }
 
     /// Delay, amplitude and errors so far. All but `error_m` are 0 if the desired displacement has hardly moved (less
@@ -144,10 +129,6 @@ impl Tracking {
             delay_s: libm::atan2f(behind, in_phase) / omega,
             amplitude: libm::sqrtf(in_phase * in_phase + behind * behind),
             relative_error: error_m / libm::sqrtf(xx),
-            relative_peak_error: match self.desired_peak > 0.0 {
-                true => self.error_peak / self.desired_peak,
-                false => 0.0,
-            },
             error_m,
         }
     }

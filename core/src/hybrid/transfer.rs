@@ -64,10 +64,10 @@ pub struct TransferSystem<C> {
     tracking: Tracking,
     energy: AddedEnergy,
     guard: Guard,
-    /// Decrease of the force's share in a tick after the end.
-    fading: f32,
-    /// Share of the force that the vehicle gets.
-    share: f32,
+    /// Ticks in which the force for the vehicle fades after the end, and those that are left.
+    fading_ticks: u32,
+    fading_left: u32,
+    share_of_tick: f32,
     was_running: bool,
 }
 
@@ -81,13 +81,15 @@ impl<C: Compensator> TransferSystem<C> {
         settings: &TransferSettings,
         step_s: f32,
     ) -> Result<Self, BuildError> {
+        let fading_ticks = libm::ceilf(settings.guard.ramp_s / step_s) as u32;
         Ok(Self {
             compensator,
             tracking: Tracking::new(settings.tracking_window_s, step_s)?,
             energy: AddedEnergy::new(&settings.energy, step_s)?,
             guard: Guard::new(&settings.guard, step_s)?,
-            fading: step_s / settings.guard.ramp_s,
-            share: 1.0,
+            fading_ticks,
+            fading_left: fading_ticks,
+            share_of_tick: 1.0 / fading_ticks as f32,
             was_running: false,
         })
     }
@@ -126,15 +128,13 @@ impl<C: Compensator> TransferSystem<C> {
             self.guard.end(found);
         }
         let has_ended = matches!(self.guard.phase(), Phase::Ending | Phase::Held);
-        let share = if has_ended {
-            self.share - self.fading
-        } else {
-            self.share + self.fading
+        self.fading_left = match has_ended {
+            true => self.fading_left.saturating_sub(1),
+            false => (self.fading_left + 1).min(self.fading_ticks),
         };
-        self.share = share.clamp(0.0, 1.0);
         Command {
             command_m,
-            force_n: self.share * force_n,
+            force_n: self.fading_left as f32 * self.share_of_tick * force_n,
             status: self.guard.status(),
         }
     }

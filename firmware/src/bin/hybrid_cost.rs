@@ -54,7 +54,7 @@ fn main() -> ! {
 
 fn measure(system: &mut System, printer: &mut Printer) {
     let call = timed(nothing as *const (), [0; 5]);
-    let (mut min, mut max, mut sum) = (u32::MAX, 0, 0_u64);
+    let (mut min, mut max, mut running) = (u32::MAX, 0, (u32::MAX, 0));
     let (digest, noticed) = transfer::run(system, |system, desired, measured| {
         let mut command = Command {
             command_m: 0.0,
@@ -71,13 +71,18 @@ fn measure(system: &mut System, printer: &mut Printer) {
         let ticks = timed(tick as *const (), integers);
         min = ticks.min(min);
         max = ticks.max(max);
-        sum += u64::from(ticks);
+        if system.guard().is_running() && measured.is_some() {
+            running = (ticks.min(running.0), ticks.max(running.1));
+        }
         command
     });
     let _ = writeln!(
         printer,
-        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {min}, \"most\": {max}, \"sum\": {sum}, \
+        "{{\"clock_hz\": {CLOCK_HZ}, \"call\": {call}, \"least\": {min}, \"most\": {max}, \"running_least\": {}, \
+         \"running_most\": {}, \
          \"digest\": \"{:016x}\", \"noticed\": {}, \"system_bytes\": {}}}",
+        running.0,
+        running.1,
         digest.value(),
         noticed.bits(),
         size_of::<System>(),

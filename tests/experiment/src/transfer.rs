@@ -36,7 +36,10 @@ pub fn system() -> Result<System, BuildError> {
     )?;
     let settings = TransferSettings {
         guard: GuardSettings::new(0.05, 0.5, 20e3),
-        energy: EnergySettings::default(),
+        energy: EnergySettings {
+            window_s: 0.3,
+            ..EnergySettings::default()
+        },
         tracking_window_s: 1.0,
     };
     TransferSystem::new(compensator, &settings, STEP_S)
