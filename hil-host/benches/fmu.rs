@@ -78,7 +78,7 @@ fn fmu(criterion: &mut Criterion) {
     for count in [1, 16] {
         let named = NamedDamper {
             name: "in-service".into(),
-            damper: damper.clone(),
+            damper,
             clearance_m,
         };
         bench_fmu(&mut group, &vec![named; count], &displacements);

@@ -14,6 +14,7 @@ pub mod export;
 pub mod failure;
 mod gap_report;
 mod health_reading;
+pub mod hybrid;
 pub mod interruption;
 pub mod line;
 pub mod link;
@@ -59,6 +60,7 @@ pub enum Command {
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
     Vehicle(vehicle::VehicleArguments),
+    Hybrid(hybrid::HybridArguments),
     Sweep(sweep::SweepArguments),
     Merge(merge::MergeArguments),
     Pil(pil::PilArguments),
@@ -84,6 +86,7 @@ impl Command {
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
             Self::Vehicle(arguments) => vehicle::run(arguments),
+            Self::Hybrid(arguments) => hybrid::run(arguments),
             Self::Sweep(arguments) => sweep::run(arguments),
             Self::Merge(arguments) => merge::run(arguments),
             Self::Pil(arguments) => pil::run(arguments),

@@ -25,6 +25,7 @@ mod firmware_bank;
 mod force_limit_of_the_oil;
 mod gaps;
 mod garbage_among_rows;
+mod hybrid;
 mod interruption;
 mod kept_curves;
 mod labview_page;

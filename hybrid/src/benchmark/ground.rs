@@ -58,3 +58,33 @@ pub fn chirp() -> Vec<f64> {
     };
     (0..(duration_s * RATE_HZ) as usize).map(at).collect()
 }
+
+/// A record (s, m/s^2) at each tick from its first time to its last, on straight lines between its rows.
+///
+/// ```
+/// use dashpot_hybrid::benchmark::at_ticks;
+///
+/// let ground = at_ticks(&[(0.0, 0.0), (1.0, 4.096)]);
+/// assert_eq!((ground.len(), ground[0]), (4097, 0.0));
+/// assert!((ground[4000] - 4.0).abs() < 1e-9);
+/// ```
+pub fn at_ticks(record: &[(f64, f64)]) -> Vec<f64> {
+    let (Some((first_s, _)), Some((last_s, _))) = (record.first(), record.last()) else {
+        return Vec::new();
+    };
+    let mut row = 0;
+    (0..=((last_s - first_s) * RATE_HZ) as usize)
+        .map(|tick| {
+            let t = first_s + tick as f64 / RATE_HZ;
+            while row + 2 < record.len() && record[row + 1].0 <= t {
+                row += 1;
+            }
+            let next = (row + 1).min(record.len() - 1);
+            let ((t0, a0), (t1, a1)) = (record[row], record[next]);
+            match t1 > t0 {
+                true => a0 + (a1 - a0) * (t - t0) / (t1 - t0),
+                false => a0,
+            }
+        })
+        .collect()
+}

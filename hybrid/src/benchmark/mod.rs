@@ -11,7 +11,7 @@ mod run;
 mod structure;
 
 pub use criteria::Criteria;
-pub use ground::{chirp, earthquake};
+pub use ground::{at_ticks, chirp, earthquake};
 pub use plant::Plant;
 pub use run::{Control, RunError, Sensors, run};
 

@@ -1,0 +1,28 @@
+//! `dashpot hybrid`: tests in which an actuator moves a real damper and the rest is simulated.
+
+mod benchmark;
+mod record;
+
+use super::failure::Outcome;
+
+/// Hybrid tests: an actuator moves a real damper, and the rest is simulated.
+#[derive(Debug, Clone, clap::Args)]
+pub struct HybridArguments {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Debug, Clone, clap::Subcommand)]
+enum Action {
+    Benchmark(benchmark::BenchmarkArguments),
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// An argument or a file is invalid.
+pub fn run(arguments: &HybridArguments) -> Outcome<()> {
+    match &arguments.action {
+        Action::Benchmark(arguments) => benchmark::run(arguments),
+    }
+}
