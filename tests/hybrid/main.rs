@@ -1,4 +1,5 @@
 //! Hybrid tests: compensators, guards and the published benchmark.
 
 mod benchmark;
+mod compensators;
 mod guard;
