@@ -63,3 +63,22 @@ pub unsafe fn counted_call(function: *const (), arguments: Arguments) -> Returne
         ticks: start.wrapping_sub(end),
     }
 }
+
+/// Clock ticks of a function with these integers and addresses as arguments; see [`counted_call`].
+///
+/// # Safety
+/// As for [`counted_call`].
+pub unsafe fn counted_ticks(function: *const (), integers: [usize; 5]) -> u32 {
+    let arguments = Arguments {
+        integers,
+        real: 0.0,
+    };
+    // SAFETY: the caller passes a function and arguments as required.
+    unsafe { counted_call(function, arguments).ticks }
+}
+
+/// A function that only returns, to measure the call itself.
+#[unsafe(naked)]
+pub extern "C" fn nothing() {
+    core::arch::naked_asm!("bx lr")
+}

@@ -1,4 +1,4 @@
-//! What a compensator does.
+//! The trait of compensators.
 
 use super::motion::Motion;
 

@@ -6,7 +6,7 @@ use crate::BuildError;
 
 const SECTION: &str = "guard";
 
-/// What the guard does when it ends a test.
+/// How the guard ends a test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GuardAction {
     /// Stop, and hold the displacement.
@@ -44,7 +44,7 @@ pub struct GuardSettings {
     pub ramp_s: f32,
     /// Rate at which the command approaches the desired displacement at the start (m/s), 1e-4 to 1.
     pub approach_m_per_s: f32,
-    /// What to do at the end.
+    /// How a test ends.
     pub action: GuardAction,
     /// Stiffness of the specimen, for [`GuardAction::ZeroForce`] (N/m), 1e3 to 1e12.
     pub stiffness_n_per_m: f32,
@@ -125,7 +125,7 @@ impl GuardSettings {
 
 /// Phase of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Phase {
+enum Phase {
     /// The command moves slowly to the desired displacement.
     Approaching,
     Running,
@@ -218,7 +218,7 @@ impl Guard {
         })
     }
 
-    /// What the guard has noticed since the last [`Guard::clear`].
+    /// Status bits since the last [`Guard::clear`].
     pub fn status(&self) -> HybridStatus {
         self.status
     }
@@ -233,8 +233,9 @@ impl Guard {
         self.phase == Phase::Held
     }
 
-    pub(super) fn phase(&self) -> Phase {
-        self.phase
+    /// True from the end of a test until [`Guard::clear`].
+    pub fn has_ended(&self) -> bool {
+        matches!(self.phase, Phase::Ending | Phase::Held)
     }
 
     /// The last valid measured displacement (m) and force (N).
@@ -245,7 +246,7 @@ impl Guard {
     /// Places a guard that has not ended a test at the actuator's present displacement (m), from which the command
     /// approaches the desired one.
     pub fn place(&mut self, displacement_m: f32) {
-        if matches!(self.phase, Phase::Approaching | Phase::Running) {
+        if !self.has_ended() {
             self.phase = Phase::Approaching;
             self.command_m = clamped(displacement_m, self.settings.stroke_m);
             self.displacement_m = self.command_m;
@@ -256,7 +257,7 @@ impl Guard {
     /// Ends the test for a reason that another part found.
     pub fn end(&mut self, reason: HybridStatus) {
         self.status |= reason;
-        if matches!(self.phase, Phase::Approaching | Phase::Running) {
+        if !self.has_ended() {
             self.begin_to_end();
         }
     }

@@ -1,4 +1,4 @@
-//! What a hybrid test has noticed.
+//! Status bits of a hybrid test.
 
 bitflags::bitflags! {
     /// Latched status bits of a hybrid test. Any bit ends the test, except [`COMMAND_LIMITED`](Self::COMMAND_LIMITED)

@@ -2,7 +2,7 @@
 
 use super::compensator::Compensator;
 use super::energy::{AddedEnergy, EnergySettings};
-use super::guard::{Guard, GuardSettings, Phase};
+use super::guard::{Guard, GuardSettings};
 use super::motion::Motion;
 use super::status::HybridStatus;
 use super::tracking::{Tracking, TrackingReading};
@@ -24,7 +24,7 @@ pub struct Command {
     pub command_m: f32,
     /// Force for the vehicle (N): the measured one, or the last valid one; after the end of a test it fades to 0.
     pub force_n: f32,
-    /// What has been noticed since the last clear.
+    /// Status bits since the last [`Guard::clear`].
     pub status: HybridStatus,
 }
 
@@ -107,7 +107,7 @@ impl<C: Compensator> TransferSystem<C> {
         let wanted_m = self.compensator.command_m(desired);
         let command_m = self.guard.step(wanted_m, desired.displacement_m, pair);
         let (displacement_m, force_n) = self.guard.last_measured();
-        let is_running = self.guard.phase() == Phase::Running;
+        let is_running = self.guard.is_running();
         let has_started = is_running && !self.was_running;
         self.was_running = is_running;
         self.tracking.observe(desired, displacement_m);
@@ -127,8 +127,7 @@ impl<C: Compensator> TransferSystem<C> {
         if is_running && !found.is_empty() {
             self.guard.end(found);
         }
-        let has_ended = matches!(self.guard.phase(), Phase::Ending | Phase::Held);
-        self.fading_left = match has_ended {
+        self.fading_left = match self.guard.has_ended() {
             true => self.fading_left.saturating_sub(1),
             false => (self.fading_left + 1).min(self.fading_ticks),
         };

@@ -14,7 +14,7 @@ use dashpot::{DashpotHealth, DashpotHealthModel, dashpot_health_tick};
 use dashpot_core::health::{Health, HealthModel};
 use dashpot_experiment::watch::{BYTES, Watch};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
-use dashpot_firmware::counted_call::{Arguments, counted_call};
+use dashpot_firmware::counted_call::{counted_ticks, nothing};
 use dashpot_firmware::printer::Printer;
 
 unsafe extern "C" {
@@ -38,19 +38,9 @@ extern "C" fn c_tick(
     let _ = unsafe { dashpot_health_tick(model, health, sample[0], sample[1]) };
 }
 
-/// A function that only returns.
-#[unsafe(naked)]
-extern "C" fn nothing() {
-    core::arch::naked_asm!("bx lr")
-}
-
 fn timed(function: *const (), integers: [usize; 5]) -> u32 {
-    let arguments = Arguments {
-        integers,
-        real: 0.0,
-    };
     // SAFETY: every caller below passes valid arguments of the function's types.
-    unsafe { counted_call(function, arguments).ticks }
+    unsafe { counted_ticks(function, integers) }
 }
 
 #[entry]

@@ -11,7 +11,7 @@ use cortex_m_rt::entry;
 use dashpot_core::hybrid::{Command, HybridStatus, Measured, Motion};
 use dashpot_experiment::transfer::{self, System};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
-use dashpot_firmware::counted_call::{Arguments, counted_call};
+use dashpot_firmware::counted_call::{counted_ticks, nothing};
 use dashpot_firmware::printer::Printer;
 
 /// A tick whose arguments and result are in memory.
@@ -24,19 +24,9 @@ extern "C" fn tick(
     *command = system.tick(desired, *measured);
 }
 
-/// A function that only returns.
-#[unsafe(naked)]
-extern "C" fn nothing() {
-    core::arch::naked_asm!("bx lr")
-}
-
 fn timed(function: *const (), integers: [usize; 5]) -> u32 {
-    let arguments = Arguments {
-        integers,
-        real: 0.0,
-    };
     // SAFETY: every caller below passes valid arguments of the function's types.
-    unsafe { counted_call(function, arguments).ticks }
+    unsafe { counted_ticks(function, integers) }
 }
 
 #[entry]

@@ -22,7 +22,7 @@ use dashpot::{
 use dashpot_core::{Damper, DamperState, Loading, step_bank};
 use dashpot_experiment::{BANK, BYTES, Experiment};
 use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
-use dashpot_firmware::counted_call::{Arguments, Returned, counted_call};
+use dashpot_firmware::counted_call::{Arguments, Returned, counted_call, nothing};
 use dashpot_firmware::printer::Printer;
 
 /// Size of the part of the stack, below the measured call, that is checked for use (bytes).
@@ -94,12 +94,6 @@ fn timed_load(image: &[u8]) -> u32 {
             _ => return 0,
         }
     }
-}
-
-/// A function that only returns.
-#[unsafe(naked)]
-extern "C" fn nothing() {
-    naked_asm!("bx lr")
 }
 
 /// A function of 101 instructions, which shows that the count is correct.
