@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+pub mod actuator;
 pub mod benchmark;
 mod linear;
 mod sensor;
