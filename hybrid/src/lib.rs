@@ -2,8 +2,15 @@
 
 pub mod actuator;
 pub mod benchmark;
+mod compensation;
+mod coupling;
 mod linear;
+pub mod rig;
 mod sensor;
+mod specimen;
 
+pub use compensation::{AnyCompensator, Compensation};
+pub use coupling::{CoupledTick, Coupling};
 pub use linear::LinearSystem;
 pub use sensor::{Noise, Sensor, SensorSettings};
+pub use specimen::Specimen;

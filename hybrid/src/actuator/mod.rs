@@ -95,6 +95,15 @@ impl Actuator {
         };
     }
 
+    /// Lets the supply fall to a share of its pressure: the flow falls with its root.
+    pub fn weaken(&mut self, share: f64) {
+        self.limits.velocity_m_per_s *= libm::sqrt(share);
+        self.limits.force_n *= share;
+        if let MovingLaw::ServoHydraulic(law) = &mut self.motion {
+            law.weaken(share);
+        }
+    }
+
     /// Displacement of the specimen (m), positive in extension.
     pub fn displacement_m(&self) -> f64 {
         match &self.motion {

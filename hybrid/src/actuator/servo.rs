@@ -54,6 +54,12 @@ impl MovingServo {
         wanted.abs() >= 1.0 || resisting > 0.95
     }
 
+    /// Lets the supply fall to a share of its pressure.
+    pub(super) fn weaken(&mut self, share: f64) {
+        self.law.supply_pressure_pa *= share;
+        self.free_flow_m3_per_s *= libm::sqrt(share);
+    }
+
     pub(super) fn displacement_m(&self) -> f64 {
         self.displacement_m
     }
