@@ -80,8 +80,8 @@ fn the_benchmark_file_is_the_benchmark_plant() {
 fn a_servo_moves_and_pushes_no_more_than_its_valve_and_pressure_allow() {
     let parameters = ActuatorParameters::load("servo").unwrap();
     let mut actuator = Actuator::new(&parameters, STEP_S);
-    // Free flow over area: 1.05e-3 m^3/s sqrt(21/7) / 2e-3 m^2.
-    let free_m_per_s = 1.05e-3 * 3_f64.sqrt() / 2.0e-3;
+    // Free flow over area: 1.67e-3 m^3/s sqrt(21/7) / 3e-3 m^2.
+    let free_m_per_s = 1.67e-3 * 3_f64.sqrt() / 3.0e-3;
     let mut places_m = Vec::new();
     for _ in 0..1600 {
         actuator.step(0.1, 0.0);
@@ -93,13 +93,13 @@ fn a_servo_moves_and_pushes_no_more_than_its_valve_and_pressure_allow() {
         (mean_m_per_s / free_m_per_s - 1.0).abs() < 0.01,
         "{mean_m_per_s}"
     );
-    // 42 kN hold a spring of 10 MN/m at 4.2 mm, however far the command is.
+    // 63 kN hold a spring of 10 MN/m at 6.3 mm, however far the command is.
     let mut actuator = Actuator::new(&parameters, STEP_S);
     for _ in 0..32_000 {
         let force_n = 10e6 * actuator.displacement_m();
         actuator.step(0.05, force_n);
     }
-    assert!((10e6 * actuator.displacement_m() / 42e3 - 1.0).abs() < 0.02);
+    assert!((10e6 * actuator.displacement_m() / 63e3 - 1.0).abs() < 0.02);
     assert!(actuator.is_saturated());
 }
 
@@ -113,7 +113,7 @@ fn wrong_files_say_what_is_allowed() {
             "limits.stroke_m: 5, allowed: 0.001 to 1",
         ),
         (
-            "piston_area_m2 = 2.0e-3",
+            "piston_area_m2 = 3.0e-3",
             "piston_area_m2 = 0.1",
             "resonance of mass and oil",
         ),
