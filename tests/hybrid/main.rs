@@ -1,5 +1,10 @@
-//! Hybrid tests: compensators, guards and the published benchmark.
+//! Hybrid tests: compensators, guards, the published benchmark, and dampers of the locomotive on a virtual rig.
 
 mod benchmark;
 mod compensators;
+mod coupled;
 mod guard;
+mod locomotive;
+
+/// Page with the tables that these tests make.
+const DOCUMENT: &str = "docs/hybrid.md";
