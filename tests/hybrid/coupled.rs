@@ -32,6 +32,7 @@ pub fn settings(actuator: &ActuatorParameters) -> TransferSettings {
         ),
         energy: EnergySettings::default(),
         tracking_window_s: 1.0,
+        tracking_error: 0.3,
     }
 }
 
@@ -40,6 +41,7 @@ pub fn unguarded(actuator: &ActuatorParameters) -> TransferSettings {
     let mut settings = settings(actuator);
     (settings.guard.error_m, settings.guard.error_s) = (1.0, 10.0);
     settings.guard.limited_s = 10.0;
+    settings.tracking_error = 100.0;
     (settings.energy.largest_share, settings.energy.least_power_w) = (100.0, 1e6);
     settings
 }

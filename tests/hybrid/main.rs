@@ -3,6 +3,7 @@
 mod benchmark;
 mod compensators;
 mod coupled;
+mod faults;
 mod guard;
 mod locomotive;
 

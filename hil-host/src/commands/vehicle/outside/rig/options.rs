@@ -78,6 +78,9 @@ impl RigArguments {
 /// Time after which past motion counts 1/e in the tracking, s.
 const TRACKING_WINDOW_S: f32 = 1.0;
 
+/// Error of the tracking relative to the desired motion that ends a test.
+const TRACKING_ERROR: f32 = 0.3;
+
 /// Guard, energy alarm and tracking for an actuator.
 pub(in crate::commands) fn transfer_settings(
     limits: &ActuatorLimits,
@@ -92,6 +95,7 @@ pub(in crate::commands) fn transfer_settings(
     if without_guard {
         // The widest limits that the guard takes. The stroke and the rate of the command stay limited.
         guard.force_n = 1e7;
+        guard.least_force_n = 0.0;
         (guard.error_m, guard.error_s, guard.limited_s) = (1.0, 10.0, 10.0);
         (guard.plausible_m_per_s, guard.plausible_n_per_s) = (1e3, 1e12);
         (energy.largest_share, energy.least_power_w) = (100.0, 1e6);
@@ -100,5 +104,6 @@ pub(in crate::commands) fn transfer_settings(
         guard,
         energy,
         tracking_window_s: TRACKING_WINDOW_S,
+        tracking_error: if without_guard { 100.0 } else { TRACKING_ERROR },
     }
 }

@@ -3,7 +3,7 @@
 use dashpot_core::hybrid::HybridStatus;
 
 /// Each status bit in words.
-const WORDS: [(HybridStatus, &str); 11] = [
+const WORDS: [(HybridStatus, &str); 12] = [
     (
         HybridStatus::COMMAND_LIMITED,
         "the rate of the command was limited",
@@ -33,6 +33,10 @@ const WORDS: [(HybridStatus, &str); 11] = [
         "the actuator added too much energy to the vehicle",
     ),
     (HybridStatus::REQUESTED, "the end was requested"),
+    (
+        HybridStatus::NO_FORCE,
+        "the specimen moved far without a force",
+    ),
 ];
 
 /// Returns the words for the bits that are set.
