@@ -1,12 +1,18 @@
 //! A virtual rig: an actuator moves a damper, and sensors read its displacement and force.
 
+mod client;
 mod fault;
+mod keeper;
+mod server;
 
+pub use client::RigClient;
 use dashpot_core::hybrid::Measured;
 use dashpot_core::{BuildError, CheckedParameters, Damper, DamperState};
 use dashpot_files::actuator::ActuatorParameters;
 use fault::SensorFaults;
 pub use fault::{Reading, RigFault};
+pub use keeper::{CommandKeeper, KeeperSettings};
+pub use server::RigServer;
 
 use crate::actuator::Actuator;
 use crate::sensor::{Noise, Sensor};
