@@ -2,6 +2,7 @@
 
 pub mod benchmark;
 mod linear;
+pub mod plan;
 mod sensor;
 
 pub use linear::LinearSystem;
