@@ -89,6 +89,12 @@ fn the_locomotive_bears_less_delay_at_high_speed() {
     );
 }
 
+/// The coach has two vertical dampers for each bogie, and its bogie frame bounces on them at 9 Hz.
+#[test]
+fn the_coach_bears_less_than_half_a_period_of_a_vertical_damper() {
+    check_vehicle("coach", 180.0, &[("vertical", Some(41.556)), ("", None)]);
+}
+
 /// The damper put back gives the vehicle its eigenvalues again.
 #[test]
 fn the_vehicle_without_a_damper_and_the_damper_are_the_vehicle() {
