@@ -5,6 +5,7 @@ pub mod benchmark;
 mod compensation;
 mod coupling;
 mod linear;
+pub mod plan;
 pub mod rig;
 mod sensor;
 mod specimen;
