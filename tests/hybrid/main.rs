@@ -6,6 +6,7 @@ mod compensators;
 mod coupled;
 mod delay_equation;
 mod faults;
+mod growth;
 mod guard;
 mod locomotive;
 mod plan;
