@@ -40,7 +40,7 @@ impl Compensation {
         specimen: &Specimen,
         step_s: f64,
     ) -> Result<AnyCompensator, BuildError> {
-        let series = self.series(actuator, specimen, step_s).map(|a| a as f32);
+        let series = Self::series(actuator, specimen, step_s).map(|a| a as f32);
         Ok(match self {
             Self::None => AnyCompensator::None(Uncompensated),
             Self::Polynomial => AnyCompensator::Polynomial(Box::new(PolynomialExtrapolation::new(
@@ -59,13 +59,8 @@ impl Compensation {
         })
     }
 
-    /// Coefficients of the inverse of the actuator, whatever the kind.
-    pub fn series(
-        self,
-        actuator: &ActuatorParameters,
-        specimen: &Specimen,
-        step_s: f64,
-    ) -> [f64; 4] {
+    /// Coefficients of the inverse of the actuator.
+    pub fn series(actuator: &ActuatorParameters, specimen: &Specimen, step_s: f64) -> [f64; 4] {
         inverse_series(
             actuator,
             |s| specimen.dynamic_stiffness(s),

@@ -10,6 +10,11 @@ use crate::compensation::AnyCompensator;
 /// Pole of the filter that estimates the motion of the simulated damper (Hz).
 const MOTION_HZ: f64 = 100.0;
 
+/// Pole of the filter for ticks of `step_s` (Hz).
+pub(crate) fn motion_hz(step_s: f64) -> f64 {
+    MOTION_HZ.min(0.25 / step_s)
+}
+
 /// Couples one simulated damper with a rig, tick by tick.
 ///
 /// A force that is measured at the end of a tick acts on the vehicle at the end of the next one. With compensation the
@@ -44,9 +49,8 @@ impl Coupling {
     ) -> Result<Self, BuildError> {
         let is_compensated = !matches!(compensator, AnyCompensator::None(_));
         let step = step_s as f32;
-        let pole_hz = MOTION_HZ.min(0.25 / step_s) as f32;
         Ok(Self {
-            filter: MotionFilter::new(pole_hz, step)?,
+            filter: MotionFilter::new(motion_hz(step_s) as f32, step)?,
             transfer: TransferSystem::new(compensator, settings, step)?,
             lead_s: if is_compensated { step } else { 0.0 },
             was_placed: false,

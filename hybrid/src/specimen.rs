@@ -34,6 +34,27 @@ impl Specimen {
         }
     }
 
+    /// The damper at the velocity up to `fastest_m_per_s` at which its secant is largest: there the loop of a hybrid
+    /// test has its largest gain.
+    pub fn at_largest_secant(parameters: &CheckedParameters, fastest_m_per_s: f64) -> Self {
+        const VELOCITIES: i32 = 60;
+        let slowest: f64 = 1e-4;
+        let ratio = fastest_m_per_s.max(slowest) / slowest;
+        let at = |number: i32| {
+            let share = f64::from(number) / f64::from(VELOCITIES);
+            Self::at_velocity(parameters, slowest * libm::pow(ratio, share))
+        };
+        let all = (0..=VELOCITIES).map(at);
+        let stiffer = |a: Self, b: Self| {
+            if b.damping_n_s_per_m > a.damping_n_s_per_m {
+                b
+            } else {
+                a
+            }
+        };
+        all.reduce(stiffer).unwrap_or_else(|| at(0))
+    }
+
     /// Dynamic stiffness `k c s/(k + c s)` (N/m) at `s` (rad/s).
     pub fn dynamic_stiffness(&self, s: Complex<f64>) -> Complex<f64> {
         let dashpot = s * self.damping_n_s_per_m;

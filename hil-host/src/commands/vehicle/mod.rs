@@ -18,8 +18,9 @@ use std::path::{Path, PathBuf};
 
 use drive::{Driven, drive};
 use history::History;
-use options::CaseArguments;
+pub(super) use options::CaseArguments;
 use outside::lines::Lines;
+pub(super) use outside::rig::options::Compensate;
 use outside::{Outside, OutsideArguments, Traces};
 use report::Report;
 

@@ -95,6 +95,10 @@ impl OutsideArguments {
             };
         }
         let dampers = self.dampers(case)?;
+        let rig = self.rig()?;
+        if let Some(rig) = &rig {
+            rig.check_margin(case, &dampers)?;
+        }
         let last_s = (case.duration_s / case.step_s).round() * case.step_s;
         let mut recorded = Vec::new();
         let channels = self.recording.channels();
@@ -117,7 +121,7 @@ impl OutsideArguments {
                 recorded,
                 rigs: Vec::new(),
             },
-            rig: self.rig()?,
+            rig,
             is_realtime,
             beside: None,
         }))

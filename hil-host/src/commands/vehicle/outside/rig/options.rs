@@ -2,9 +2,11 @@
 
 use dashpot_core::hybrid::{EnergySettings, GuardSettings, TransferSettings};
 use dashpot_files::actuator::{ActuatorLimits, ActuatorParameters};
+use dashpot_files::case::Case;
 use dashpot_hybrid::Compensation;
 
-use crate::commands::failure::Outcome;
+use crate::commands::failure::{Failure, Outcome};
+use crate::commands::hybrid::plan::LinearVehicle;
 
 /// Compensation of the actuator's delay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -43,6 +45,9 @@ pub(in crate::commands::vehicle) struct RigArguments {
     /// Go on when a limit of the guard is exceeded or the actuator adds energy. For virtual rigs only.
     #[arg(long, requires = "actuator")]
     without_guard: bool,
+    /// Start although the plan leaves no margin; see `dashpot hybrid plan`.
+    #[arg(long, requires = "actuator")]
+    without_margin: bool,
     /// Seed of the noise of virtual rigs.
     #[arg(long, default_value_t = 1, requires = "actuator", value_name = "SEED")]
     rig_seed: u64,
@@ -54,6 +59,7 @@ pub(in crate::commands::vehicle) struct RigOptions {
     pub(super) actuator: ActuatorParameters,
     pub(super) compensate: Compensate,
     pub(super) without_guard: bool,
+    without_margin: bool,
     pub(super) seed: u64,
 }
 
@@ -70,8 +76,42 @@ impl RigArguments {
             actuator: ActuatorParameters::load(name)?,
             compensate: self.compensate,
             without_guard: self.without_guard,
+            without_margin: self.without_margin,
             seed: self.rig_seed,
         }))
+    }
+}
+
+impl RigOptions {
+    /// Checks that the loop with each damper is stable and bears a further delay of one tick.
+    ///
+    /// # Errors
+    /// A damper has no margin, and `--without-margin` is not given.
+    pub(in crate::commands::vehicle) fn check_margin(
+        &self,
+        case: &Case,
+        dampers: &[usize],
+    ) -> Outcome<()> {
+        if self.without_margin {
+            return Ok(());
+        }
+        let vehicle = LinearVehicle::new(case)?;
+        for (damper, element) in case.vehicle.dampers().enumerate() {
+            if !dampers.contains(&damper) {
+                continue;
+            }
+            let margin = vehicle.margin(damper, &self.actuator, self.compensate.into());
+            if !margin.bears(case.step_s) {
+                return Err(Failure::new(format!(
+                    "{} on {}: no margin ({}); see `dashpot hybrid plan`, or start all the same with \
+                     --without-margin",
+                    element.name,
+                    self.actuator.name,
+                    margin.text()
+                )));
+            }
+        }
+        Ok(())
     }
 }
 
