@@ -14,12 +14,13 @@ use crate::overrides::explain;
 use crate::shipped::{Found, Shipped};
 
 /// Built-in actuators: name and text.
-pub const ACTUATORS: [(&str, &str); 3] = [
+pub const ACTUATORS: [(&str, &str); 4] = [
     ("servo", include_str!("../../data/actuators/servo.toml")),
     (
         "second-order",
         include_str!("../../data/actuators/second-order.toml"),
     ),
+    ("slow", include_str!("../../data/actuators/slow.toml")),
     (
         "benchmark",
         include_str!("../../data/actuators/benchmark.toml"),

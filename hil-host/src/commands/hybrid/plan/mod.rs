@@ -37,7 +37,7 @@ pub(super) struct PlanArguments {
     /// Damper that is to be on the rig [default: all]. May be repeated.
     #[arg(long = "outside", value_name = "DAMPER")]
     outside: Vec<String>,
-    /// Actuator: built-in name (servo, second-order, benchmark) or TOML file.
+    /// Actuator: built-in name (servo, second-order, slow, benchmark) or TOML file.
     #[arg(long, value_name = "ACTUATOR")]
     actuator: String,
     /// Compensation of the delay of the actuator.

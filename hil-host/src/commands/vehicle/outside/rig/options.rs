@@ -35,7 +35,7 @@ impl From<Compensate> for Compensation {
 /// The actuator between the vehicle and an external damper.
 #[derive(Debug, Clone, clap::Args)]
 pub(in crate::commands::vehicle) struct RigArguments {
-    /// Actuator that moves the external dampers: built-in name (servo, second-order, benchmark) or TOML file. Dampers
+    /// Actuator that moves the external dampers: built-in name (servo, second-order, slow, benchmark) or TOML file. Dampers
     /// on `desk` are then mounted on a virtual rig.
     #[arg(long, requires = "choices", value_name = "ACTUATOR")]
     actuator: Option<String>,
