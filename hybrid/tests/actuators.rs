@@ -141,5 +141,8 @@ fn wrong_files_say_what_is_allowed() {
         );
     }
     let error = ActuatorParameters::load("serwo").unwrap_err().to_string();
-    assert!(error.contains("servo, second-order, slow, benchmark"), "{error}");
+    assert!(
+        error.contains("servo, second-order, slow, benchmark"),
+        "{error}"
+    );
 }

@@ -3,6 +3,7 @@
 mod benchmark;
 pub(super) mod plan;
 mod record;
+mod rig;
 
 use super::failure::Outcome;
 
@@ -16,6 +17,7 @@ pub struct HybridArguments {
 #[derive(Debug, Clone, clap::Subcommand)]
 enum Action {
     Benchmark(benchmark::BenchmarkArguments),
+    Rig(rig::RigArguments),
     Plan(Box<plan::PlanArguments>),
 }
 
@@ -26,6 +28,7 @@ enum Action {
 pub fn run(arguments: &HybridArguments) -> Outcome<()> {
     match &arguments.action {
         Action::Benchmark(arguments) => benchmark::run(arguments),
+        Action::Rig(arguments) => rig::run(arguments),
         Action::Plan(arguments) => plan::run(arguments),
     }
 }

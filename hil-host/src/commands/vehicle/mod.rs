@@ -20,6 +20,7 @@ use drive::{Driven, drive};
 use history::History;
 pub(super) use options::CaseArguments;
 use outside::lines::Lines;
+pub(super) use outside::rig::Datagrams;
 pub(super) use outside::rig::options::Compensate;
 use outside::{Outside, OutsideArguments, Traces};
 use report::Report;

@@ -21,6 +21,8 @@ pub(super) enum Source {
     Desk,
     /// A target.
     Link(LinkChoice),
+    /// A rig behind UDP, at HOST:PORT.
+    Rig(String),
     /// A recorded force.
     File(PathBuf),
 }
@@ -45,6 +47,8 @@ impl FromStr for Choice {
         let is_link = name == "qemu" || LINKS.iter().any(|start| name.starts_with(start));
         let source = if name == "desk" {
             Source::Desk
+        } else if let Some(address) = name.strip_prefix("udp:") {
+            Source::Rig(address.to_owned())
         } else if is_link {
             let link = name.parse();
             Source::Link(link.map_err(|allowed: String| format!("{allowed}, desk, a file"))?)

@@ -70,7 +70,7 @@ impl Line {
             Source::Link(link) => options
                 .open(link)
                 .map_err(|error| refused(name, &error.into()))?,
-            Source::Desk | Source::File(_) => desk(case, &dampers)?,
+            Source::Desk | Source::Rig(_) | Source::File(_) => desk(case, &dampers)?,
         };
         Self::start(name, link, dampers, case, waits)
     }

@@ -29,7 +29,8 @@ use dashpot_vehicle_run::{Ending, Run, outside_index};
 /// External dampers and the options of their links.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct OutsideArguments {
-    /// Take the force of one damper from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE) or from a
+    /// Take the force of one damper from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE), from a rig
+    /// (udp:HOST:PORT, with --actuator) or from a
     /// recording (CSV, MDF4 or Parquet) with the channels time_s and force_n. A target is loaded with the damper's
     /// parameters. May be repeated.
     #[arg(
@@ -134,11 +135,21 @@ impl OutsideArguments {
     fn rig(&self) -> Outcome<Option<RigOptions>> {
         let rig = self.rig.read()?;
         let mut linked = self.choices.iter();
-        match linked.find(|choice| rig.is_some() && choice.source != Source::Desk) {
+        let is_behind_actuator = |source: &Source| matches!(source, Source::Desk | Source::Rig(_));
+        let wrong = linked.find(|choice| match &rig {
+            Some(_) => !is_behind_actuator(&choice.source),
+            None => matches!(choice.source, Source::Rig(_)),
+        });
+        match wrong {
             None => Ok(rig),
+            Some(choice) if rig.is_none() => Err(Failure::wrong_use(format!(
+                "--outside \"{}={}\": a rig needs --actuator, which tells how its actuator follows",
+                choice.damper, choice.name
+            ))),
             Some(choice) => Err(Failure::wrong_use(format!(
-                "--outside \"{}={}\": an actuator moves a damper, allowed with --actuator: {}=desk",
-                choice.damper, choice.name, choice.damper
+                "--outside \"{0}={1}\": an actuator moves a damper, allowed with --actuator: {0}=desk, \
+                 {0}=udp:HOST:PORT",
+                choice.damper, choice.name
             ))),
         }
     }
@@ -179,7 +190,13 @@ impl OutsideArguments {
             }
             behind.push(*damper);
             if let Some(rig) = &outside.rig {
-                outside.lines.rigs.push(RigLine::new(rig, *damper, case)?);
+                let address = match &choice.source {
+                    Source::Rig(address) => Some(address.as_str()),
+                    _ => None,
+                };
+                let hold = (outside.is_realtime, self.hold_ticks);
+                let line = RigLine::new(rig, *damper, case, address, hold)?;
+                outside.lines.rigs.push(line);
                 continue;
             }
             match links
@@ -266,7 +283,8 @@ impl Outside {
         let mut report = OutsideReport::new(&self.choices, &silences, case, targets, effect);
         let histories = self.lines.recorded.iter().map(|(_, history)| history);
         report.add_unended(histories);
-        let rigs = self.lines.rigs.into_iter().map(RigLine::finish);
+        let rigs = self.lines.rigs.into_iter();
+        let rigs = rigs.map(|rig| rig.finish(run.time_s()));
         let (rig_reports, rigs): (Vec<_>, Vec<Samples>) = rigs.unzip();
         report.rigs = rig_reports;
         Ok((report, Traces { forces, rigs }))

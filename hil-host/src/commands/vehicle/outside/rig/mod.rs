@@ -1,19 +1,24 @@
 //! An external damper on a rig, whose actuator follows the vehicle.
 
+mod end;
 pub(in crate::commands) mod options;
 pub(in crate::commands) mod reasons;
+mod remote;
 mod report;
 mod samples;
 mod section;
 
-use dashpot_core::hybrid::{HybridStatus, Measured};
+use dashpot_core::hybrid::HybridStatus;
 use dashpot_files::case::Case;
 use dashpot_hybrid::rig::VirtualRig;
 use dashpot_hybrid::{Coupling, Specimen};
 use dashpot_vehicle_run::{Ending, Run};
 
+use end::RigEnd;
 pub(super) use options::{RigArguments, RigOptions};
 use reasons::reasons;
+use remote::RemoteRig;
+pub(in crate::commands) use report::Datagrams;
 pub(in crate::commands::vehicle) use report::RigReport;
 use samples::{MAX_SAMPLES, Sample};
 pub(in crate::commands::vehicle) use samples::{Samples, write};
@@ -25,25 +30,32 @@ use crate::commands::failure::{Failure, Outcome};
 /// Velocity at which the specimen is linear for its compensator, m/s.
 const SMALL_VELOCITY_M_PER_S: f64 = 1e-3;
 
-/// A damper on a virtual rig.
+/// A damper on a rig.
 pub(super) struct RigLine {
     name: String,
     damper: usize,
     options: RigOptions,
     coupling: Coupling,
-    rig: VirtualRig,
-    measured: Option<Measured>,
+    rig: RigEnd,
+    is_over: bool,
     samples: Samples,
     /// Time at which the guard acted, s.
     guarded_s: Option<f64>,
 }
 
 impl RigLine {
-    /// Mounts a damper of the vehicle on a virtual rig.
+    /// Mounts a damper of the vehicle on the rig at `address` (HOST:PORT), or on a virtual one in this process.
     ///
     /// # Errors
-    /// A setting is outside its range for the step of the case.
-    pub(super) fn new(options: &RigOptions, damper: usize, case: &Case) -> Outcome<Self> {
+    /// A setting is outside its range for the step of the case, or the rig does not answer.
+    pub(super) fn new(
+        options: &RigOptions,
+        damper: usize,
+        case: &Case,
+        address: Option<&str>,
+        hold: (bool, Option<u64>),
+    ) -> Outcome<Self> {
+        let (is_realtime, hold_ticks) = hold;
         let element = case.vehicle.dampers().nth(damper);
         let name = element.map_or("", |element| element.name.as_str());
         let parameters = case
@@ -58,16 +70,30 @@ impl RigLine {
         let compensator = compensation
             .build(actuator, &specimen, case.step_s)
             .map_err(refused)?;
-        let settings = options::transfer_settings(&actuator.limits, options.without_guard);
-        let coupling = Coupling::new(compensator, &settings, case.step_s).map_err(refused)?;
-        let mut rig =
-            VirtualRig::new(actuator, &parameters, case.step_s, options.seed).map_err(refused)?;
+        let mut settings = options::transfer_settings(&actuator.limits, options.without_guard);
+        if let Some(ticks) = hold_ticks {
+            settings.guard.age_s = (ticks as f64 * case.step_s) as f32;
+        }
+        let mut coupling = Coupling::new(compensator, &settings, case.step_s).map_err(refused)?;
+        let rig = match address {
+            None => {
+                let rig = VirtualRig::new(actuator, &parameters, case.step_s, options.seed);
+                let mut rig = rig.map_err(refused)?;
+                let first = rig.tick(0.0);
+                RigEnd::Virtual(Box::new(rig), first)
+            }
+            Some(address) => {
+                let (rig, first) = RemoteRig::open(address, case.step_s, is_realtime)?;
+                coupling.transfer().place(first.displacement_m);
+                RigEnd::Remote(rig)
+            }
+        };
         Ok(Self {
             name: name.to_owned(),
             damper,
             coupling,
-            measured: rig.tick(0.0),
             rig,
+            is_over: false,
             options: options.clone(),
             samples: Samples {
                 damper: name.to_owned(),
@@ -84,7 +110,11 @@ impl RigLine {
     pub(super) fn exchange(&mut self, run: &mut Run) -> Option<Ending> {
         let time_s = run.time_s();
         let displacement_m = run.state().damper_displacements_m()[self.damper];
-        let tick = self.coupling.tick(displacement_m, self.measured);
+        let measured = self.rig.receive();
+        if self.rig.is_held() {
+            self.coupling.transfer().guard().end(HybridStatus::RIG_HELD);
+        }
+        let tick = self.coupling.tick(displacement_m, measured);
         let command = tick.command;
         // A guard passes finite forces only.
         let _ = set_force_n(run, self.damper, f64::from(command.force_n));
@@ -94,9 +124,7 @@ impl RigLine {
             time_s,
             desired_m: tick.desired_m,
             command_m: command.command_m,
-            measured_m: self
-                .measured
-                .map_or(f32::NAN, |measured| measured.displacement_m),
+            measured_m: measured.map_or(f32::NAN, |measured| measured.displacement_m),
             force_n: command.force_n,
             delay_s: tracking.delay_s,
             amplitude: tracking.amplitude,
@@ -111,16 +139,17 @@ impl RigLine {
         if !ending.is_empty() {
             self.guarded_s.get_or_insert(time_s);
         }
-        let is_over = transfer.guard().is_held();
-        self.measured = self.rig.tick(f64::from(command.command_m));
-        is_over.then(|| {
+        self.is_over = transfer.guard().is_held();
+        self.rig.send(time_s, command.command_m);
+        self.is_over.then(|| {
             let reasons = reasons(ending).into_iter().map(str::to_owned).collect();
             run.guard_ended(&self.name, reasons, self.guarded_s.unwrap_or(time_s))
         })
     }
 
-    /// Returns the report and the signals.
-    pub(super) fn finish(self) -> (RigReport, Samples) {
+    /// Ends the session; returns the report and the signals.
+    pub(super) fn finish(mut self, time_s: f64) -> (RigReport, Samples) {
+        self.rig.stop(time_s);
         (RigReport::new(&self), self.samples)
     }
 }

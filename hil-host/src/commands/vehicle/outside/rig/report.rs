@@ -1,6 +1,7 @@
 //! Report on a rig.
 
 use dashpot_core::hybrid::HybridStatus;
+use dashpot_core::hybrid::wire::InboxCounts;
 use serde::Serialize;
 
 use super::RigLine;
@@ -26,13 +27,56 @@ pub(in crate::commands::vehicle) struct RigReport {
     largest_command_rate_m_per_s: f64,
     largest_force_n: f64,
     missing_readings: u64,
-    saturated_ticks: u64,
+    /// `None` if the rig does not tell.
+    saturated_ticks: Option<u64>,
+    /// Datagrams of the rig; `None` for a rig in this process.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    datagrams: Option<Datagrams>,
     ticks: u64,
     is_guarded: bool,
     /// Time at which the guard acted, s; `None` if it did not.
     guarded_s: Option<f64>,
     /// What the guard saw.
     status: Vec<&'static str>,
+}
+
+/// Counts of datagrams.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub(in crate::commands) struct Datagrams {
+    fresh: u32,
+    lost: u32,
+    late: u32,
+    repeated: u32,
+    foreign: u32,
+}
+
+impl From<InboxCounts> for Datagrams {
+    fn from(counts: InboxCounts) -> Self {
+        let InboxCounts {
+            fresh,
+            lost,
+            late,
+            repeated,
+            foreign,
+        } = counts;
+        Self {
+            fresh,
+            lost,
+            late,
+            repeated,
+            foreign,
+        }
+    }
+}
+
+impl Datagrams {
+    /// Describes the counts in one line.
+    pub(in crate::commands) fn text(&self) -> String {
+        format!(
+            "{} in order, {} lost, {} late, {} repeated, {} foreign",
+            self.fresh, self.lost, self.late, self.repeated, self.foreign
+        )
+    }
 }
 
 impl RigReport {
@@ -91,6 +135,7 @@ impl RigReport {
             largest_force_n: largest(&|row| row.force_n),
             missing_readings: rows.iter().filter(|row| row.measured_m.is_nan()).count() as u64,
             saturated_ticks: line.rig.saturated_ticks(),
+            datagrams: line.rig.counts().map(Datagrams::from),
             ticks: rows.len() as u64,
             is_guarded: !line.options.without_guard,
             guarded_s: line.guarded_s,
@@ -109,11 +154,21 @@ impl RigReport {
             [] => String::new(),
             some => format!("; {}", some.join("; ")),
         };
-        vec![
+        let place = match self.datagrams {
+            None => "a virtual rig",
+            Some(_) => "a rig behind UDP",
+        };
+        let at_limit = self.saturated_ticks.map_or_else(String::new, |ticks| {
+            format!(
+                "; {ticks} ticks of {} at a limit of the actuator",
+                self.ticks
+            )
+        });
+        let mut lines = vec![
             (
                 self.damper.clone(),
                 format!(
-                    "on a virtual rig: {}, compensation: {}",
+                    "on {place}: {}, compensation: {}",
                     self.actuator, self.compensation
                 ),
             ),
@@ -130,12 +185,10 @@ impl RigReport {
             (
                 "  command".into(),
                 format!(
-                    "at most {:.2} mm and {:.3} m/s; force at most {:.2} kN; {} ticks of {} at a limit of the actuator",
+                    "at most {:.2} mm and {:.3} m/s; force at most {:.2} kN{at_limit}",
                     1e3 * self.largest_command_m,
                     self.largest_command_rate_m_per_s,
-                    1e-3 * self.largest_force_n,
-                    self.saturated_ticks,
-                    self.ticks
+                    1e-3 * self.largest_force_n
                 ),
             ),
             (
@@ -143,6 +196,16 @@ impl RigReport {
                 format!("{:.2} J added by the actuator", self.added_energy_j),
             ),
             ("  guard".into(), format!("{guard}{seen}")),
-        ]
+        ];
+        if let Some(datagrams) = &self.datagrams {
+            let text = format!(
+                "{}; no reading in {} ticks of {}",
+                datagrams.text(),
+                self.missing_readings,
+                self.ticks
+            );
+            lines.push(("  answers".into(), text));
+        }
+        lines
     }
 }

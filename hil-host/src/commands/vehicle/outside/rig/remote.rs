@@ -1,0 +1,138 @@
+//! A rig in another process or on another machine, behind UDP.
+
+use std::io::ErrorKind;
+use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
+use std::time::{Duration, Instant};
+
+use dashpot_core::hybrid::Measured;
+use dashpot_core::hybrid::wire::{FRAME_BYTES, Frame, InboxCounts};
+use dashpot_hybrid::rig::RigClient;
+
+use crate::commands::failure::{Failure, Outcome};
+
+/// How long the rig may take for its first answer.
+const FIRST_ANSWER: Duration = Duration::from_secs(2);
+/// How long a run that is not paced waits for the answer of a tick.
+const ANSWER: Duration = Duration::from_millis(500);
+/// Time between two first commands.
+const RETRY: Duration = Duration::from_millis(2);
+/// Commands that end a session, because each can be lost.
+const STOPS: u32 = 5;
+
+/// A rig behind UDP.
+pub(super) struct RemoteRig {
+    name: String,
+    socket: UdpSocket,
+    client: RigClient,
+    /// The vehicle waits for answers if it does not run in real time.
+    is_realtime: bool,
+    failed_sends: u64,
+}
+
+impl RemoteRig {
+    /// Opens a session with the rig at `address` (HOST:PORT); returns it and the first readings.
+    ///
+    /// # Errors
+    /// The address is invalid, or the rig does not answer.
+    pub(super) fn open(address: &str, step_s: f64, is_realtime: bool) -> Outcome<(Self, Measured)> {
+        let failed = |error: std::io::Error| Failure::new(format!("udp:{address}: {error}"));
+        let mut addresses = address.to_socket_addrs().map_err(|error| {
+            Failure::wrong_use(format!("udp:{address}: {error}; allowed: udp:HOST:PORT"))
+        })?;
+        let remote = addresses.next();
+        let remote = remote.ok_or_else(|| Failure::new(format!("udp:{address}: no address")))?;
+        let local: SocketAddr = match remote {
+            SocketAddr::V4(_) => (Ipv4Addr::UNSPECIFIED, 0).into(),
+            SocketAddr::V6(_) => (Ipv6Addr::UNSPECIFIED, 0).into(),
+        };
+        let socket = UdpSocket::bind(local).map_err(failed)?;
+        // Datagrams of other senders do not even arrive.
+        socket.connect(remote).map_err(failed)?;
+        let mut rig = Self {
+            name: format!("udp:{address}"),
+            socket,
+            client: RigClient::new(fastrand::u32(1..), step_s),
+            is_realtime,
+            failed_sends: 0,
+        };
+        rig.socket.set_read_timeout(Some(RETRY)).map_err(failed)?;
+        let started = Instant::now();
+        loop {
+            rig.send(0.0, 0.0);
+            if let Some(first) = rig.receive() {
+                rig.socket.set_read_timeout(Some(ANSWER)).map_err(failed)?;
+                rig.socket.set_nonblocking(is_realtime).map_err(failed)?;
+                return Ok((rig, first));
+            }
+            if started.elapsed() > FIRST_ANSWER {
+                return Err(Failure::new(format!(
+                    "{}: no answer within {} s; is the rig running? `dashpot hybrid rig` starts a virtual one",
+                    rig.name,
+                    FIRST_ANSWER.as_secs()
+                )));
+            }
+        }
+    }
+
+    /// Sends the command (m) of a tick.
+    pub(super) fn send(&mut self, time_s: f64, command_m: f32) {
+        let frame = self.client.command(time_s, command_m);
+        self.send_frame(&frame);
+    }
+
+    fn send_frame(&mut self, frame: &Frame) {
+        // A datagram that cannot be sent is lost, like any other.
+        let sent = self.socket.send(&frame.to_bytes());
+        self.failed_sends += u64::from(sent.is_err());
+    }
+
+    /// Returns the newest readings since the last call. In real time it takes what has arrived; otherwise it waits for
+    /// the answer to the last command.
+    pub(super) fn receive(&mut self) -> Option<Measured> {
+        let mut newest = None;
+        // One byte more than a datagram has shows that one is too long.
+        let mut bytes = [0; FRAME_BYTES + 1];
+        let started = Instant::now();
+        loop {
+            match self.socket.recv(&mut bytes) {
+                Ok(count) => {
+                    let taken = self.client.take(&bytes[..count]);
+                    newest = taken.map(|(measured, _)| measured).or(newest);
+                    let is_last =
+                        taken.is_some_and(|(_, answers)| answers == self.client.sequence());
+                    if !self.is_realtime && (is_last || started.elapsed() > ANSWER) {
+                        return newest;
+                    }
+                }
+                // The other end was not there for a while: its readings are missing.
+                Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
+                    if started.elapsed() > ANSWER {
+                        return newest;
+                    }
+                    if self.is_realtime || !self.client.is_answered() {
+                        return newest;
+                    }
+                }
+                Err(_) => return newest,
+            }
+        }
+    }
+
+    /// True if the rig holds its displacement and follows no command.
+    pub(super) fn is_held(&self) -> bool {
+        self.client.is_held()
+    }
+
+    /// Ends the session.
+    pub(super) fn stop(&mut self, time_s: f64) {
+        for _ in 0..STOPS {
+            let frame = self.client.stop(time_s);
+            self.send_frame(&frame);
+        }
+    }
+
+    /// Counts of the answers.
+    pub(super) fn counts(&self) -> InboxCounts {
+        self.client.counts()
+    }
+}
