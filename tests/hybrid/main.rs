@@ -3,3 +3,4 @@
 mod benchmark;
 mod compensators;
 mod guard;
+mod sequence;
