@@ -1,6 +1,7 @@
 //! `dashpot hybrid`: tests in which an actuator moves a real damper and the rest is simulated.
 
 mod benchmark;
+mod export;
 mod record;
 
 use super::failure::Outcome;
@@ -15,6 +16,7 @@ pub struct HybridArguments {
 #[derive(Debug, Clone, clap::Subcommand)]
 enum Action {
     Benchmark(benchmark::BenchmarkArguments),
+    Export(export::ExportArguments),
 }
 
 /// Runs the command.
@@ -24,5 +26,6 @@ enum Action {
 pub fn run(arguments: &HybridArguments) -> Outcome<()> {
     match &arguments.action {
         Action::Benchmark(arguments) => benchmark::run(arguments),
+        Action::Export(arguments) => export::run(arguments),
     }
 }
