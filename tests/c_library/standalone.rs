@@ -367,7 +367,7 @@ fn options_that_would_change_the_bits_are_errors() {
 }
 
 /// Names that the object file of an exported source leaves undefined.
-fn left_to_others(compiler: &mut Command, source: &str, folder: &Path) -> Vec<String> {
+pub fn left_to_others(compiler: &mut Command, source: &str, folder: &Path) -> Vec<String> {
     use object::{Object, ObjectSymbol};
     let object = folder.join("object.o");
     compiler

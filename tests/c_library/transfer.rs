@@ -10,9 +10,9 @@ use dashpot::document;
 use dashpot::transfer_sequence::{Row, run};
 use dashpot_core::hybrid::GuardAction;
 use dashpot_export::{transfer_header, transfer_source};
-use xtask::tools::{CLANG, GCC, GXX, have};
+use xtask::tools::{ARM_GCC, CLANG, GCC, GXX, have};
 
-use crate::standalone::{block, compiler};
+use crate::standalone::{block, compiler, left_to_others};
 
 const DRIVER: &str = include_str!("../support/standalone/transfer.c");
 /// Bytes that the driver writes for a tick: motion, command with status and phase, and reading.
@@ -175,4 +175,26 @@ fn the_documents_controller_prints_what_it_says() {
     let output = succeed(&mut Command::new(folder.join("main")));
     let printed = String::from_utf8_lossy(&output.stdout);
     assert_eq!(printed, block(&text, "It prints"));
+}
+
+#[test]
+fn it_needs_no_library_on_a_processor_without_an_operating_system() {
+    if !have(&[ARM_GCC], "what the transfer system in portable C needs") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    write_sources(folder.path(), "TRANSFER");
+    for processor in [
+        &["-mcpu=cortex-m4"][..],
+        &["-mcpu=cortex-m7", "-mfpu=fpv5-sp-d16", "-mfloat-abi=hard"],
+    ] {
+        let mut compiler = compiler(ARM_GCC, &["-O2", "-mthumb"]);
+        compiler.args(processor);
+        let mut left = left_to_others(&mut compiler, "transfer.c", folder.path());
+        // The compiler itself supplies arithmetic that the processor lacks, and copies of structures.
+        left.retain(|name| {
+            !name.starts_with("__aeabi_") && !["memcpy", "memset"].contains(&&**name)
+        });
+        assert!(left.is_empty(), "{processor:?}: {left:?}");
+    }
 }

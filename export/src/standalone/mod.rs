@@ -1,10 +1,10 @@
 //! A damper in C99 without a library: step and constants in one header and one source.
 //!
 //! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. `bank.c` adds the
-//! step of several dampers for FMUs. `start.c` and `end.c` are around every source: they keep a compiler from fusing and
-//! reordering operations. In names that
-//! start with `prefix_` or `PREFIX_`, the name of the constant replaces the prefix, so that several dampers link into
-//! one program. The constants are separate from the step, so the step works with any damper of the same scalar type.
+//! step of several dampers for FMUs. `start.c` and `end.c` are around every source: they keep a compiler from fusing
+//! and reordering operations. In names that start with `prefix_` or `PREFIX_`, the name of the constant replaces the
+//! prefix, so that several dampers link into one program. The constants are separate from the step, so the step works
+//! with any damper of the same scalar type.
 
 mod constants;
 mod digest;

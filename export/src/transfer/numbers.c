@@ -53,8 +53,15 @@ PREFIX_INLINE void prefix_fade(float *mean, float fading, float value)
     *mean = *mean + prefix_product(fading, value - *mean);
 }
 
-/* The exponential of a number from -90 to 0. A C library may round it otherwise than the core, whose method this is
- * (FreeBSD, msun). */
+/* The next three functions are those that the core uses, because a C library may round otherwise. They come from
+ * FreeBSD's msun, through musl and Rust's libm:
+ *
+ * Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
+ *
+ * Developed at SunPro, a Sun Microsystems, Inc. business. Permission to use, copy, modify, and distribute this software
+ * is freely granted, provided that this notice is preserved. */
+
+/* The exponential of a number from -87 to 0. */
 static float prefix_exponential(float x)
 {
     const float half = 0.5f, inverse_ln2 = 1.4426950216f, ln2_high = 6.9314575195e-01f, ln2_low = 1.4286067653e-06f;
@@ -80,7 +87,7 @@ static float prefix_exponential(float x)
     return power == 0 ? y : y * prefix_real_of((uint32_t)(power + 127) << 23);
 }
 
-/* The arc tangent of a positive number, also the core's. */
+/* The arc tangent of a positive number. */
 static float prefix_arc_tangent(float x)
 {
     static const float highs[4] = {4.6364760399e-01f, 7.8539812565e-01f, 9.8279368877e-01f, 1.5707962513e+00f};
