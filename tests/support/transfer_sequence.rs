@@ -62,11 +62,65 @@ pub fn adaptive() -> AdaptiveSettings {
     AdaptiveSettings::new([1.0, 0.008, 3.2e-5, 8.5e-8], 0.006)
 }
 
+/// Input of a tick: desired displacement (m), measured displacement (m) and force (N), and whether the program ends the
+/// test before it.
+type Input = (f32, Option<[f32; 2]>, bool);
+
 /// Runs the test with the core.
 ///
 /// # Errors
 /// None, as long as the settings are allowed.
 pub fn run(action: GuardAction) -> Result<Vec<Row>, BuildError> {
+    ticks(action, |tick, [reached_m, velocity_m_per_s], random| {
+        let noise = f64::from(random >> 8) / 16_777_216.0 - 0.5;
+        let sensed = [
+            reached_m + 2e-6 * noise,
+            20e3 * velocity_m_per_s + 20.0 * noise,
+        ];
+        let measured = measured(tick, sensed, noise).map(|pair| pair.map(|value| value as f32));
+        let ends = tick == 12 * SPAN + FAULT_AT;
+        (desired_m(tick) as f32, measured, ends)
+    })
+}
+
+/// Runs a test in which any number may be any bits, between ticks that are as they should be.
+///
+/// # Errors
+/// None, as long as the settings are allowed.
+pub fn run_wild(action: GuardAction) -> Result<Vec<Row>, BuildError> {
+    let mut bits = 5_u64;
+    // Upper bits of a congruential generator (Knuth, MMIX).
+    let mut draw = move || {
+        bits = bits
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (bits >> 32) as u32
+    };
+    ticks(
+        action,
+        move |tick, [reached_m, velocity_m_per_s], random| {
+            let noise = f64::from(random >> 8) / 16_777_216.0 - 0.5;
+            let wanted = [
+                0.5 * desired_m(tick),
+                reached_m + 2e-6 * noise,
+                20e3 * velocity_m_per_s + 20.0 * noise,
+            ];
+            let [desired_m, displacement_m, force_n] = wanted.map(|value| match draw() % 2000 {
+                0 => f32::from_bits(draw()),
+                1 => (value + 0.02 * noise) as f32,
+                _ => value as f32,
+            });
+            let measured = (draw() % 100 > 0).then_some([displacement_m, force_n]);
+            (desired_m, measured, draw() % 2000 == 0)
+        },
+    )
+}
+
+/// Runs a test; `input` gets the tick, the displacement (m) and velocity (m/s) of the actuator, and a random number.
+fn ticks(
+    action: GuardAction,
+    mut input: impl FnMut(usize, [f64; 2], u32) -> Input,
+) -> Result<Vec<Row>, BuildError> {
     let compensator = AdaptiveTimeSeries::new(&adaptive(), STEP_S)?;
     let mut system = TransferSystem::new(compensator, &settings(action), STEP_S)?;
     let mut filter = MotionFilter::new(FILTER_POLE_HZ, STEP_S)?;
@@ -74,14 +128,7 @@ pub fn run(action: GuardAction) -> Result<Vec<Row>, BuildError> {
     let mut rows = Vec::with_capacity(FAULTS * SPAN);
     for tick in 0..FAULTS * SPAN {
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        let noise = f64::from(random >> 8) / 16_777_216.0 - 0.5;
-        let desired_m = desired_m(tick) as f32;
-        let sensed = [
-            reached_m + 2e-6 * noise,
-            20e3 * velocity_m_per_s + 20.0 * noise,
-        ];
-        let measured = measured(tick, sensed, noise).map(|pair| pair.map(|value| value as f32));
-        let ends = tick == 12 * SPAN + FAULT_AT;
+        let (desired_m, measured, ends) = input(tick, [reached_m, velocity_m_per_s], random);
         if ends {
             system.guard().end(HybridStatus::REQUESTED);
         }
