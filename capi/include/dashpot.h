@@ -123,7 +123,7 @@
 /**
  * Size of a transfer system in units of 8 bytes. A 64-bit processor needs all of it, a 32-bit processor less.
  */
-#define DASHPOT_TRANSFER_UNITS 422
+#define DASHPOT_TRANSFER_UNITS 426
 
 /**
  * Size of a motion filter (words).
@@ -206,7 +206,7 @@
 #define DASHPOT_HYBRID_FORCE 16
 
 /**
- * Measured and desired displacement were too far apart for too long.
+ * Measured and desired displacement were too far apart for too long, or for a large part of the motion.
  */
 #define DASHPOT_HYBRID_TRACKING 32
 
@@ -234,6 +234,11 @@
  * `dashpot_transfer_end` was called.
  */
 #define DASHPOT_HYBRID_REQUESTED 1024
+
+/**
+ * The specimen moved far without a force worth the name: it is broken, or not connected.
+ */
+#define DASHPOT_HYBRID_NO_FORCE 2048
 
 /**
  * Number of calls of `dashpot_check_slice` that check a whole damper.
@@ -679,6 +684,15 @@ typedef struct {
      */
     float stuck_travel_m;
     /**
+     * Magnitude of the measured force below which the specimen counts as one without force (N), 0 to 1e7; 0 switches
+     * the check off.
+     */
+    float least_force_n;
+    /**
+     * Travel of the command (m) during which the specimen may be without force, 1e-6 to 100.
+     */
+    float without_force_m;
+    /**
      * Time in which the command comes to rest (s), 0.01 to 10.
      */
     float ramp_s;
@@ -755,6 +769,10 @@ typedef struct {
      * Time after which past motion counts 1/e in the tracking (s), 0.05 to 1000.
      */
     float tracking_window_s;
+    /**
+     * Error of the tracking over that window that ends a test, relative to the desired motion (1), 0.01 to 100.
+     */
+    float tracking_error;
 } dashpot_transfer_settings;
 
 /**

@@ -16,7 +16,7 @@ const STEP_S: f32 = 1e-3;
 const DELAY_S: f32 = 0.008;
 /// Ticks from one fault to the next, and of the whole test; under Miri, which is slow, only the first faults.
 const SPAN: u32 = 1000;
-const TICKS: u32 = if cfg!(miri) { 300 } else { 12 * SPAN };
+const TICKS: u32 = if cfg!(miri) { 300 } else { 13 * SPAN };
 /// Tick of a span at which its fault begins; the desired displacement is 0 there.
 const FAULT_AT: u32 = 600;
 
@@ -33,6 +33,7 @@ fn settings(kind: u32, action: u32) -> DashpotTransferSettings {
         settings.guard.action = action;
         settings.guard.limited_s = 0.02;
         settings.guard.approach_m_per_s = 0.2;
+        settings.guard.without_force_m = 0.02;
         settings.energy.window_s = 0.3;
         settings
     }
@@ -45,6 +46,7 @@ fn core_settings(action: GuardAction) -> TransferSettings {
             action,
             limited_s: 0.02,
             approach_m_per_s: 0.2,
+            without_force_m: 0.02,
             ..GuardSettings::new(0.05, 0.5, 20e3)
         },
         energy: EnergySettings {
@@ -52,6 +54,7 @@ fn core_settings(action: GuardAction) -> TransferSettings {
             ..EnergySettings::default()
         },
         tracking_window_s: 1.0,
+        tracking_error: 0.3,
     }
 }
 
@@ -120,6 +123,7 @@ fn with_fault(tick: u32, measured: Measured) -> Option<Measured> {
         6 => (-displacement_m, force_n),
         7 => (displacement_m, 25e3),
         11 => (1.3 * displacement_m, force_n),
+        12 => (displacement_m, 1e-3 * force_n),
         _ => (displacement_m, force_n),
     };
     Some(Measured {

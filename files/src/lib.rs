@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+pub mod actuator;
 pub mod case;
 pub mod contact;
 pub mod damper;

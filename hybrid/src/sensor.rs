@@ -1,11 +1,10 @@
 //! A sensor: noise, resolution, lag and readings that do not come.
 
+use dashpot_files::actuator::{DisplacementSensor, ForceSensor};
 use fastrand::Rng;
-use serde::{Deserialize, Serialize};
 
 /// Settings of a [`Sensor`], in the unit of what it measures. The default is a perfect sensor.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SensorSettings {
     /// Standard deviation of the noise.
     pub noise: f64,
@@ -17,6 +16,30 @@ pub struct SensorSettings {
     pub lag_s: f64,
     /// Probability that a reading does not come.
     pub dropout: f64,
+}
+
+impl From<&DisplacementSensor> for SensorSettings {
+    fn from(sensor: &DisplacementSensor) -> Self {
+        Self {
+            noise: sensor.noise_m,
+            resolution: sensor.resolution_m,
+            range: 0.0,
+            lag_s: sensor.lag_s,
+            dropout: sensor.dropout,
+        }
+    }
+}
+
+impl From<&ForceSensor> for SensorSettings {
+    fn from(sensor: &ForceSensor) -> Self {
+        Self {
+            noise: sensor.noise_n,
+            resolution: sensor.resolution_n,
+            range: 0.0,
+            lag_s: sensor.lag_s,
+            dropout: sensor.dropout,
+        }
+    }
 }
 
 /// Normally distributed numbers.
@@ -70,6 +93,11 @@ impl Sensor {
             following,
             followed: None,
         }
+    }
+
+    /// Multiplies the noise of all later readings.
+    pub fn amplify_noise(&mut self, factor: f64) {
+        self.settings.noise *= factor;
     }
 
     /// Reads a value; `None` if the reading does not come.

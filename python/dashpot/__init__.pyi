@@ -230,6 +230,7 @@ class HybridStatus(enum.IntFlag):
     SIGN = 256
     ENERGY = 512
     REQUESTED = 1024
+    NO_FORCE = 2048
 
 class Motion(NamedTuple):
     displacement_m: float
@@ -291,6 +292,8 @@ class TransferSystem:
         plausible_m_per_s: float | None = None,
         plausible_n_per_s: float | None = None,
         stuck_travel_m: float | None = None,
+        least_force_n: float | None = None,
+        without_force_m: float | None = None,
         ramp_s: float | None = None,
         approach_m_per_s: float | None = None,
         action: Literal["hold", "zero_force"] = "hold",
@@ -300,6 +303,7 @@ class TransferSystem:
         energy_least_power_w: float | None = None,
         energy_pole_hz: float | None = None,
         tracking_window_s: float = 1.0,
+        tracking_error: float = 0.3,
     ) -> TransferSystem: ...
     def tick(self, desired: Sequence[float], measured: Sequence[float] | None = None) -> Command: ...
     def place(self, displacement_m: float) -> None: ...

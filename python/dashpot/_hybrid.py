@@ -25,7 +25,7 @@ class HybridStatus(enum.IntFlag):
     FORCE = 16
     """The measured force was beyond its limit."""
     TRACKING = 32
-    """Measured and desired displacement were too far apart for too long."""
+    """Measured and desired displacement were too far apart for too long, or for a large part of the motion."""
     AGE = 64
     """Measured values were too old."""
     IMPLAUSIBLE = 128
@@ -36,6 +36,8 @@ class HybridStatus(enum.IntFlag):
     """The actuator added too much energy to the vehicle."""
     REQUESTED = 1024
     """`TransferSystem.end` was called."""
+    NO_FORCE = 2048
+    """The specimen moved far without a force worth the name: it is broken, or not connected."""
 
 
 class Motion(NamedTuple):

@@ -8,7 +8,7 @@ import dashpot
 from common import DATA, Test
 
 LIMITS = {"stroke_m": 0.05, "velocity_m_per_s": 0.5, "force_n": 20e3}
-SPAN, FAULT_AT, FAULTS = 1000, 600, 16
+SPAN, FAULT_AT, FAULTS = 1000, 600, 17
 
 
 def desired_m(tick):
@@ -44,6 +44,7 @@ def measured(tick, displacement_m, force_n, noise):
         11: (1.3 * displacement_m, force_n),
         13: None if noise > 0.3 else (displacement_m + 0.01, force_n) if noise < -0.3 else (displacement_m, force_n),
         14: (1e30, -1e30) if noise > 0.4 else (displacement_m, force_n),
+        16: (displacement_m, 10.0 * noise),
     }.get(span, (displacement_m, force_n))
 
 
@@ -69,7 +70,8 @@ class HybridTests(Test):
         for action, expected in (line.split("; ") for line in golden):
             system = dashpot.TransferSystem(
                 **LIMITS, compensator="adaptive", coefficients=(1.0, 0.008, 3.2e-5, 8.5e-8), delay_error_s=0.006,
-                action=action, limited_s=0.02, approach_m_per_s=0.2, energy_window_s=0.3)
+                action=action, limited_s=0.02, approach_m_per_s=0.2, without_force_m=0.02,
+                energy_window_s=0.3)
             motion_filter = dashpot.MotionFilter(pole_hz=40.0, step_s=1e-3)
             digest, random, reached_m, velocity_m_per_s = Digest(), 1, 0.0, 0.0
             noticed, phases = dashpot.HybridStatus(0), set()
@@ -97,7 +99,7 @@ class HybridTests(Test):
                 noticed |= command.status
                 phases.add(system.phase)
             self.assertEqual(f"{digest.value:016x}", expected)
-            self.assertEqual(noticed, dashpot.HybridStatus(2047))
+            self.assertEqual(noticed, dashpot.HybridStatus(4095))
             self.assertEqual(phases, {"approaching", "running", "ending", "held"})
 
     def test_compensators_lead_a_moving_actuator(self):

@@ -12,4 +12,5 @@ mod setters;
 pub mod track;
 pub mod vehicle;
 
+pub use math::eigenvalues::eigenvalues;
 pub use math::with_narrowest_vectors;

@@ -8,7 +8,8 @@ use dashpot_hybrid::benchmark::{
     CASES, Control, Criteria, Plant, RunError, Sensors, chirp, earthquake, run,
 };
 
-const DOCUMENT: &str = "docs/hybrid.md";
+use crate::DOCUMENT;
+
 const PERTURBED: usize = 20;
 
 /// The nominal plant and the perturbed ones.

@@ -16,6 +16,7 @@ fn settings(action: GuardAction) -> TransferSettings {
         },
         energy: EnergySettings::default(),
         tracking_window_s: 1.0,
+        tracking_error: 0.3,
     }
 }
 

@@ -17,7 +17,7 @@ pub const SPAN: usize = 1000;
 /// Tick of a span at which its fault begins.
 const FAULT_AT: usize = 600;
 /// Number of faults, with the first span, which has none.
-const FAULTS: usize = 16;
+const FAULTS: usize = 17;
 /// Pole of the motion filter (Hz).
 pub const FILTER_POLE_HZ: f32 = 40.0;
 
@@ -47,6 +47,7 @@ pub fn settings(action: GuardAction) -> TransferSettings {
             action,
             limited_s: 0.02,
             approach_m_per_s: 0.2,
+            without_force_m: 0.02,
             ..GuardSettings::new(0.05, 0.5, 20e3)
         },
         energy: EnergySettings {
@@ -54,6 +55,7 @@ pub fn settings(action: GuardAction) -> TransferSettings {
             ..EnergySettings::default()
         },
         tracking_window_s: 1.0,
+        tracking_error: 0.3,
     }
 }
 
@@ -221,6 +223,7 @@ fn measured(tick: usize, [displacement_m, force_n]: [f64; 2], noise: f64) -> Opt
         13 if noise > 0.3 => None,
         13 if noise < -0.3 => Some([displacement_m + 0.01, force_n]),
         14 if noise > 0.4 => Some([1e30, -1e30]),
+        16 => Some([displacement_m, 10.0 * noise]),
         _ => Some([displacement_m, force_n]),
     }
 }

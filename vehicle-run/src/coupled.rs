@@ -283,6 +283,7 @@ impl Coupled {
                 Ending::Completed
                 | Ending::Interrupted { .. }
                 | Ending::OutsideLost { .. }
+                | Ending::GuardEnded { .. }
                 | Ending::SlowTick { .. },
             ) => 1,
             Some(Ending::Climbed { .. }) => 2,

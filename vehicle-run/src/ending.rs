@@ -112,6 +112,18 @@ pub enum Ending {
         #[serde(flatten)]
         place: Place,
     },
+    /// The guard of a hybrid test ended it, and the command of the actuator has come to rest.
+    GuardEnded {
+        /// Name of the damper on the rig.
+        damper: String,
+        /// What the guard saw.
+        reasons: Vec<String>,
+        /// Time at which the guard acted, s.
+        guarded_s: f64,
+        /// Time and place at which the command had come to rest.
+        #[serde(flatten)]
+        place: Place,
+    },
     /// The work of a tick took longer than allowed in real time.
     SlowTick {
         /// Number of the tick, from 0.
@@ -141,6 +153,7 @@ impl Ending {
             Self::Completed
                 | Self::Interrupted { .. }
                 | Self::OutsideLost { .. }
+                | Self::GuardEnded { .. }
                 | Self::SlowTick { .. }
         )
     }
@@ -156,6 +169,7 @@ impl Ending {
             | Self::BeyondModel { place, .. }
             | Self::Diverged { place, .. }
             | Self::OutsideLost { place, .. }
+            | Self::GuardEnded { place, .. }
             | Self::SlowTick { place, .. }
             | Self::Interrupted { place } => Some(*place),
         }
@@ -254,6 +268,16 @@ impl fmt::Display for Ending {
             Self::OutsideLost { loss, place } => {
                 write!(f, "an external damper was lost {place}: {loss}")
             }
+            Self::GuardEnded {
+                damper,
+                reasons,
+                guarded_s,
+                place,
+            } => write!(
+                f,
+                "the guard of {damper} ended the test at {guarded_s:.3} s, and the command came to rest {place}: {}",
+                reasons.join("; ")
+            ),
             Self::SlowTick {
                 tick,
                 work_ns,

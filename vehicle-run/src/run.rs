@@ -213,6 +213,16 @@ impl Run {
         }
     }
 
+    /// Ending of a run whose damper is on a rig whose guard acted at `guarded_s` for these reasons.
+    pub fn guard_ended(&self, damper: &str, reasons: Vec<String>, guarded_s: f64) -> Ending {
+        Ending::GuardEnded {
+            damper: damper.to_owned(),
+            reasons,
+            guarded_s,
+            place: self.place(),
+        }
+    }
+
     fn place(&self) -> Place {
         Place {
             time_s: self.time_s(),

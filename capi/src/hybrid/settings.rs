@@ -65,6 +65,8 @@ pub unsafe extern "C" fn dashpot_transfer_settings_init(
                 plausible_m_per_s: guard.plausible_m_per_s,
                 plausible_n_per_s: guard.plausible_n_per_s,
                 stuck_travel_m: guard.stuck_travel_m,
+                least_force_n: guard.least_force_n,
+                without_force_m: guard.without_force_m,
                 ramp_s: guard.ramp_s,
                 approach_m_per_s: guard.approach_m_per_s,
                 action: DASHPOT_END_HOLD,
@@ -77,6 +79,7 @@ pub unsafe extern "C" fn dashpot_transfer_settings_init(
                 pole_hz: energy.pole_hz,
             },
             tracking_window_s: 1.0,
+            tracking_error: 0.3,
         };
         set_delay(&mut made, DELAY_S, DELAY_ERROR_S)?;
         // SAFETY: the pointer is checked, and the caller keeps the contract.
@@ -175,6 +178,8 @@ pub(super) fn others(given: &DashpotTransferSettings) -> Result<TransferSettings
             plausible_m_per_s: guard.plausible_m_per_s,
             plausible_n_per_s: guard.plausible_n_per_s,
             stuck_travel_m: guard.stuck_travel_m,
+            least_force_n: guard.least_force_n,
+            without_force_m: guard.without_force_m,
             ramp_s: guard.ramp_s,
             approach_m_per_s: guard.approach_m_per_s,
             action,
@@ -187,5 +192,6 @@ pub(super) fn others(given: &DashpotTransferSettings) -> Result<TransferSettings
             pole_hz: energy.pole_hz,
         },
         tracking_window_s: given.tracking_window_s,
+        tracking_error: given.tracking_error,
     })
 }

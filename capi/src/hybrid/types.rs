@@ -3,7 +3,7 @@
 use dashpot_core::hybrid::HybridStatus;
 
 /// Size of a transfer system in units of 8 bytes. A 64-bit processor needs all of it, a 32-bit processor less.
-pub const DASHPOT_TRANSFER_UNITS: usize = 422;
+pub const DASHPOT_TRANSFER_UNITS: usize = 426;
 /// Size of a motion filter (words).
 pub const DASHPOT_MOTION_FILTER_WORDS: usize = 6;
 
@@ -127,6 +127,11 @@ pub struct DashpotGuardSettings {
     pub plausible_n_per_s: f32,
     /// Travel of the command (m) during which a measured value may stay the same to the last bit, 1e-6 to 1.
     pub stuck_travel_m: f32,
+    /// Magnitude of the measured force below which the specimen counts as one without force (N), 0 to 1e7; 0 switches
+    /// the check off.
+    pub least_force_n: f32,
+    /// Travel of the command (m) during which the specimen may be without force, 1e-6 to 100.
+    pub without_force_m: f32,
     /// Time in which the command comes to rest (s), 0.01 to 10.
     pub ramp_s: f32,
     /// Rate at which the command approaches the desired displacement at the start (m/s), 1e-4 to 1.
@@ -172,6 +177,8 @@ pub struct DashpotTransferSettings {
     pub energy: DashpotEnergySettings,
     /// Time after which past motion counts 1/e in the tracking (s), 0.05 to 1000.
     pub tracking_window_s: f32,
+    /// Error of the tracking over that window that ends a test, relative to the desired motion (1), 0.01 to 100.
+    pub tracking_error: f32,
 }
 
 /// Tracking, energy and compensator of a transfer system.
@@ -206,7 +213,7 @@ pub const DASHPOT_HYBRID_STROKE: u16 = 4;
 pub const DASHPOT_HYBRID_VELOCITY: u16 = 8;
 /// The measured force was beyond its limit.
 pub const DASHPOT_HYBRID_FORCE: u16 = 16;
-/// Measured and desired displacement were too far apart for too long.
+/// Measured and desired displacement were too far apart for too long, or for a large part of the motion.
 pub const DASHPOT_HYBRID_TRACKING: u16 = 32;
 /// Measured values were too old.
 pub const DASHPOT_HYBRID_AGE: u16 = 64;
@@ -218,6 +225,8 @@ pub const DASHPOT_HYBRID_SIGN: u16 = 256;
 pub const DASHPOT_HYBRID_ENERGY: u16 = 512;
 /// `dashpot_transfer_end` was called.
 pub const DASHPOT_HYBRID_REQUESTED: u16 = 1024;
+/// The specimen moved far without a force worth the name: it is broken, or not connected.
+pub const DASHPOT_HYBRID_NO_FORCE: u16 = 2048;
 
 const _: () = {
     assert!(DASHPOT_HYBRID_COMMAND_LIMITED == HybridStatus::COMMAND_LIMITED.bits());
@@ -231,4 +240,6 @@ const _: () = {
     assert!(DASHPOT_HYBRID_SIGN == HybridStatus::SIGN.bits());
     assert!(DASHPOT_HYBRID_ENERGY == HybridStatus::ENERGY.bits());
     assert!(DASHPOT_HYBRID_REQUESTED == HybridStatus::REQUESTED.bits());
+    assert!(DASHPOT_HYBRID_NO_FORCE == HybridStatus::NO_FORCE.bits());
+    assert!(HybridStatus::all().bits() == 2 * DASHPOT_HYBRID_NO_FORCE - 1);
 };

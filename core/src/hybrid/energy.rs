@@ -170,11 +170,14 @@ impl AddedEnergy {
         }
     }
 
-    /// True while the force pushes in the direction of the motion: the vehicle gets more than half of the exchanged
-    /// energy back, which no damper can give. A sensor with the wrong sign looks like this.
+    /// True while the force pushes in the direction of the desired or of the measured motion: vehicle or actuator gets
+    /// more than half of the exchanged energy back, which no damper can give. A sensor of force or displacement with the
+    /// wrong sign looks like this.
     #[inline]
     pub fn is_reversed(&self) -> bool {
-        self.is_known() && self.given_w < -0.5 * self.exchanged_w
+        // The energy along the measured motion is what the vehicle gives plus what the actuator adds.
+        let least_w = self.given_w + self.added_w.min(0.0);
+        self.is_known() && least_w < -0.5 * self.exchanged_w
     }
 
     /// True while the added share is above its limit.

@@ -40,6 +40,12 @@ pub struct GuardSettings {
     pub plausible_n_per_s: f32,
     /// Travel of the command (m) during which a measured value may stay the same to the last bit, 1e-6 to 1.
     pub stuck_travel_m: f32,
+    /// Magnitude of the measured force below which the specimen counts as one without force (N), 0 to 1e7; 0 switches
+    /// the check off.
+    pub least_force_n: f32,
+    /// Travel of the command (m) during which the specimen may be without force, 1e-6 to 100. A worn damper has none
+    /// within its clearance.
+    pub without_force_m: f32,
     /// Time in which the command comes to rest (s), 0.01 to 10.
     pub ramp_s: f32,
     /// Rate at which the command approaches the desired displacement at the start (m/s), 1e-4 to 1.
@@ -64,6 +70,8 @@ impl GuardSettings {
             plausible_m_per_s: 4.0 * velocity_m_per_s,
             plausible_n_per_s: 1000.0 * force_n,
             stuck_travel_m: 0.02 * stroke_m,
+            least_force_n: 0.002 * force_n,
+            without_force_m: stroke_m,
             ramp_s: 0.2,
             approach_m_per_s: 0.05 * velocity_m_per_s,
             action: GuardAction::Hold,
@@ -102,6 +110,13 @@ impl GuardSettings {
                 self.stuck_travel_m,
                 (1e-6, 1.0),
                 "1e-6 to 1",
+            ),
+            ("least_force_n", self.least_force_n, (0.0, 1e7), "0 to 1e7"),
+            (
+                "without_force_m",
+                self.without_force_m,
+                (1e-6, 100.0),
+                "1e-6 to 100",
             ),
             ("ramp_s", self.ramp_s, (0.01, 10.0), "0.01 to 10"),
             (
@@ -166,6 +181,8 @@ pub struct Guard {
     /// Travel of the command since each measured value changed (m).
     displacement_same_m: f32,
     force_same_m: f32,
+    /// Travel of the command since the specimen had a force (m).
+    without_force_m: f32,
     /// Numbers of ticks without a break, and their limits: without a valid measurement, with a limited command, with a
     /// large error.
     age: u32,
@@ -204,6 +221,7 @@ impl Guard {
             force_n: 0.0,
             displacement_same_m: 0.0,
             force_same_m: 0.0,
+            without_force_m: 0.0,
             age: 0,
             limited: 0,
             off: 0,
@@ -272,6 +290,7 @@ impl Guard {
         self.phase = Phase::Approaching;
         (self.age, self.limited, self.off) = (0, 0, 0);
         (self.displacement_same_m, self.force_same_m) = (0.0, 0.0);
+        self.without_force_m = 0.0;
         true
     }
 
@@ -317,6 +336,7 @@ impl Guard {
         let travel = self.change_m.abs();
         self.displacement_same_m += travel;
         self.force_same_m += travel;
+        self.without_force_m += travel;
         self.command_m = next;
         next
     }
@@ -347,6 +367,11 @@ impl Guard {
             } else {
                 self.force_same_m
             };
+            self.without_force_m = if force.abs() >= settings.least_force_n {
+                0.0
+            } else {
+                self.without_force_m
+            };
             (self.displacement_m, self.force_n) = (displacement, force);
             self.age = 0;
         } else {
@@ -358,7 +383,10 @@ impl Guard {
         }
         let is_stuck = self.displacement_same_m > settings.stuck_travel_m
             || self.force_same_m > settings.stuck_travel_m;
-        found |= HybridStatus::IMPLAUSIBLE.only_if(is_stuck && self.phase == Phase::Running);
+        let is_running = self.phase == Phase::Running;
+        found |= HybridStatus::IMPLAUSIBLE.only_if(is_stuck && is_running);
+        let is_loose = self.without_force_m > settings.without_force_m;
+        found |= HybridStatus::NO_FORCE.only_if(is_loose && is_running);
         found | HybridStatus::FORCE.only_if(self.force_n.abs() > settings.force_n)
     }
 

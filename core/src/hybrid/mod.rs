@@ -13,6 +13,7 @@
 //!   the vehicle.
 //! - A [`Guard`] checks commands and measured values, and ends the test without a step of the command.
 //! - [`TransferSystem`] combines them.
+//! - [`wire`] is the protocol between a simulated vehicle and a rig.
 //!
 //! All parts take a fixed number of operations a tick, use single precision, do not allocate, and return only finite
 //! numbers. Displacements (m) are positive in extension; forces (N) are positive when they resist extension. See
@@ -29,6 +30,7 @@ mod polynomial;
 mod status;
 mod tracking;
 mod transfer;
+pub mod wire;
 
 pub use adaptive::{AdaptiveSettings, AdaptiveTimeSeries};
 pub use compensator::{Compensator, Uncompensated};

@@ -15,7 +15,7 @@ bitflags::bitflags! {
         const VELOCITY = 1 << 3;
         /// The measured force was beyond its limit.
         const FORCE = 1 << 4;
-        /// Measured and desired displacement were too far apart for too long.
+        /// Measured and desired displacement were too far apart for too long, or for a large part of the motion.
         const TRACKING = 1 << 5;
         /// Measured values were too old.
         const AGE = 1 << 6;
@@ -27,6 +27,8 @@ bitflags::bitflags! {
         const ENERGY = 1 << 9;
         /// A program asked for the end of the test.
         const REQUESTED = 1 << 10;
+        /// The specimen moved far without a force worth the name: it is broken, or not connected.
+        const NO_FORCE = 1 << 11;
     }
 }
 

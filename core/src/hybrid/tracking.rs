@@ -107,6 +107,14 @@ impl Tracking {
         }
     }
 
+    /// True if the root mean square of the error is above `share` of that of the desired displacement about its mean,
+    /// and above `least_m` (m).
+    #[inline]
+    pub fn is_off(&self, share: f32, least_m: f32) -> bool {
+        self.error_square > share * share * self.desired_square
+            && self.error_square > least_m * least_m
+    }
+
     /// Delay, amplitude and errors so far. All but `error_m` are 0 if the desired displacement has hardly moved (less
     /// than 1 nm or 0.1 um/s, root mean square).
     pub fn reading(&self) -> TrackingReading {

@@ -3,6 +3,7 @@
 use super::compensator::Compensator;
 use super::energy::{AddedEnergy, EnergySettings};
 use super::guard::{Guard, GuardSettings};
+use super::limits;
 use super::motion::Motion;
 use super::status::HybridStatus;
 use super::tracking::{Tracking, TrackingReading};
@@ -37,6 +38,9 @@ pub struct TransferSettings {
     pub energy: EnergySettings,
     /// Time after which past motion counts 1/e in the tracking (s), 0.05 to 1000.
     pub tracking_window_s: f32,
+    /// Error of the tracking over that window that ends a test, relative to the desired motion (1), 0.01 to 100.
+    /// Errors below a hundredth of [`GuardSettings::error_m`] do not count, and those of the first window neither.
+    pub tracking_error: f32,
 }
 
 /// All that stands between a simulated vehicle and an actuator.
@@ -50,6 +54,7 @@ pub struct TransferSettings {
 ///     guard: GuardSettings::new(0.1, 1.0, 20e3),
 ///     energy: EnergySettings::default(),
 ///     tracking_window_s: 1.0,
+///     tracking_error: 0.3,
 /// };
 /// let mut transfer = TransferSystem::new(InverseModel::of_delay(0.01)?, &settings, 1e-3)?;
 /// let desired = Motion { velocity_m_per_s: 0.01, ..Motion::at_rest(0.0) };
@@ -69,6 +74,11 @@ pub struct TransferSystem<C> {
     fading_left: u32,
     share_of_tick: f32,
     was_running: bool,
+    tracking_error: f32,
+    least_error_m: f32,
+    /// Ticks of the tracking's window, and those of a running test that are left before its error counts.
+    window_ticks: u32,
+    window_left: u32,
 }
 
 impl<C: Compensator> TransferSystem<C> {
@@ -81,6 +91,13 @@ impl<C: Compensator> TransferSystem<C> {
         settings: &TransferSettings,
         step_s: f32,
     ) -> Result<Self, BuildError> {
+        limits::within(
+            ("tracking", "error"),
+            settings.tracking_error,
+            (0.01, 100.0),
+            "0.01 to 100",
+        )?;
+        let window_ticks = (settings.tracking_window_s / step_s) as u32;
         let fading_ticks = libm::ceilf(settings.guard.ramp_s / step_s) as u32;
         Ok(Self {
             compensator,
@@ -91,6 +108,10 @@ impl<C: Compensator> TransferSystem<C> {
             fading_left: fading_ticks,
             share_of_tick: 1.0 / fading_ticks as f32,
             was_running: false,
+            tracking_error: settings.tracking_error,
+            least_error_m: 0.01 * settings.guard.error_m,
+            window_ticks,
+            window_left: window_ticks,
         })
     }
 
@@ -124,6 +145,12 @@ impl<C: Compensator> TransferSystem<C> {
         }
         let mut found = HybridStatus::ENERGY.only_if(self.energy.is_alarm());
         found |= HybridStatus::SIGN.only_if(self.energy.is_reversed());
+        let is_off = (self.tracking).is_off(self.tracking_error, self.least_error_m);
+        found |= HybridStatus::TRACKING.only_if(is_off && self.window_left == 0);
+        self.window_left = match is_running {
+            true => self.window_left.saturating_sub(1),
+            false => self.window_ticks,
+        };
         if is_running && !found.is_empty() {
             self.guard.end(found);
         }

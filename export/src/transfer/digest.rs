@@ -25,6 +25,7 @@ fn system() -> Option<(TransferSystem<AdaptiveTimeSeries>, MotionFilter)> {
             ..EnergySettings::default()
         },
         tracking_window_s: 1.0,
+        tracking_error: 0.3,
     };
     let compensator = AdaptiveTimeSeries::new(&adaptive, step_s).ok()?;
     let system = TransferSystem::new(compensator, &settings, step_s).ok()?;

@@ -66,6 +66,9 @@ PREFIX_INLINE uint32_t prefix_measure(prefix_system *system, const prefix_measur
     if (is_plausible || (is_first && moved < infinity && changed < infinity)) {
         system->displacement_same_m = moved > 0.0f ? 0.0f : system->displacement_same_m;
         system->force_same_m = changed > 0.0f ? 0.0f : system->force_same_m;
+        if (prefix_magnitude(force) >= settings->least_force_n) {
+            system->without_force_m = 0.0f;
+        }
         system->displacement_m = displacement;
         system->force_n = force;
         system->age = 0;
@@ -76,10 +79,14 @@ PREFIX_INLINE uint32_t prefix_measure(prefix_system *system, const prefix_measur
             found |= measured == NULL ? PREFIX_AGE : PREFIX_IMPLAUSIBLE;
         }
     }
-    if (system->phase == PREFIX_RUNNING
-        && (system->displacement_same_m > settings->stuck_travel_m
-            || system->force_same_m > settings->stuck_travel_m)) {
-        found |= PREFIX_IMPLAUSIBLE;
+    if (system->phase == PREFIX_RUNNING) {
+        if (system->displacement_same_m > settings->stuck_travel_m
+            || system->force_same_m > settings->stuck_travel_m) {
+            found |= PREFIX_IMPLAUSIBLE;
+        }
+        if (system->without_force_m > settings->without_force_m) {
+            found |= PREFIX_NO_FORCE;
+        }
     }
     if (prefix_magnitude(system->force_n) > settings->force_n) {
         found |= PREFIX_FORCE;
@@ -129,6 +136,7 @@ PREFIX_INLINE float prefix_guard(prefix_system *system, float wanted_m, float de
     travel = prefix_magnitude(system->change_m);
     system->displacement_same_m = system->displacement_same_m + travel;
     system->force_same_m = system->force_same_m + travel;
+    system->without_force_m = system->without_force_m + travel;
     system->command_m = next;
     return next;
 }
@@ -155,7 +163,7 @@ bool prefix_clear(prefix_system *system)
     system->status = 0;
     system->phase = PREFIX_APPROACHING;
     system->age = system->limited = system->off = 0;
-    system->displacement_same_m = system->force_same_m = 0.0f;
+    system->displacement_same_m = system->force_same_m = system->without_force_m = 0.0f;
     return true;
 }
 

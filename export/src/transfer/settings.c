@@ -13,6 +13,8 @@ void prefix_default_settings(prefix_settings *settings, float stroke_m, float ve
     settings->plausible_m_per_s = 4.0f * velocity_m_per_s;
     settings->plausible_n_per_s = 1000.0f * force_n;
     settings->stuck_travel_m = 0.02f * stroke_m;
+    settings->least_force_n = 0.002f * force_n;
+    settings->without_force_m = stroke_m;
     settings->ramp_s = 0.2f;
     settings->approach_m_per_s = 0.05f * velocity_m_per_s;
     settings->stiffness_n_per_m = 1e7f;
@@ -22,6 +24,7 @@ void prefix_default_settings(prefix_settings *settings, float stroke_m, float ve
     settings->least_power_w = 1.0f;
     settings->energy_pole_hz = 50.0f;
     settings->tracking_window_s = 1.0f;
+    settings->tracking_error = 0.3f;
 }
 
 void prefix_set_delay(prefix_settings *settings, float delay_s, float delay_error_s)
@@ -80,6 +83,8 @@ static const char *prefix_refused(const prefix_settings *settings, float step_s)
         {settings->plausible_m_per_s, 1e-3f, 1e3f, "plausible_m_per_s: 1e-3 to 1000"},
         {settings->plausible_n_per_s, 1.0f, 1e12f, "plausible_n_per_s: 1 to 1e12"},
         {settings->stuck_travel_m, 1e-6f, 1.0f, "stuck_travel_m: 1e-6 to 1"},
+        {settings->least_force_n, 0.0f, 1e7f, "least_force_n: 0 to 1e7"},
+        {settings->without_force_m, 1e-6f, 100.0f, "without_force_m: 1e-6 to 100"},
         {settings->ramp_s, 0.01f, 10.0f, "ramp_s: 0.01 to 10"},
         {settings->approach_m_per_s, 1e-4f, 1.0f, "approach_m_per_s: 1e-4 to 1"},
         {settings->stiffness_n_per_m, 1e3f, 1e12f, "stiffness_n_per_m: 1e3 to 1e12"},
@@ -88,6 +93,7 @@ static const char *prefix_refused(const prefix_settings *settings, float step_s)
         {settings->least_power_w, 0.0f, 1e6f, "least_power_w: 0 to 1e6"},
         {settings->energy_pole_hz, 1.0f, tenth, "energy_pole_hz: 1 to 1000 and to a tenth of the rate of the ticks"},
         {settings->tracking_window_s, 0.05f, 1000.0f, "tracking_window_s: 0.05 to 1000"},
+        {settings->tracking_error, 0.01f, 100.0f, "tracking_error: 0.01 to 100"},
     };
     size_t i;
 
@@ -147,6 +153,8 @@ const char *prefix_init(prefix_system *system, const prefix_settings *settings, 
     system->is_frozen = 1;
 
     system->tracking_fading = prefix_fading(step_s, settings->tracking_window_s);
+    system->tracking_ticks = system->tracking_left = (uint32_t)(settings->tracking_window_s / step_s);
+    system->least_error_m = 0.01f * settings->error_m;
     system->energy_fading = prefix_fading(step_s, settings->energy_window_s);
     system->energy_pole_per_s = prefix_product(PREFIX_TAU, settings->energy_pole_hz);
     prefix_chain_init(&system->desired, system->energy_pole_per_s, step_s);

@@ -83,6 +83,15 @@ PREFIX_INLINE void prefix_track(prefix_system *system, const prefix_motion *desi
     prefix_fade(&system->error_square, fading, prefix_product(error, error));
 }
 
+/* True if the root mean square of the error is too large for the motion, and not tiny. */
+PREFIX_INLINE bool prefix_is_off(const prefix_system *system)
+{
+    const float share = system->settings.tracking_error, least_m = system->least_error_m;
+
+    return system->error_square > share * share * system->desired_square
+           && system->error_square > least_m * least_m;
+}
+
 /* Takes desired and measured displacement and the measured force into the energy. */
 PREFIX_INLINE void prefix_add_energy(prefix_system *system, float desired_m, float measured_m, float force_n)
 {
@@ -131,16 +140,19 @@ prefix_command prefix_tick(prefix_system *system, const prefix_motion *desired, 
             prefix_learn(system, command.command_m, system->displacement_m);
         }
     }
-    if (is_running && system->ticks_left == 0 && system->exchanged_w >= system->settings.least_power_w) {
-        if (system->added_w > system->settings.largest_share * system->exchanged_w) {
-            found |= PREFIX_ENERGY;
-        }
-        if (system->given_w < -0.5f * system->exchanged_w) {
-            found |= PREFIX_SIGN;
-        }
-        if (found != 0) {
-            prefix_end_for(system, found);
-        }
+    if (system->ticks_left == 0 && system->exchanged_w >= system->settings.least_power_w) {
+        /* The energy along the measured motion is what the vehicle gives plus what the actuator adds. */
+        const float least_w = system->given_w + (system->added_w < 0.0f ? system->added_w : 0.0f);
+
+        found |= system->added_w > system->settings.largest_share * system->exchanged_w ? PREFIX_ENERGY : 0U;
+        found |= least_w < -0.5f * system->exchanged_w ? PREFIX_SIGN : 0U;
+    }
+    if (system->tracking_left == 0 && prefix_is_off(system)) {
+        found |= PREFIX_TRACKING;
+    }
+    system->tracking_left = is_running ? system->tracking_left - (system->tracking_left > 0) : system->tracking_ticks;
+    if (is_running && found != 0) {
+        prefix_end_for(system, found);
     }
     if (prefix_has_ended(system)) {
         system->fading_left -= system->fading_left > 0;

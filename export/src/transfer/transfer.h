@@ -19,12 +19,13 @@ enum {
     PREFIX_STROKE = 4,       /* desired displacement or compensator's command not a number, or beyond the stroke */
     PREFIX_VELOCITY = 8,     /* the command was limited for too long */
     PREFIX_FORCE = 16,       /* the measured force was beyond its limit */
-    PREFIX_TRACKING = 32,    /* measured and desired displacement were too far apart for too long */
+    PREFIX_TRACKING = 32,    /* measured and desired displacement too far apart for too long, or for the motion */
     PREFIX_AGE = 64,         /* measured values were too old */
     PREFIX_IMPLAUSIBLE = 128, /* a measured value jumped, was not a number, or stayed while the command moved */
     PREFIX_SIGN = 256,       /* the force pushed in the direction of the motion: a wrong sign, or a driven specimen */
     PREFIX_ENERGY = 512,     /* the actuator added too much energy to the vehicle */
-    PREFIX_REQUESTED = 1024  /* prefix_end was called */
+    PREFIX_REQUESTED = 1024, /* prefix_end was called */
+    PREFIX_NO_FORCE = 2048   /* the specimen moved far without a force: it is broken, or not connected */
 };
 
 /* Phase of a test. */
@@ -85,6 +86,8 @@ typedef struct prefix_settings {
     float plausible_m_per_s;  /* largest plausible rate of a measured displacement */
     float plausible_n_per_s;  /* largest plausible rate of a measured force */
     float stuck_travel_m;     /* travel of the command during which a measured value may stay the same */
+    float least_force_n;      /* force below which the specimen counts as one without force; 0: no check */
+    float without_force_m;    /* travel of the command during which the specimen may be without force */
     float ramp_s;             /* time in which the command comes to rest */
     float approach_m_per_s;   /* rate at which the command approaches the desired displacement at the start */
     float stiffness_n_per_m;  /* stiffness of the specimen, for PREFIX_ZERO_FORCE */
@@ -95,6 +98,7 @@ typedef struct prefix_settings {
     float least_power_w;      /* mean exchanged power below which there is no alarm */
     float energy_pole_hz;     /* pole of the low-pass filters of displacement and force */
     float tracking_window_s;  /* time after which past motion counts 1/e in the tracking */
+    float tracking_error;     /* error of the tracking that ends a test, relative to the desired motion */
 } prefix_settings;
 
 /* A chain of low-pass filters. */
@@ -115,7 +119,8 @@ typedef struct prefix_system {
     prefix_settings settings;
     float step_s, scaled_nominal[4], sensitivity[4], noise_per_m, least_square, fading, largest_move;
     float tracking_fading, energy_fading, energy_pole_per_s, share_of_tick;
-    uint32_t most_age, most_limited, most_off, window_ticks, fading_ticks;
+    float least_error_m;
+    uint32_t most_age, most_limited, most_off, window_ticks, fading_ticks, tracking_ticks;
     /* Compensator. */
     prefix_chain commands, measurements;
     float products[4][4], misfits[4], shares[4], motion_square;
@@ -130,8 +135,9 @@ typedef struct prefix_system {
     /* Guard. */
     uint32_t phase, status, age, limited, off;
     float command_m, change_m, displacement_m, force_n, displacement_same_m, force_same_m;
+    float without_force_m;
     float from_m, from_change_m, release_m, ending_s, duration_s;
-    uint32_t fading_left, was_running;
+    uint32_t fading_left, was_running, tracking_left;
 } prefix_system;
 
 /* Tracking and energy. */

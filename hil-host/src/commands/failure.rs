@@ -9,6 +9,7 @@ use dashpot_reference::ReferenceError;
 use super::remedy::{option_of, with_remedy};
 use dashpot_export::ExportError;
 use dashpot_files::FileError;
+use dashpot_files::actuator::ActuatorFileError;
 use dashpot_files::case::CaseError;
 use dashpot_files::damper::{ContentError, DamperError, FORM};
 use dashpot_files::harmonic::{HarmonicError, MAX_AMPLITUDE_M, MAX_FREQUENCY_HZ};
@@ -210,6 +211,16 @@ impl From<SheetFileError> for Failure {
         match error {
             SheetFileError::File(error) => error.into(),
             SheetFileError::Unknown(_) => Self::wrong_use(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
+impl From<ActuatorFileError> for Failure {
+    fn from(error: ActuatorFileError) -> Self {
+        match error {
+            ActuatorFileError::File(error) => error.into(),
+            ActuatorFileError::Unknown(_) => Self::wrong_use(error.to_string()),
             _ => Self::new(error.to_string()),
         }
     }

@@ -59,9 +59,9 @@ impl TransferSystem {
         *, stroke_m, velocity_m_per_s, force_n, step_s=1e-3, compensator="none", delay_s=None, delay_error_s=None,
         coefficients=None, order=None, largest_change=None, noise_m=None, least_motion_m=None, pole_hz=None,
         memory_s=None, change_s=None, limited_s=None, error_m=None, error_s=None, age_s=None, plausible_m_per_s=None,
-        plausible_n_per_s=None, stuck_travel_m=None, ramp_s=None, approach_m_per_s=None, action="hold",
-        stiffness_n_per_m=None, energy_window_s=None, energy_largest_share=None, energy_least_power_w=None,
-        energy_pole_hz=None, tracking_window_s=1.0
+        plausible_n_per_s=None, stuck_travel_m=None, least_force_n=None, without_force_m=None, ramp_s=None,
+        approach_m_per_s=None, action="hold", stiffness_n_per_m=None, energy_window_s=None, energy_largest_share=None,
+        energy_least_power_w=None, energy_pole_hz=None, tracking_window_s=1.0, tracking_error=0.3
     ))]
     fn new(
         stroke_m: f32,
@@ -86,6 +86,8 @@ impl TransferSystem {
         plausible_m_per_s: Option<f32>,
         plausible_n_per_s: Option<f32>,
         stuck_travel_m: Option<f32>,
+        least_force_n: Option<f32>,
+        without_force_m: Option<f32>,
         ramp_s: Option<f32>,
         approach_m_per_s: Option<f32>,
         action: &str,
@@ -95,6 +97,7 @@ impl TransferSystem {
         energy_least_power_w: Option<f32>,
         energy_pole_hz: Option<f32>,
         tracking_window_s: f32,
+        tracking_error: f32,
     ) -> Outcome<Self> {
         let given = Given {
             delay_s,
@@ -110,7 +113,7 @@ impl TransferSystem {
         };
         let mut guard = GuardSettings::new(stroke_m, velocity_m_per_s, force_n);
         replace!(guard: limited_s, error_m, error_s, age_s, plausible_m_per_s, plausible_n_per_s, stuck_travel_m,
-            ramp_s, approach_m_per_s, stiffness_n_per_m);
+            least_force_n, without_force_m, ramp_s, approach_m_per_s, stiffness_n_per_m);
         guard.action = match action {
             "hold" => GuardAction::Hold,
             "zero_force" => GuardAction::ZeroForce,
@@ -123,6 +126,7 @@ impl TransferSystem {
             guard,
             energy,
             tracking_window_s,
+            tracking_error,
         };
         let compensator = given.build(compensator, step_s)?;
         let system = dashpot_core::hybrid::TransferSystem::new(compensator, &settings, step_s)?;

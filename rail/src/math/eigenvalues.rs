@@ -16,7 +16,13 @@ const MAX_ITERATIONS_PER_ROW: usize = 30;
 ///
 /// The algorithm is that of LAPACK's `dhseqr` for small matrices (`dlahqr`): Francis' implicit double shift (1961),
 /// deflation by the criterion of Ahues and Tisseur (LAPACK Working Note 122, 1997).
-pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+///
+/// ```
+/// let rotation = nalgebra::DMatrix::from_row_slice(2, 2, &[0.0, -3.0, 3.0, 0.0]);
+/// let values = dashpot_rail::eigenvalues(&rotation).unwrap();
+/// assert_eq!(values[0].im.abs(), 3.0);
+/// ```
+pub fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     if matrix.is_empty() {
         return Some(Vec::new());
     }

@@ -222,8 +222,40 @@ impl Linear {
     /// Matrix of the first-order equations. The states are the velocities, the displacements of the dashpots in series,
     /// and the coordinates that a force depends on; the spin angle of a wheelset is not one of them.
     pub fn first_order(&self) -> DMatrix<f64> {
+        self.first_order_of(&self.used())
+    }
+
+    /// Returns the vehicle without the series dashpot `number`: matrix `A`, input `b` and output `c` of
+    /// `x' = A x - b f`, `e = c x`, with its force `f` and its extension `e`. The coordinates stay those of the whole
+    /// vehicle, so that the extension is known even if no other force depends on it.
+    pub fn without(&self, number: usize) -> (DMatrix<f64>, DVector<f64>, DVector<f64>) {
+        let (n, used) = (self.inertia.len(), self.used());
+        let mut others = self.clone();
+        let row = others.series.remove(number).displacement;
+        let matrix = others.first_order_of(&used);
+        let size = matrix.nrows();
+        let input = |i: usize| if i < n { row[i] / self.inertia[i] } else { 0.0 };
+        let output = |i: usize| {
+            (i + used.len())
+                .checked_sub(size)
+                .map_or(0.0, |k| row[used[k]])
+        };
+        let [input, output] = [
+            DVector::from_fn(size, |i, _| input(i)),
+            DVector::from_fn(size, |i, _| output(i)),
+        ];
+        (matrix, input, output)
+    }
+
+    /// Coordinates that a force depends on.
+    fn used(&self) -> Vec<usize> {
+        (0..self.inertia.len())
+            .filter(|i| self.is_used(*i))
+            .collect()
+    }
+
+    fn first_order_of(&self, used: &[usize]) -> DMatrix<f64> {
         let n = self.inertia.len();
-        let used: Vec<usize> = (0..n).filter(|i| self.is_used(*i)).collect();
         let coordinates = n + self.series.len();
         let size = coordinates + used.len();
         let mut matrix = DMatrix::zeros(size, size);
@@ -251,8 +283,8 @@ impl Linear {
             }
             matrix[(dashpot, dashpot)] -= rate;
         }
-        for (number, j) in used.into_iter().enumerate() {
-            matrix[(coordinates + number, j)] = 1.0;
+        for (number, j) in used.iter().enumerate() {
+            matrix[(coordinates + number, *j)] = 1.0;
         }
         matrix
     }

@@ -51,7 +51,7 @@ pub use friction::FrictionLoad;
 pub use modes::Mode;
 pub use parameters::VehicleParameters;
 pub use ride_point::RidePoint;
-pub use running::Running;
+pub use running::{Running, WithoutDamper};
 pub use standstill::Standstill;
 
 /// Acceleration due to gravity, m/s^2.

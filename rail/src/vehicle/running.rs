@@ -1,5 +1,7 @@
 //! Linear equations of a vehicle that runs on straight track at constant speed.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::body::{Body, COORDINATES};
 use super::carried::Carried;
 use super::error::VehicleError;
@@ -18,6 +20,22 @@ use crate::creep::CreepLaw;
 pub struct Running {
     bodies: Vec<Body>,
     linear: Linear,
+}
+
+/// A linear vehicle without one of its dampers, `x' = A x - b f` and `e = c x`: the extension `e` (m) of the damper and
+/// its force `f` (N), positive if it resists extension.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WithoutDamper {
+    /// `A`, 1/s.
+    pub state_matrix: DMatrix<f64>,
+    /// `b`: minus the change of the state's derivative per newton.
+    pub input: DVector<f64>,
+    /// `c`: extension per unit of each state.
+    pub output: DVector<f64>,
+    /// Damping of the damper in small motion: secant of its characteristic at 0.1 mm/s.
+    pub damping_n_s_per_m: f64,
+    /// Stiffness of the mounts in series.
+    pub stiffness_n_per_m: f64,
 }
 
 /// Index of the field of [`Motion`](crate::contact::Motion) for each coordinate of a wheelset. The spin enters only
@@ -131,6 +149,20 @@ impl Running {
     /// s.
     pub fn state_matrix(&self) -> Vec<Vec<f64>> {
         modes::state_matrix(&self.linear)
+    }
+
+    /// Returns the vehicle without damper `number`, counted from 0 in the order of the vehicle's damper elements, and
+    /// the two parameters of that damper. `None` if the vehicle has fewer dampers.
+    pub fn without_damper(&self, number: usize) -> Option<WithoutDamper> {
+        let damper = self.linear.series.get(number)?;
+        let (state_matrix, input, output) = self.linear.without(number);
+        Some(WithoutDamper {
+            state_matrix,
+            input,
+            output,
+            damping_n_s_per_m: damper.damping,
+            stiffness_n_per_m: damper.stiffness,
+        })
     }
 }
 

@@ -29,6 +29,23 @@ pub struct Effect {
     pub dampers: Vec<DamperEffect>,
     /// Largest deviations of the vehicle.
     pub deviations: Deviations<Worst>,
+    /// Every index of both runs.
+    pub indices: Vec<IndexEffect>,
+}
+
+/// An index of the run with external dampers and of the run with all dampers inside.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct IndexEffect {
+    /// Name of the index.
+    pub index: String,
+    /// Value with all dampers inside.
+    pub inside: f64,
+    /// Value with external dampers.
+    pub outside: f64,
+    /// Difference relative to the value inside, or to the scale of such an index if the value is smaller.
+    pub relative: f64,
+    /// True for a minimum, a maximum or a duration, false for a mean or a root mean square.
+    pub is_extreme: bool,
 }
 
 /// Difference between the forces of a damper in the run with this damper external and in the run with it inside.
@@ -114,7 +131,21 @@ impl InsideComparison {
             duration_s: inside.ticks as f64 * case.step_s,
             dampers: dampers.collect(),
             deviations: self.trace.deviations(&inside.trace),
+            indices: index_effects(&self.trace, &inside.trace),
         };
         Ok(Some((effect, forces)))
     }
+}
+
+/// Every index of both runs.
+fn index_effects(outside: &Trace, inside: &Trace) -> Vec<IndexEffect> {
+    let pairs = outside.compared().into_iter().zip(inside.compared());
+    let effects = pairs.map(|(outside, inside)| IndexEffect {
+        relative: outside.deviation(&inside),
+        index: inside.name,
+        inside: inside.value,
+        outside: outside.value,
+        is_extreme: inside.is_extreme,
+    });
+    effects.collect()
 }

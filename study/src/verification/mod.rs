@@ -9,7 +9,7 @@ mod tick;
 mod trace;
 
 pub use error::VerificationError;
-pub use inside::{DamperEffect, Effect, Forces, InsideComparison};
+pub use inside::{DamperEffect, Effect, Forces, IndexEffect, InsideComparison};
 pub use trace::Trace;
 
 use std::sync::Arc;

@@ -41,6 +41,7 @@ pub fn system() -> Result<System, BuildError> {
             ..EnergySettings::default()
         },
         tracking_window_s: 1.0,
+        tracking_error: 0.3,
     };
     TransferSystem::new(compensator, &settings, STEP_S)
 }

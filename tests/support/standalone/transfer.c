@@ -34,6 +34,7 @@ int main(int count, char **arguments)
     settings.nominal[3] = 8.5e-8f;
     settings.limited_s = 0.02f;
     settings.approach_m_per_s = 0.2f;
+    settings.without_force_m = 0.02f;
     settings.energy_window_s = 0.3f;
     settings.action = count > 1 && strcmp(arguments[1], "zero_force") == 0 ? TRANSFER_ZERO_FORCE : TRANSFER_HOLD;
     memset(&system, 0x5a, sizeof system);

@@ -2,6 +2,7 @@
 
 mod benchmark;
 mod export;
+pub(super) mod plan;
 mod record;
 
 use super::failure::Outcome;
@@ -17,6 +18,7 @@ pub struct HybridArguments {
 enum Action {
     Benchmark(benchmark::BenchmarkArguments),
     Export(export::ExportArguments),
+    Plan(Box<plan::PlanArguments>),
 }
 
 /// Runs the command.
@@ -27,5 +29,6 @@ pub fn run(arguments: &HybridArguments) -> Outcome<()> {
     match &arguments.action {
         Action::Benchmark(arguments) => benchmark::run(arguments),
         Action::Export(arguments) => export::run(arguments),
+        Action::Plan(arguments) => plan::run(arguments),
     }
 }

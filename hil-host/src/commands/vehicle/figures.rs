@@ -12,8 +12,8 @@ use dashpot_study::verification::Forces;
 use dashpot_vehicle_run::signals::slug;
 
 /// Group of figures over time, which share one cursor.
-const TIME: &str = "time";
-const HEIGHT: u32 = 300;
+pub(super) const TIME: &str = "time";
+pub(super) const HEIGHT: u32 = 300;
 
 fn over_time(history: &History, signal: &str, factor: f64, name: &str, colour: RGBColor) -> Curve {
     Curve::new(name, colour, history.over_time(signal, factor)).wide(5)

@@ -18,9 +18,10 @@ use std::path::{Path, PathBuf};
 
 use drive::{Driven, drive};
 use history::History;
-use options::CaseArguments;
+pub(super) use options::CaseArguments;
 use outside::lines::Lines;
-use outside::{Outside, OutsideArguments};
+pub(super) use outside::rig::options::Compensate;
+use outside::{Outside, OutsideArguments, Traces};
 use report::Report;
 
 use super::tick_times::histogram_help;
@@ -53,6 +54,7 @@ use dashpot_vehicle_run::{
   dashpot vehicle --case straight-180 --duration-s 60 --realtime --fifo 80 --core 1
   dashpot vehicle --case curve-r600 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --realtime
   dashpot vehicle --case straight-180 --outside \"rear vertical damper 2=force.csv\"
+  dashpot vehicle --case straight-180 --outside \"front yaw damper 1=desk\" --actuator servo --compensate ats
 
 Files in the --output folder: history.csv, one row per tick (with --parquet also history.parquet); spectra.csv, power
 spectral densities at the ride points and of the leading wheels' Y/Q; wear.csv, the depth
@@ -71,6 +73,10 @@ deadline in a thousand is missed, or any with --fail-on-miss. The times of the t
 --outside sends a damper's displacement at the end of a tick; the returned force acts at the end of the next tick, one
 tick late. The run is then repeated with all dampers simulated internally, and the difference is reported. A recorded
 force is applied without this delay; the recording must cover the whole run.
+
+--actuator mounts a damper on a virtual rig: an actuator moves it, late and smaller, and its measured force acts on the
+vehicle. --compensate corrects the delay. A guard ends the test if a limit is exceeded or if the actuator adds energy to
+the vehicle; the command then comes to rest in 0.2 s. hybrid.csv has the signals of the rig.
 
 If a target does not answer in time, the vehicle goes on with the last force in real time, for at most --hold-ticks
 ticks in a row; without --realtime it waits. Then the run ends. The error names the damper, the time of the first
@@ -166,11 +172,11 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         report.damping = damping_influence(&case, &run, &report)?;
     }
     report.wear = wear.indices().filter(|_| report.indices.is_some());
-    let mut forces = Vec::new();
+    let mut traces = Traces::default();
     if let Some(outside) = outside {
-        let (found, in_both) = outside.finish(&case, &run, &mut report.ending)?;
+        let (found, signals) = outside.finish(&case, &run, &mut report.ending)?;
         report.outside = Some(found);
-        forces = in_both;
+        traces = signals;
     }
     #[cfg(feature = "parquet")]
     if arguments.parquet {
@@ -186,6 +192,11 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     let path = folder.join("spectra.csv");
     spectra::write(&spectra, &path)?;
     report.files.push(path);
+    if !traces.rigs.is_empty() {
+        let path = folder.join("hybrid.csv");
+        outside::rig::write(&traces.rigs, &path)?;
+        report.files.push(path);
+    }
     let path = folder.join("wear.csv");
     wear::write(report.wear.as_ref(), &path)?;
     report.files.push(path);
@@ -193,7 +204,7 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
         let path = folder.join("report.html");
         write_bytes(
             &path,
-            page::write(&case, &run, &report, &history, &spectra, &forces)?.as_bytes(),
+            page::write(&case, &run, &report, &history, &spectra, &traces)?.as_bytes(),
         )?;
         report.files.push(path);
     }

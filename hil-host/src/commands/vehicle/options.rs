@@ -9,7 +9,7 @@ use dashpot_vehicle_run::VehicleRunError;
 
 /// The case, by name or by its parts; a given part overrides that of the case.
 #[derive(Debug, Clone, clap::Args)]
-pub(super) struct CaseArguments {
+pub(in crate::commands) struct CaseArguments {
     /// Case.
     #[arg(
         long,
@@ -76,7 +76,7 @@ impl CaseArguments {
     /// # Errors
     /// Neither a case nor a track with a speed is given, or
     /// [`CaseOptions::case`](dashpot_files::case::CaseOptions::case) fails.
-    pub(super) fn case(&self) -> Outcome<Case> {
+    pub(in crate::commands) fn case(&self) -> Outcome<Case> {
         let parts = CaseParts {
             case: self.case.as_deref(),
             vehicle: self.vehicle.as_deref(),

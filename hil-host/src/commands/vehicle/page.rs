@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::outside::{Traces, rig};
 use super::report::{Limits, Report, counted_windows, nadal_limits, of_damping, percent, verdict};
 use super::{drawing, figures, spectra, wear};
 use crate::commands::vehicle::history::History;
@@ -9,7 +10,6 @@ use dashpot_files::case::Case;
 use dashpot_realtime::timing::span;
 use dashpot_report::DrawError;
 use dashpot_report::page::{document, figure, footer, tiles};
-use dashpot_study::verification::Forces;
 use dashpot_vehicle_run::spectra::Spectrum;
 use dashpot_vehicle_run::{Ending, Indices, RideIndices, Run};
 
@@ -26,7 +26,7 @@ pub(super) fn write(
     report: &Report,
     history: &History,
     densities: &[Spectrum],
-    forces: &[Forces],
+    traces: &Traces,
 ) -> Result<String, DrawError> {
     let vehicle = run.vehicle();
     let names = vehicle.names();
@@ -118,15 +118,17 @@ pub(super) fn write(
         @if let Some(found) = &report.wear { (wear::section(found)?) }
         @if let Some(outside) = &report.outside {
             h2 { "External dampers" }
-            @for forces in forces {
+            @for forces in &traces.forces {
                 h3 { (forces.damper) }
                 (figure(&figures::outside(forces, report.step_s), &html! {
                     "Internal: the same run with all dampers simulated internally."
                 })?)
             }
+            @for samples in &traces.rigs { (rig::section(samples, report.step_s)?) }
             div.wide { table {
                 @for (what, text) in outside.lines() { tr { td { (what) } td.text { (text) } } }
             } }
+            @if let Some(effect) = &outside.effect { (rig::indices(&effect.indices)) }
         }
         h2 { "Figures" }
         (tables(report))

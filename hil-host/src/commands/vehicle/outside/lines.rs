@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::force::set_force_n;
 use super::line::Line;
+use super::rig::RigLine;
 use crate::commands::vehicle::drive::Exchange;
 use dashpot_recording::ForceHistory;
 use dashpot_vehicle_run::{Ending, Run, VehicleRunError};
@@ -13,6 +14,7 @@ use dashpot_vehicle_run::{Ending, Run, VehicleRunError};
 pub struct Lines {
     pub(super) lines: Vec<Line>,
     pub(super) recorded: Vec<(usize, ForceHistory)>,
+    pub(super) rigs: Vec<RigLine>,
 }
 
 impl Lines {
@@ -21,6 +23,7 @@ impl Lines {
         Self {
             lines,
             recorded: Vec::new(),
+            rigs: Vec::new(),
         }
     }
 
@@ -44,6 +47,14 @@ impl Exchange for Lines {
     /// Sends the displacements of the last tick; the returned forces act at the end of the next one. Returns an ending
     /// if a target is lost. Silent targets come last, because they use up the time that is left.
     fn after(&mut self, run: &mut Run, time_left: impl Fn() -> Duration) -> Option<Ending> {
+        // A rig is never left out, because its actuator must not lose its command.
+        let mut ended = None;
+        for rig in &mut self.rigs {
+            ended = rig.exchange(run).or(ended);
+        }
+        if ended.is_some() {
+            return ended;
+        }
         self.lines.iter_mut().for_each(Line::begin_tick);
         for comes_last in [false, true] {
             let mut lines = self.lines.iter_mut();

@@ -5,6 +5,7 @@ mod force;
 pub mod line;
 pub mod lines;
 mod report;
+pub(in crate::commands) mod rig;
 pub mod silence;
 
 use std::time::Duration;
@@ -14,6 +15,7 @@ use force::set_force_n;
 use line::{Line, Waits};
 use lines::Lines;
 pub(super) use report::{OutsideReport, print};
+use rig::{RigArguments, RigLine, RigOptions, Samples};
 use silence::Silence;
 
 use crate::commands::failure::{Failure, Outcome};
@@ -46,6 +48,8 @@ pub(super) struct OutsideArguments {
     options: LineOptions,
     #[command(flatten)]
     recording: ForceHistoryArguments,
+    #[command(flatten)]
+    rig: RigArguments,
 }
 
 /// Ticks in a row in which the vehicle may use the last force of a silent target, unless `--hold-ticks` sets them. A
@@ -58,6 +62,8 @@ pub(super) struct Outside {
     /// Index of each chosen damper.
     dampers: Vec<usize>,
     lines: Lines,
+    /// Actuator of the dampers on `desk`; `None` without one.
+    rig: Option<RigOptions>,
     is_realtime: bool,
     /// Comparison with internal dampers; `None` if no damper is behind a link.
     beside: Option<InsideComparison>,
@@ -89,6 +95,10 @@ impl OutsideArguments {
             };
         }
         let dampers = self.dampers(case)?;
+        let rig = self.rig()?;
+        if let Some(rig) = &rig {
+            rig.check_margin(case, &dampers)?;
+        }
         let last_s = (case.duration_s / case.step_s).round() * case.step_s;
         let mut recorded = Vec::new();
         let channels = self.recording.channels();
@@ -109,10 +119,28 @@ impl OutsideArguments {
             lines: Lines {
                 lines: Vec::new(),
                 recorded,
+                rigs: Vec::new(),
             },
+            rig,
             is_realtime,
             beside: None,
         }))
+    }
+
+    /// Returns the actuator of the rigs.
+    ///
+    /// # Errors
+    /// The actuator cannot be used, or a damper is neither on the desk nor a recorded force.
+    fn rig(&self) -> Outcome<Option<RigOptions>> {
+        let rig = self.rig.read()?;
+        let mut linked = self.choices.iter();
+        match linked.find(|choice| rig.is_some() && choice.source != Source::Desk) {
+            None => Ok(rig),
+            Some(choice) => Err(Failure::wrong_use(format!(
+                "--outside \"{}={}\": an actuator moves a damper, allowed with --actuator: {}=desk",
+                choice.damper, choice.name, choice.damper
+            ))),
+        }
     }
 
     /// Returns the indices of the dampers.
@@ -150,6 +178,10 @@ impl OutsideArguments {
                 continue;
             }
             behind.push(*damper);
+            if let Some(rig) = &outside.rig {
+                outside.lines.rigs.push(RigLine::new(rig, *damper, case)?);
+                continue;
+            }
             match links
                 .iter_mut()
                 .find(|(other, _)| other.source == choice.source)
@@ -177,13 +209,22 @@ impl OutsideArguments {
     }
 }
 
+/// Signals of the external dampers.
+#[derive(Default)]
+pub(super) struct Traces {
+    /// Forces in both runs.
+    pub(super) forces: Vec<Forces>,
+    /// Signals of the rigs.
+    pub(super) rigs: Vec<Samples>,
+}
+
 impl Outside {
     /// Returns the force sources used within the ticks and the recorder for the comparison after the run.
     pub(super) fn parts(&mut self) -> (&mut Lines, &mut Option<InsideComparison>) {
         (&mut self.lines, &mut self.beside)
     }
 
-    /// Returns the report and the forces in both runs; sets `ending` if a target is lost while its session is closed.
+    /// Returns the report and the signals; sets `ending` if a target is lost while its session is closed.
     ///
     /// # Errors
     /// The run with internal dampers fails.
@@ -192,7 +233,7 @@ impl Outside {
         case: &Case,
         run: &Run,
         ending: &mut Ending,
-    ) -> Outcome<(OutsideReport, Vec<Forces>)> {
+    ) -> Outcome<(OutsideReport, Traces)> {
         let mut targets = Vec::new();
         let mut silences: Vec<(usize, Silence)> = Vec::new();
         for line in self.lines.lines {
@@ -225,6 +266,9 @@ impl Outside {
         let mut report = OutsideReport::new(&self.choices, &silences, case, targets, effect);
         let histories = self.lines.recorded.iter().map(|(_, history)| history);
         report.add_unended(histories);
-        Ok((report, forces))
+        let rigs = self.lines.rigs.into_iter().map(RigLine::finish);
+        let (rig_reports, rigs): (Vec<_>, Vec<Samples>) = rigs.unzip();
+        report.rigs = rig_reports;
+        Ok((report, Traces { forces, rigs }))
     }
 }

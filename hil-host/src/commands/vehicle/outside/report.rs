@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::choice::{Choice, Source};
+use super::rig::RigReport;
 use super::silence::Silence;
 use crate::commands::gap_report::unended;
 use dashpot_files::case::Case;
@@ -20,6 +21,9 @@ pub(in crate::commands::vehicle) struct OutsideReport {
     pub(in crate::commands::vehicle) exchange_step_s: f64,
     /// Delay from a displacement to the arrival of its force, s; does not apply to a recorded force.
     pub(in crate::commands::vehicle) delay_s: f64,
+    /// Rigs whose actuator moves a damper.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(in crate::commands::vehicle) rigs: Vec<RigReport>,
     /// Targets whose link survived to the end.
     pub(in crate::commands::vehicle) targets: Vec<Target>,
     /// Difference from the same run with all dampers simulated internally.
@@ -72,6 +76,7 @@ impl OutsideReport {
             dampers: dampers.collect(),
             exchange_step_s: case.step_s,
             delay_s: case.step_s,
+            rigs: Vec::new(),
             targets,
             effect,
         }
@@ -97,6 +102,10 @@ impl OutsideReport {
             silence,
         } in &self.dampers
         {
+            if let Some(rig) = self.rigs.iter().find(|rig| rig.damper == *damper) {
+                lines.extend(rig.lines());
+                continue;
+            }
             let text = if *is_recorded {
                 let warning = unended_line.map(|line| format!("; {}", unended(line)));
                 format!(

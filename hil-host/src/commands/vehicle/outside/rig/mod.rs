@@ -1,0 +1,126 @@
+//! An external damper on a rig, whose actuator follows the vehicle.
+
+pub(in crate::commands) mod options;
+pub(in crate::commands) mod reasons;
+mod report;
+mod samples;
+mod section;
+
+use dashpot_core::hybrid::{HybridStatus, Measured};
+use dashpot_files::case::Case;
+use dashpot_hybrid::rig::VirtualRig;
+use dashpot_hybrid::{Coupling, Specimen};
+use dashpot_vehicle_run::{Ending, Run};
+
+pub(super) use options::{RigArguments, RigOptions};
+use reasons::reasons;
+pub(in crate::commands::vehicle) use report::RigReport;
+use samples::{MAX_SAMPLES, Sample};
+pub(in crate::commands::vehicle) use samples::{Samples, write};
+pub(in crate::commands::vehicle) use section::{indices, section};
+
+use super::force::set_force_n;
+use crate::commands::failure::{Failure, Outcome};
+
+/// Velocity at which the specimen is linear for its compensator, m/s.
+const SMALL_VELOCITY_M_PER_S: f64 = 1e-3;
+
+/// A damper on a virtual rig.
+pub(super) struct RigLine {
+    name: String,
+    damper: usize,
+    options: RigOptions,
+    coupling: Coupling,
+    rig: VirtualRig,
+    measured: Option<Measured>,
+    samples: Samples,
+    /// Time at which the guard acted, s.
+    guarded_s: Option<f64>,
+}
+
+impl RigLine {
+    /// Mounts a damper of the vehicle on a virtual rig.
+    ///
+    /// # Errors
+    /// A setting is outside its range for the step of the case.
+    pub(super) fn new(options: &RigOptions, damper: usize, case: &Case) -> Outcome<Self> {
+        let element = case.vehicle.dampers().nth(damper);
+        let name = element.map_or("", |element| element.name.as_str());
+        let parameters = case
+            .damper(name)
+            .ok_or_else(|| Failure::new(format!("the vehicle has no damper {damper}")))?
+            .clone()
+            .check()?;
+        let actuator = &options.actuator;
+        let refused = |error| Failure::wrong_use(format!("--actuator {}: {error}", actuator.name));
+        let specimen = Specimen::at_velocity(&parameters, SMALL_VELOCITY_M_PER_S);
+        let compensation = dashpot_hybrid::Compensation::from(options.compensate);
+        let compensator = compensation
+            .build(actuator, &specimen, case.step_s)
+            .map_err(refused)?;
+        let settings = options::transfer_settings(&actuator.limits, options.without_guard);
+        let coupling = Coupling::new(compensator, &settings, case.step_s).map_err(refused)?;
+        let mut rig =
+            VirtualRig::new(actuator, &parameters, case.step_s, options.seed).map_err(refused)?;
+        Ok(Self {
+            name: name.to_owned(),
+            damper,
+            coupling,
+            measured: rig.tick(0.0),
+            rig,
+            options: options.clone(),
+            samples: Samples {
+                damper: name.to_owned(),
+                rows: Vec::with_capacity(
+                    MAX_SAMPLES.min((case.duration_s / case.step_s) as usize + 1),
+                ),
+            },
+            guarded_s: None,
+        })
+    }
+
+    /// Sends the command for the displacement of this tick, and applies the measured force from the next tick on.
+    /// Returns an ending when the guard has brought the command to rest.
+    pub(super) fn exchange(&mut self, run: &mut Run) -> Option<Ending> {
+        let time_s = run.time_s();
+        let displacement_m = run.state().damper_displacements_m()[self.damper];
+        let tick = self.coupling.tick(displacement_m, self.measured);
+        let command = tick.command;
+        // A guard passes finite forces only.
+        let _ = set_force_n(run, self.damper, f64::from(command.force_n));
+        let transfer = self.coupling.transfer();
+        let tracking = transfer.tracking();
+        let sample = Sample {
+            time_s,
+            desired_m: tick.desired_m,
+            command_m: command.command_m,
+            measured_m: self
+                .measured
+                .map_or(f32::NAN, |measured| measured.displacement_m),
+            force_n: command.force_n,
+            delay_s: tracking.delay_s,
+            amplitude: tracking.amplitude,
+            relative_error: tracking.relative_error,
+            added_j: transfer.energy().added_j(),
+            status: command.status,
+        };
+        if self.samples.rows.len() < self.samples.rows.capacity() {
+            self.samples.rows.push(sample);
+        }
+        let ending = command.status & HybridStatus::ENDING;
+        if !ending.is_empty() {
+            self.guarded_s.get_or_insert(time_s);
+        }
+        let is_over = transfer.guard().is_held();
+        self.measured = self.rig.tick(f64::from(command.command_m));
+        is_over.then(|| {
+            let reasons = reasons(ending).into_iter().map(str::to_owned).collect();
+            run.guard_ended(&self.name, reasons, self.guarded_s.unwrap_or(time_s))
+        })
+    }
+
+    /// Returns the report and the signals.
+    pub(super) fn finish(self) -> (RigReport, Samples) {
+        (RigReport::new(&self), self.samples)
+    }
+}

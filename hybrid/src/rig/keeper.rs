@@ -1,0 +1,97 @@
+//! Commands that do not arrive.
+
+use dashpot_core::hybrid::wire::{Frame, FrameFlags};
+
+/// How a rig bridges commands that do not arrive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KeeperSettings {
+    /// Ticks in a row for which the command goes on at its last rate.
+    pub extrapolated_ticks: u32,
+    /// Time in which it then comes to rest (s).
+    pub ramp_s: f64,
+    /// Largest rate of the command (m/s).
+    pub velocity_m_per_s: f64,
+    /// Largest magnitude of the command (m).
+    pub stroke_m: f64,
+}
+
+/// Gives the actuator a command in every tick: the newest that arrived, its extrapolation, and then a ramp to a hold.
+///
+/// The hold lasts until the next session. No command ever moves faster than the velocity limit.
+#[derive(Clone, Debug)]
+pub struct CommandKeeper {
+    settings: KeeperSettings,
+    step_s: f64,
+    command_m: f64,
+    rate_m_per_s: f64,
+    missed: u32,
+    /// Rate at the beginning of the ramp, and its ticks so far.
+    ramp: Option<(f64, u32)>,
+    longest_gap: u32,
+}
+
+impl CommandKeeper {
+    /// A keeper at rest at a displacement (m), for ticks of `step_s`.
+    pub fn new(settings: KeeperSettings, displacement_m: f64, step_s: f64) -> Self {
+        Self {
+            settings,
+            step_s,
+            command_m: displacement_m,
+            rate_m_per_s: 0.0,
+            missed: 0,
+            ramp: None,
+            longest_gap: 0,
+        }
+    }
+
+    /// Starts again at the present command.
+    pub fn restart(&mut self) {
+        (self.rate_m_per_s, self.missed, self.ramp) = (0.0, 0, None);
+    }
+
+    /// Takes the newest command of a tick, or none; returns the command for the actuator (m).
+    pub fn tick(&mut self, newest: Option<&Frame>) -> f64 {
+        let limit = self.settings.velocity_m_per_s;
+        let is_stop = newest.is_some_and(|frame| frame.flags.contains(FrameFlags::STOP));
+        let wanted_rate = match (self.ramp, newest) {
+            (None, Some(frame)) if !is_stop => {
+                self.missed = 0;
+                self.rate_m_per_s = f64::from(frame.other).clamp(-limit, limit);
+                (f64::from(frame.displacement_m) - self.command_m) / self.step_s
+            }
+            (None, _) => {
+                self.missed += 1;
+                self.longest_gap = self.longest_gap.max(self.missed);
+                if is_stop || self.missed > self.settings.extrapolated_ticks {
+                    self.ramp = Some((self.rate_m_per_s, 0));
+                }
+                self.ramped_rate()
+            }
+            (Some(_), _) => self.ramped_rate(),
+        };
+        let travel_m = wanted_rate.clamp(-limit, limit) * self.step_s;
+        let stroke_m = self.settings.stroke_m;
+        self.command_m = (self.command_m + travel_m).clamp(-stroke_m, stroke_m);
+        self.command_m
+    }
+
+    /// The last rate, falling evenly to zero once the ramp has begun.
+    fn ramped_rate(&mut self) -> f64 {
+        let Some((from, ticks)) = &mut self.ramp else {
+            return self.rate_m_per_s;
+        };
+        *ticks = ticks.saturating_add(1);
+        let share = f64::from(*ticks) * self.step_s / self.settings.ramp_s;
+        *from * (1.0 - share).max(0.0)
+    }
+
+    /// True if the rig follows no command until the next session.
+    pub fn is_held(&self) -> bool {
+        self.ramp.is_some()
+    }
+
+    /// Largest number of ticks in a row without a command.
+    pub fn longest_gap(&self) -> u32 {
+        self.longest_gap
+    }
+}
