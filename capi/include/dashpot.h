@@ -121,6 +121,126 @@
 
 
 /**
+ * Size of a transfer system in units of 8 bytes. A 64-bit processor needs all of it, a 32-bit processor less.
+ */
+#define DASHPOT_TRANSFER_UNITS 426
+
+/**
+ * Size of a motion filter (words).
+ */
+#define DASHPOT_MOTION_FILTER_WORDS 6
+
+/**
+ * Compensator: the desired displacement is sent as it is.
+ */
+#define DASHPOT_COMPENSATOR_NONE 0
+
+/**
+ * Compensator: the polynomial through the last displacements, one known delay ahead.
+ */
+#define DASHPOT_COMPENSATOR_POLYNOMIAL 1
+
+/**
+ * Compensator: displacement and derivatives times fixed coefficients.
+ */
+#define DASHPOT_COMPENSATOR_INVERSE 2
+
+/**
+ * Compensator: the same with coefficients that follow the actuator.
+ */
+#define DASHPOT_COMPENSATOR_ADAPTIVE 3
+
+/**
+ * End of a test: stop, and hold the displacement.
+ */
+#define DASHPOT_END_HOLD 0
+
+/**
+ * End of a test: stop, and move back by the measured force divided by the stiffness of the specimen.
+ */
+#define DASHPOT_END_ZERO_FORCE 1
+
+/**
+ * The command moves slowly to the desired displacement.
+ */
+#define DASHPOT_PHASE_APPROACHING 0
+
+/**
+ * The command follows the wanted one.
+ */
+#define DASHPOT_PHASE_RUNNING 1
+
+/**
+ * The test has ended, and the command comes to rest.
+ */
+#define DASHPOT_PHASE_ENDING 2
+
+/**
+ * The test has ended, and the command stays.
+ */
+#define DASHPOT_PHASE_HELD 3
+
+/**
+ * The command would have moved faster than its rate limit, and was limited. Does not end a test.
+ */
+#define DASHPOT_HYBRID_COMMAND_LIMITED 1
+
+/**
+ * At least one tick had no valid measurement. Does not end a test.
+ */
+#define DASHPOT_HYBRID_MEASUREMENT_MISSED 2
+
+/**
+ * The desired displacement, or the compensator's command, was not a number or beyond the stroke.
+ */
+#define DASHPOT_HYBRID_STROKE 4
+
+/**
+ * The command was limited for too long.
+ */
+#define DASHPOT_HYBRID_VELOCITY 8
+
+/**
+ * The measured force was beyond its limit.
+ */
+#define DASHPOT_HYBRID_FORCE 16
+
+/**
+ * Measured and desired displacement were too far apart for too long, or for a large part of the motion.
+ */
+#define DASHPOT_HYBRID_TRACKING 32
+
+/**
+ * Measured values were too old.
+ */
+#define DASHPOT_HYBRID_AGE 64
+
+/**
+ * A measured value jumped, was not a number, or did not change for too long while the command moved.
+ */
+#define DASHPOT_HYBRID_IMPLAUSIBLE 128
+
+/**
+ * The force pushed in the direction of the motion: a wrong sign, or a specimen that is driven.
+ */
+#define DASHPOT_HYBRID_SIGN 256
+
+/**
+ * The actuator added too much energy to the vehicle.
+ */
+#define DASHPOT_HYBRID_ENERGY 512
+
+/**
+ * `dashpot_transfer_end` was called.
+ */
+#define DASHPOT_HYBRID_REQUESTED 1024
+
+/**
+ * The specimen moved far without a force worth the name: it is broken, or not connected.
+ */
+#define DASHPOT_HYBRID_NO_FORCE 2048
+
+/**
  * Number of calls of `dashpot_check_slice` that check a whole damper.
  */
 #define DASHPOT_CHECK_SLICES 777
@@ -297,6 +417,15 @@ enum dashpot_error
      * The storage contains no health model or estimate: call `dashpot_health_model_init`, then `dashpot_health_init`.
      */
     DASHPOT_ERROR_NO_HEALTH = 18,
+    /**
+     * The storage contains no transfer system or motion filter: call `dashpot_transfer_init` or
+     * `dashpot_motion_filter_init` first.
+     */
+    DASHPOT_ERROR_NO_TRANSFER = 19,
+    /**
+     * The command is still coming to rest, so nothing was cleared: try again after `DASHPOT_PHASE_ENDING`.
+     */
+    DASHPOT_ERROR_MOVING = 20,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -480,6 +609,289 @@ typedef struct {
 } dashpot_health_reading;
 
 /**
+ * How an adaptive compensator learns.
+ */
+typedef struct {
+    /**
+     * Largest change of each coefficient in either direction, 1 to s^3; 0 keeps a coefficient. At most 0.5, 0.2 s,
+     * 0.02 s^2 and 0.002 s^3.
+     */
+    float largest_change[4];
+    /**
+     * Misfit of command and measurement that says nothing about the coefficients (m), root mean square; 1e-7 to 0.01.
+     */
+    float noise_m;
+    /**
+     * Motion below which the coefficients are frozen (m), 0 to 1: velocity over the pole of the filters.
+     */
+    float least_motion_m;
+    /**
+     * Pole of the low-pass filters before the comparison (Hz), 0.1 to 1000 and to a tenth of the rate of the ticks.
+     */
+    float pole_hz;
+    /**
+     * Time after which a past motion counts 1/e (s), 0.1 to 1000.
+     */
+    float memory_s;
+    /**
+     * Shortest time for the largest change of a coefficient (s), 0.01 to 1000.
+     */
+    float change_s;
+} dashpot_adaptive_settings;
+
+/**
+ * Limits of a test.
+ */
+typedef struct {
+    /**
+     * Largest magnitude of the command (m), 1e-4 to 1.
+     */
+    float stroke_m;
+    /**
+     * Largest rate of the command (m/s), 1e-3 to 10. A faster command is limited.
+     */
+    float velocity_m_per_s;
+    /**
+     * Time for which the command may be limited without a break (s), 0 to 10.
+     */
+    float limited_s;
+    /**
+     * Largest magnitude of the measured force (N), 1 to 1e7.
+     */
+    float force_n;
+    /**
+     * Largest difference between measured and desired displacement (m), 1e-5 to 1.
+     */
+    float error_m;
+    /**
+     * Time for which the difference may be larger (s), 0 to 10.
+     */
+    float error_s;
+    /**
+     * Longest time without a valid measurement (s), 0 to 10.
+     */
+    float age_s;
+    /**
+     * Largest rate of a measured displacement that is plausible (m/s), 1e-3 to 1000.
+     */
+    float plausible_m_per_s;
+    /**
+     * Largest rate of a measured force that is plausible (N/s), 1 to 1e12.
+     */
+    float plausible_n_per_s;
+    /**
+     * Travel of the command (m) during which a measured value may stay the same to the last bit, 1e-6 to 1.
+     */
+    float stuck_travel_m;
+    /**
+     * Magnitude of the measured force below which the specimen counts as one without force (N), 0 to 1e7; 0 switches
+     * the check off.
+     */
+    float least_force_n;
+    /**
+     * Travel of the command (m) during which the specimen may be without force, 1e-6 to 100.
+     */
+    float without_force_m;
+    /**
+     * Time in which the command comes to rest (s), 0.01 to 10.
+     */
+    float ramp_s;
+    /**
+     * Rate at which the command approaches the desired displacement at the start (m/s), 1e-4 to 1.
+     */
+    float approach_m_per_s;
+    /**
+     * How a test ends, `DASHPOT_END_...`.
+     */
+    uint32_t action;
+    /**
+     * Stiffness of the specimen, for `DASHPOT_END_ZERO_FORCE` (N/m), 1e3 to 1e12.
+     */
+    float stiffness_n_per_m;
+} dashpot_guard_settings;
+
+/**
+ * Alarm of the energy that the actuator adds to the vehicle.
+ */
+typedef struct {
+    /**
+     * Time after which past energy counts 1/e (s), 0.05 to 1000.
+     */
+    float window_s;
+    /**
+     * Energy added in this time that is an alarm, as a share of the energy that the damper exchanges; 0.01 to 100.
+     */
+    float largest_share;
+    /**
+     * Mean exchanged power below which there is no alarm (W), 0 to 1e6.
+     */
+    float least_power_w;
+    /**
+     * Pole of the low-pass filters of displacement and force (Hz), 1 to 1000 and to a tenth of the rate of the ticks.
+     */
+    float pole_hz;
+} dashpot_energy_settings;
+
+/**
+ * Settings of a transfer system. Fill them with `dashpot_transfer_settings_init`, then change what differs.
+ */
+typedef struct {
+    /**
+     * Kind of compensator, `DASHPOT_COMPENSATOR_...`.
+     */
+    uint32_t compensator;
+    /**
+     * Order of the polynomial, 1 to 3.
+     */
+    uint32_t polynomial_order;
+    /**
+     * Delay that the polynomial corrects (s), 1 to 256 ticks.
+     */
+    float polynomial_delay_s;
+    /**
+     * Coefficients of the inverse, or those of an adaptive compensator at the start: 1 (0.2 to 5), s (-0.2 to 0.2),
+     * s^2 (-0.02 to 0.02) and s^3 (-0.002 to 0.002).
+     */
+    float coefficients[4];
+    /**
+     * How an adaptive compensator learns.
+     */
+    dashpot_adaptive_settings adaptive;
+    /**
+     * Limits of the test.
+     */
+    dashpot_guard_settings guard;
+    /**
+     * Alarm of the added energy.
+     */
+    dashpot_energy_settings energy;
+    /**
+     * Time after which past motion counts 1/e in the tracking (s), 0.05 to 1000.
+     */
+    float tracking_window_s;
+    /**
+     * Error of the tracking over that window that ends a test, relative to the desired motion (1), 0.01 to 100.
+     */
+    float tracking_error;
+} dashpot_transfer_settings;
+
+/**
+ * Storage of a motion filter. Opaque; copy it only as a whole.
+ */
+typedef struct {
+    /**
+     * Private.
+     */
+    uint32_t opaque[DASHPOT_MOTION_FILTER_WORDS];
+} dashpot_motion_filter;
+
+/**
+ * Displacement of the damper's ends at a tick, and its derivatives. Positive in extension.
+ */
+typedef struct {
+    /**
+     * Displacement (m).
+     */
+    float displacement_m;
+    /**
+     * Velocity (m/s).
+     */
+    float velocity_m_per_s;
+    /**
+     * Acceleration (m/s^2).
+     */
+    float acceleration_m_per_s2;
+    /**
+     * Jerk (m/s^3).
+     */
+    float jerk_m_per_s3;
+} dashpot_motion;
+
+/**
+ * Storage of a transfer system: compensator, tracking, energy and guard. Opaque; copy it only as a whole.
+ */
+typedef struct {
+    /**
+     * Private.
+     */
+    uint64_t opaque[DASHPOT_TRANSFER_UNITS];
+} dashpot_transfer;
+
+/**
+ * Measured values of a tick.
+ */
+typedef struct {
+    /**
+     * Displacement of the damper's ends (m), positive in extension.
+     */
+    float displacement_m;
+    /**
+     * Force of the damper (N), positive when it resists extension.
+     */
+    float force_n;
+} dashpot_measured;
+
+/**
+ * Result of a tick.
+ */
+typedef struct {
+    /**
+     * Command of the actuator (m).
+     */
+    float command_m;
+    /**
+     * Force for the vehicle (N): the measured one, or the last valid one; after the end of a test it fades to 0.
+     */
+    float force_n;
+    /**
+     * Latched `DASHPOT_HYBRID_...` bits.
+     */
+    uint16_t status;
+    /**
+     * Phase of the test after the tick, `DASHPOT_PHASE_...`.
+     */
+    uint16_t phase;
+} dashpot_command;
+
+/**
+ * Tracking, energy and compensator of a transfer system.
+ */
+typedef struct {
+    /**
+     * Time by which the measured displacement is late (s); negative if it is early.
+     */
+    float delay_s;
+    /**
+     * Amplitude of the measured displacement relative to the desired one (1).
+     */
+    float amplitude;
+    /**
+     * Root mean square of measured minus desired displacement, relative to that of the desired one (1).
+     */
+    float relative_error;
+    /**
+     * Root mean square of measured minus desired displacement (m).
+     */
+    float error_m;
+    /**
+     * Energy that the actuator has added to the vehicle since the start (J); negative if it took energy away.
+     */
+    float added_j;
+    /**
+     * Share of the exchanged energy that the actuator added over the fading past (1).
+     */
+    float added_share;
+    /**
+     * Present coefficients of an inverse or adaptive compensator, 1 to s^3; 1, 0, 0, 0 for the other kinds.
+     */
+    float coefficients[4];
+    /**
+     * 1 if the coefficients do not change: too little motion, or another kind of compensator; else 0.
+     */
+    uint32_t is_frozen;
+} dashpot_transfer_reading;
+
+/**
  * Readable part of a state.
  */
 typedef struct {
@@ -632,6 +1044,149 @@ dashpot_error dashpot_health_read(const dashpot_health_model *model,
  * @param health  initialised by `dashpot_health_init`, changed
  */
 dashpot_error dashpot_health_clear_status(dashpot_health *health);
+
+/**
+ * Writes which setting `dashpot_transfer_init` refuses, and what is allowed, like `guard.ramp_s: 0.01 to 10`. The text
+ * is empty if all settings are allowed. A text that does not fit is cut. Not for an interrupt.
+ *
+ * @param settings  the settings
+ * @param step_s    the step (s)
+ * @param text      written: English text with a zero at its end
+ * @param length    number of bytes for the text, at least 1; 128 are always enough
+ */
+dashpot_error dashpot_transfer_explain(const dashpot_transfer_settings *settings,
+                                       float step_s,
+                                       char *text,
+                                       size_t length);
+
+/**
+ * Initialises a motion filter at rest at 0. It estimates velocity, acceleration and jerk of a displacement that is
+ * known only at the ticks.
+ *
+ * @param filter   storage with any content; written
+ * @param pole_hz  pole of the filter (Hz), 1 to a quarter of the rate of the ticks
+ * @param step_s   period of the ticks (s), 1e-5 to 0.02
+ */
+dashpot_error dashpot_motion_filter_init(dashpot_motion_filter *filter,
+                                         float pole_hz,
+                                         float step_s);
+
+/**
+ * Puts a filter at rest at a displacement: at the start, and after a displacement that was not finite.
+ *
+ * @param filter          initialised by `dashpot_motion_filter_init`, changed
+ * @param displacement_m  displacement (m), finite
+ */
+dashpot_error dashpot_motion_filter_rest_at(dashpot_motion_filter *filter,
+                                            float displacement_m);
+
+/**
+ * Takes the displacement of a tick and computes its motion, which `dashpot_transfer_tick` takes.
+ *
+ * A displacement that is not finite makes this motion and those after it useless, until
+ * `dashpot_motion_filter_rest_at`; the guard ends the test for the first of them.
+ *
+ * @param filter          initialised by `dashpot_motion_filter_init`, changed
+ * @param displacement_m  desired displacement (m)
+ * @param motion          written
+ */
+dashpot_error dashpot_motion_filter_push(dashpot_motion_filter *filter,
+                                         float displacement_m,
+                                         dashpot_motion *motion);
+
+/**
+ * Fills settings with defaults for an actuator. The compensator is `DASHPOT_COMPENSATOR_NONE`; set another one with
+ * `dashpot_transfer_settings_set_delay`. `dashpot_transfer_init` checks all numbers.
+ *
+ * @param settings          written
+ * @param stroke_m          largest magnitude of the command (m)
+ * @param velocity_m_per_s  largest rate of the command (m/s)
+ * @param force_n           largest magnitude of the measured force (N)
+ */
+dashpot_error dashpot_transfer_settings_init(dashpot_transfer_settings *settings,
+                                             float stroke_m,
+                                             float velocity_m_per_s,
+                                             float force_n);
+
+/**
+ * Sets the kind of compensator and everything of it for an actuator with a delay: the polynomial's delay, the
+ * coefficients of the inverse, and how far an adaptive compensator may change them. All its other settings become the
+ * defaults.
+ *
+ * @param settings       from `dashpot_transfer_settings_init`, changed
+ * @param compensator    `DASHPOT_COMPENSATOR_...`
+ * @param delay_s        delay of the actuator (s), 0 to 0.2
+ * @param delay_error_s  largest error of that delay (s), 0 to 0.2; for an adaptive compensator
+ */
+dashpot_error dashpot_transfer_settings_set_delay(dashpot_transfer_settings *settings,
+                                                  uint32_t compensator,
+                                                  float delay_s,
+                                                  float delay_error_s);
+
+/**
+ * Initialises a transfer system at rest at 0.
+ *
+ * Do not call it within a tick. It needs twice the size of the system as stack. `dashpot_transfer_explain`
+ * names the setting if it returns `DASHPOT_ERROR_RANGE`. A flipped bit in the storage is not detected.
+ *
+ * @param system    storage with any content; written
+ * @param settings  from `dashpot_transfer_settings_init`, changed as needed; not needed afterwards
+ * @param step_s    period of the ticks (s), 1e-5 to 0.02
+ */
+dashpot_error dashpot_transfer_init(dashpot_transfer *system,
+                                    const dashpot_transfer_settings *settings,
+                                    float step_s);
+
+/**
+ * Takes the desired motion and the measured values of a tick; computes the command and the force for the vehicle.
+ *
+ * A number that is NaN, too large or too old is not an error: it is left out, latched in the status, and ends the test
+ * if the guard says so. The command never moves by more than the velocity limit times the step, and all results are
+ * finite.
+ *
+ * @param system    initialised by `dashpot_transfer_init`, changed
+ * @param desired   desired motion
+ * @param measured  measured values, or NULL if none came
+ * @param command   written
+ */
+dashpot_error dashpot_transfer_tick(dashpot_transfer *system,
+                                    const dashpot_motion *desired,
+                                    const dashpot_measured *measured,
+                                    dashpot_command *command);
+
+/**
+ * Places a system that has not ended a test at the actuator's present displacement, from which the command approaches
+ * the desired one. After the end of a test it changes nothing.
+ *
+ * @param system          initialised by `dashpot_transfer_init`, changed
+ * @param displacement_m  displacement (m); one beyond the stroke counts as the stroke
+ */
+dashpot_error dashpot_transfer_place(dashpot_transfer *system,
+                                     float displacement_m);
+
+/**
+ * Ends the test: the command comes to rest, and `DASHPOT_HYBRID_REQUESTED` is latched.
+ *
+ * @param system  initialised by `dashpot_transfer_init`, changed
+ */
+dashpot_error dashpot_transfer_end(dashpot_transfer *system);
+
+/**
+ * Clears the status. A test that has come to rest starts again: the command approaches the desired displacement. While
+ * the command is still coming to rest, nothing is cleared and the result is `DASHPOT_ERROR_MOVING`.
+ *
+ * @param system  initialised by `dashpot_transfer_init`, changed
+ */
+dashpot_error dashpot_transfer_clear(dashpot_transfer *system);
+
+/**
+ * Reads tracking, energy and coefficients. It needs square roots and an arc tangent, so do not call it in every tick.
+ *
+ * @param system   initialised by `dashpot_transfer_init`
+ * @param reading  written
+ */
+dashpot_error dashpot_transfer_read(const dashpot_transfer *system,
+                                    dashpot_transfer_reading *reading);
 
 /**
  * Initialises a state at rest, centred in the clearance, without force or status bits.

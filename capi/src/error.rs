@@ -46,12 +46,17 @@ pub enum DashpotError {
     Revision = 17,
     /// The storage contains no health model or estimate: call `dashpot_health_model_init`, then `dashpot_health_init`.
     NoHealth = 18,
+    /// The storage contains no transfer system or motion filter: call `dashpot_transfer_init` or
+    /// `dashpot_motion_filter_init` first.
+    NoTransfer = 19,
+    /// The command is still coming to rest, so nothing was cleared: try again after `DASHPOT_PHASE_ENDING`.
+    Moving = 20,
 }
 
 /// cbindgen:ignore
 impl DashpotError {
     /// All codes in the order of their numbers.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 21] = [
         Self::None,
         Self::NullPointer,
         Self::Misaligned,
@@ -71,6 +76,8 @@ impl DashpotError {
         Self::Header,
         Self::Revision,
         Self::NoHealth,
+        Self::NoTransfer,
+        Self::Moving,
     ];
 
     const fn text(self) -> &'static CStr {
@@ -94,6 +101,8 @@ impl DashpotError {
             Self::Header => c"dashpot.h and the library have different versions",
             Self::Revision => c"the revision of the image does not match its constants",
             Self::NoHealth => c"the storage contains no health model or estimate",
+            Self::NoTransfer => c"the storage contains no transfer system or motion filter",
+            Self::Moving => c"the command is still coming to rest, so nothing was cleared",
         }
     }
 }

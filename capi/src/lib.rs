@@ -14,6 +14,7 @@ mod check;
 mod damper;
 mod error;
 mod health;
+mod hybrid;
 mod pointer;
 mod state;
 mod step;
@@ -28,6 +29,7 @@ pub use health::{
     dashpot_health_read, dashpot_health_set_baseline, dashpot_health_set_limits,
     dashpot_health_tick,
 };
+pub use hybrid::*;
 pub use state::{
     dashpot_state_clear_status, dashpot_state_init, dashpot_state_read, dashpot_state_restore,
     dashpot_state_save,

@@ -19,6 +19,10 @@ int main(void)
 {
     static dashpot_damper damper, before;
     static dashpot_state state;
+    static dashpot_transfer transfer;
+    const dashpot_motion motion = {0.001F, 0.0F, 0.0F, 0.0F};
+    dashpot_transfer_settings settings;
+    dashpot_command command;
     uint8_t *bytes = (uint8_t *)&damper;
     const uint32_t later = DASHPOT_VERSION + 100U;
 
@@ -36,6 +40,21 @@ int main(void)
            dashpot_step(&damper, &state, 0.0F, (float *)&state.opaque[2]));
     if (memcmp(&damper, &before, sizeof damper) != 0) {
         fprintf(stderr, "a refused call has changed the damper\n");
+        failed = 1;
+    }
+
+    expect("transfer_settings_init", DASHPOT_ERROR_NONE,
+           dashpot_transfer_settings_init(&settings, 0.05F, 0.5F, 20e3F));
+    expect("transfer_init, settings in the storage", DASHPOT_ERROR_OVERLAP,
+           dashpot_transfer_init(&transfer, (dashpot_transfer_settings *)&transfer, 1e-3F));
+    expect("transfer_tick without a system", DASHPOT_ERROR_NO_TRANSFER,
+           dashpot_transfer_tick(&transfer, &motion, NULL, &command));
+    expect("transfer_init", DASHPOT_ERROR_NONE, dashpot_transfer_init(&transfer, &settings, 1e-3F));
+    expect("transfer_tick, command in the system", DASHPOT_ERROR_OVERLAP,
+           dashpot_transfer_tick(&transfer, &motion, NULL, (dashpot_command *)&transfer.opaque[9]));
+    expect("transfer_tick", DASHPOT_ERROR_NONE, dashpot_transfer_tick(&transfer, &motion, NULL, &command));
+    if (command.status != DASHPOT_HYBRID_MEASUREMENT_MISSED) {
+        fprintf(stderr, "transfer_tick: status %u\n", (unsigned)command.status);
         failed = 1;
     }
 

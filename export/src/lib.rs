@@ -10,6 +10,7 @@ mod name;
 mod provenance;
 mod rust;
 mod standalone;
+mod transfer;
 mod word;
 
 pub use c::{c_header, c_source};
@@ -18,4 +19,5 @@ pub use health::{health_c_header, health_c_source, health_rust_source};
 pub use provenance::Provenance;
 pub use rust::rust_source;
 pub use standalone::{standalone_header, standalone_source, standalone_table_bytes};
+pub use transfer::{transfer_header, transfer_source};
 pub use word::Word;

@@ -19,8 +19,10 @@ from ._dashpot import (
     Contact,
     Cycle,
     Damper,
+    MotionFilter,
     State,
     Study,
+    TransferSystem,
     Vehicle,
     VehicleRun,
     calibrate,
@@ -30,21 +32,30 @@ from ._dashpot import (
     vehicle,
 )
 from ._errors import DashpotError, DashpotFileError, DashpotKeyError
+from ._hybrid import Command, EnergyReading, HybridStatus, Measured, Motion, TrackingReading
 from ._status import Status
 
 __all__ = [
     "Bank",
     "BuiltDamper",
     "Calibrated",
+    "Command",
     "Contact",
     "Cycle",
     "Damper",
     "DashpotError",
     "DashpotFileError",
     "DashpotKeyError",
+    "EnergyReading",
+    "HybridStatus",
+    "Measured",
+    "Motion",
+    "MotionFilter",
     "State",
     "Status",
     "Study",
+    "TrackingReading",
+    "TransferSystem",
     "Vehicle",
     "VehicleRun",
     "calibrate",

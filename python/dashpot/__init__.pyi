@@ -1,7 +1,7 @@
 import enum
 from collections.abc import Iterator, Sequence
 from os import PathLike
-from typing import Any, Literal, TypeAlias, TypeVar, final, overload
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar, final, overload
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -17,15 +17,23 @@ __all__ = [
     "Bank",
     "BuiltDamper",
     "Calibrated",
+    "Command",
     "Contact",
     "Cycle",
     "Damper",
     "DashpotError",
     "DashpotFileError",
     "DashpotKeyError",
+    "EnergyReading",
+    "HybridStatus",
+    "Measured",
+    "Motion",
+    "MotionFilter",
     "State",
     "Status",
     "Study",
+    "TrackingReading",
+    "TransferSystem",
     "Vehicle",
     "VehicleRun",
     "calibrate",
@@ -209,6 +217,114 @@ class Vehicle:
     def reset(self) -> None: ...
     def save(self) -> bytes: ...
     def restore(self, state: bytes) -> None: ...
+
+class HybridStatus(enum.IntFlag):
+    COMMAND_LIMITED = 1
+    MEASUREMENT_MISSED = 2
+    STROKE = 4
+    VELOCITY = 8
+    FORCE = 16
+    TRACKING = 32
+    AGE = 64
+    IMPLAUSIBLE = 128
+    SIGN = 256
+    ENERGY = 512
+    REQUESTED = 1024
+    NO_FORCE = 2048
+
+class Motion(NamedTuple):
+    displacement_m: float
+    velocity_m_per_s: float = 0.0
+    acceleration_m_per_s2: float = 0.0
+    jerk_m_per_s3: float = 0.0
+
+class Measured(NamedTuple):
+    displacement_m: float
+    force_n: float
+
+class Command(NamedTuple):
+    command_m: float
+    force_n: float
+    status: HybridStatus
+
+class TrackingReading(NamedTuple):
+    delay_s: float
+    amplitude: float
+    relative_error: float
+    error_m: float
+
+class EnergyReading(NamedTuple):
+    added_j: float
+    added_share: float
+
+@final
+class MotionFilter:
+    def __new__(cls, pole_hz: float, step_s: float = 0.001) -> MotionFilter: ...
+    def rest_at(self, displacement_m: float) -> None: ...
+    def push(self, displacement_m: float) -> Motion: ...
+    def __copy__(self) -> MotionFilter: ...
+    def __deepcopy__(self, _memo: Any) -> MotionFilter: ...
+
+@final
+class TransferSystem:
+    def __new__(
+        cls,
+        *,
+        stroke_m: float,
+        velocity_m_per_s: float,
+        force_n: float,
+        step_s: float = 0.001,
+        compensator: Literal["none", "polynomial", "inverse", "adaptive"] = "none",
+        delay_s: float | None = None,
+        delay_error_s: float | None = None,
+        coefficients: Sequence[float] | None = None,
+        order: int | None = None,
+        largest_change: Sequence[float] | None = None,
+        noise_m: float | None = None,
+        least_motion_m: float | None = None,
+        pole_hz: float | None = None,
+        memory_s: float | None = None,
+        change_s: float | None = None,
+        limited_s: float | None = None,
+        error_m: float | None = None,
+        error_s: float | None = None,
+        age_s: float | None = None,
+        plausible_m_per_s: float | None = None,
+        plausible_n_per_s: float | None = None,
+        stuck_travel_m: float | None = None,
+        least_force_n: float | None = None,
+        without_force_m: float | None = None,
+        ramp_s: float | None = None,
+        approach_m_per_s: float | None = None,
+        action: Literal["hold", "zero_force"] = "hold",
+        stiffness_n_per_m: float | None = None,
+        energy_window_s: float | None = None,
+        energy_largest_share: float | None = None,
+        energy_least_power_w: float | None = None,
+        energy_pole_hz: float | None = None,
+        tracking_window_s: float = 1.0,
+        tracking_error: float = 0.3,
+    ) -> TransferSystem: ...
+    def tick(self, desired: Sequence[float], measured: Sequence[float] | None = None) -> Command: ...
+    def place(self, displacement_m: float) -> None: ...
+    def end(self) -> None: ...
+    def clear(self) -> bool: ...
+    @property
+    def tracking(self) -> TrackingReading: ...
+    @property
+    def energy(self) -> EnergyReading: ...
+    @property
+    def status(self) -> HybridStatus: ...
+    @property
+    def phase(self) -> Literal["approaching", "running", "ending", "held"]: ...
+    @property
+    def compensator(self) -> Literal["none", "polynomial", "inverse", "adaptive"]: ...
+    @property
+    def coefficients(self) -> tuple[float, float, float, float] | None: ...
+    @property
+    def step_s(self) -> float: ...
+    def __copy__(self) -> TransferSystem: ...
+    def __deepcopy__(self, _memo: Any) -> TransferSystem: ...
 
 @final
 class Study:

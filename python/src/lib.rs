@@ -14,6 +14,7 @@ mod contact_warnings;
 mod creep_forces;
 mod damper;
 mod error;
+mod hybrid;
 mod interruption;
 mod json;
 mod overrides;
@@ -47,6 +48,8 @@ mod _dashpot {
     use crate::creep_forces::creep_forces;
     #[pymodule_export]
     use crate::damper::Damper;
+    #[pymodule_export]
+    use crate::hybrid::{MotionFilter, TransferSystem};
     #[pymodule_export]
     use crate::recording::read;
     #[pymodule_export]

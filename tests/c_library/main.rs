@@ -5,3 +5,4 @@ mod header;
 mod host;
 mod standalone;
 mod targets;
+mod transfer;

@@ -367,7 +367,7 @@ fn options_that_would_change_the_bits_are_errors() {
 }
 
 /// Names that the object file of an exported source leaves undefined.
-fn left_to_others(compiler: &mut Command, source: &str, folder: &Path) -> Vec<String> {
+pub fn left_to_others(compiler: &mut Command, source: &str, folder: &Path) -> Vec<String> {
     use object::{Object, ObjectSymbol};
     let object = folder.join("object.o");
     compiler
@@ -410,7 +410,7 @@ fn it_needs_no_library() {
 }
 
 /// Text of the first code block (between lines of three backquotes) that follows `after` in a document.
-fn block<'a>(document: &'a str, after: &str) -> &'a str {
+pub fn block<'a>(document: &'a str, after: &str) -> &'a str {
     let (_, rest) = document.split_once(after).expect("what is before");
     let (_, rest) = rest.split_once("\n```").expect("a block");
     let (_, rest) = rest.split_once('\n').expect("a block");

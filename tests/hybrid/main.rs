@@ -11,6 +11,7 @@ mod guard;
 mod locomotive;
 mod plan;
 mod plan_of_vehicles;
+mod sequence;
 
 /// Page with the tables that these tests make.
 const DOCUMENT: &str = "docs/hybrid.md";

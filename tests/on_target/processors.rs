@@ -188,7 +188,7 @@ fn every_processor_keeps_its_budget_and_has_the_hosts_bits() {
 }
 
 /// Rows of the documents' tables: title and figures.
-const ROWS: [(&str, &[&str]); 23] = [
+const ROWS: [(&str, &[&str]); 24] = [
     (
         "instructions of a step: minimum, mean, maximum over four excitations",
         &[
@@ -265,12 +265,16 @@ const ROWS: [(&str, &[&str]); 23] = [
         &["stack_bytes"],
     ),
     (
-        "code and constants of the C library without health, bytes",
+        "code and constants of the C library without health and hybrid tests, bytes",
         &["code_and_constant_bytes"],
     ),
     (
         "what its health functions add, bytes",
         &["health_code_and_constant_bytes"],
+    ),
+    (
+        "what its functions for hybrid tests add, bytes",
+        &["hybrid_code_and_constant_bytes"],
     ),
     ("damper, bytes", &["damper_bytes"]),
     ("state, bytes", &["state_bytes"]),

@@ -22,6 +22,7 @@ pub mod standalone;
 pub mod standalone_count;
 pub mod target;
 pub mod tolerance;
+pub mod transfer_sequence;
 
 use dashpot_core::DamperParameters;
 pub use dashpot_experiment::digest;

@@ -7,14 +7,15 @@ use object::{Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionKind}
 
 use crate::budget::Figures;
 
-/// Prefix of the health functions.
-const HEALTH: &str = "dashpot_health_";
+/// Prefixes of the health functions, and of those for hybrid tests.
+const HEALTH: &[&str] = &["dashpot_health_"];
+const HYBRID: &[&str] = &["dashpot_transfer_", "dashpot_motion_filter_"];
 
 /// Code and constants (bytes) of the C library, for a target with the core and its interface.
 ///
-/// There are two figures: the part that a linker with `--gc-sections` keeps for all functions except the health
-/// functions, and the part that the health functions add. A third is the number of symbols that panic, use a heap or
-/// compute in double precision.
+/// There are three figures: the part that a linker with `--gc-sections` keeps for all functions except those for health
+/// and hybrid tests, and the part that each of these two groups adds to it alone. Three more are the numbers of symbols
+/// that panic, use a heap or compute in double precision.
 pub fn library_figures(library: &Path) -> Figures {
     let bytes = std::fs::read(library).expect("a library");
     let archive = object::read::archive::ArchiveFile::parse(&*bytes).expect("an archive");
@@ -37,18 +38,30 @@ pub fn library_figures(library: &Path) -> Figures {
     }
     let function = |name: &&String| name.starts_with("dashpot_");
     let functions: Vec<&String> = sections.defined.keys().filter(function).collect();
-    let (health, others): (Vec<&String>, Vec<&String>) =
-        functions.iter().partition(|name| name.starts_with(HEALTH));
+    let of_group = |name: &str, group: &[&str]| group.iter().any(|prefix| name.starts_with(prefix));
+    let without_group = |group: &[&str]| -> Vec<&String> {
+        let others = functions.iter().filter(|name| !of_group(name, group));
+        others.copied().collect()
+    };
+    let [without_health, without_hybrid] = [HEALTH, HYBRID].map(without_group);
+    let others = without_group(&[HEALTH, HYBRID].concat());
     assert!(
-        health.len() > 5 && others.len() > 10,
+        without_hybrid.len() > others.len() + 5
+            && without_health.len() > others.len() + 5
+            && others.len() > 10,
         "{functions:?}: a section for each function"
     );
-    let (without, all) = (sections.bytes_of(&others), sections.bytes_of(&functions));
+    let [without, with_health, with_hybrid] =
+        [&others, &without_hybrid, &without_health].map(|group| sections.bytes_of(group));
     vec![
         ("code_and_constant_bytes".into(), without as f64),
         (
             "health_code_and_constant_bytes".into(),
-            (all - without) as f64,
+            (with_health - without) as f64,
+        ),
+        (
+            "hybrid_code_and_constant_bytes".into(),
+            (with_hybrid - without) as f64,
         ),
         ("panic_symbols".into(), f64::from(panics)),
         ("heap_symbols".into(), f64::from(heap)),

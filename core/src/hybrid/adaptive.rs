@@ -173,8 +173,8 @@ impl AdaptiveTimeSeries {
             power *= pole_per_s;
             if *sensitivity > 1e8 {
                 let allowed = "so large that largest_change times the powers of the pole is at most 1e8 noises a metre";
-                let noise_m = f64::from(settings.noise_m);
-                return Err(BuildError::new(SECTION, "noise_m", noise_m, allowed));
+                let field = (SECTION, "noise_m");
+                return Err(limits::refused(field, settings.noise_m, allowed));
             }
         }
         let chain = Chain::new(pole_per_s, step_s);

@@ -57,7 +57,7 @@ impl PolynomialExtrapolation {
             (1.0, MAX_SPACING as f32),
             allowed,
         )
-        .map_err(|_| BuildError::new(SECTION, "delay_s", f64::from(delay_s), allowed))?;
+        .map_err(|_| limits::refused((SECTION, "delay_s"), delay_s, allowed))?;
         let spacing = libm::roundf(ticks);
         // Lagrange weights at `ahead` spacings after the present sample.
         let ahead = ticks / spacing;

@@ -29,8 +29,6 @@ bitflags::bitflags! {
         const REQUESTED = 1 << 10;
         /// The specimen moved far without a force worth the name: it is broken, or not connected.
         const NO_FORCE = 1 << 11;
-        /// The rig holds its displacement and follows no command, because commands did not reach it.
-        const RIG_HELD = 1 << 12;
     }
 }
 

@@ -1,9 +1,10 @@
 //! A damper in C99 without a library: step and constants in one header and one source.
 //!
 //! `damper.h` and `damper.c` are the step; like `core/src/step.rs`, they transcribe docs/numerics.md. `bank.c` adds the
-//! step of several dampers for FMUs, and `end.c` closes the source. In names that
-//! start with `prefix_` or `PREFIX_`, the name of the constant replaces the prefix, so that several dampers link into
-//! one program. The constants are separate from the step, so the step works with any damper of the same scalar type.
+//! step of several dampers for FMUs. `start.c` and `end.c` are around every source: they keep a compiler from fusing
+//! and reordering operations. In names that start with `prefix_` or `PREFIX_`, the name of the constant replaces the
+//! prefix, so that several dampers link into one program. The constants are separate from the step, so the step works
+//! with any damper of the same scalar type.
 
 mod constants;
 mod digest;
@@ -15,15 +16,20 @@ use super::{ExportError, Provenance, Word, name};
 use dashpot_files::Scalar;
 
 const HEADER: &str = include_str!("damper.h");
-const SOURCE: &str = concat!(include_str!("damper.c"), include_str!("end.c"));
+const SOURCE: &str = concat!(
+    include_str!("start.c"),
+    include_str!("damper.c"),
+    include_str!("end.c")
+);
 const SOURCE_WITH_BANK: &str = concat!(
+    include_str!("start.c"),
     include_str!("damper.c"),
     include_str!("bank.c"),
     include_str!("end.c")
 );
 
 /// End of the header, which closes the C++ block and the include guard.
-const END_OF_HEADER: &str = "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
+pub(super) const END_OF_HEADER: &str = "\n#ifdef __cplusplus\n}\n#endif\n\n#endif\n";
 
 /// Returns the C and C++ header of [`standalone_source`]: types, functions and the damper as built.
 ///
@@ -97,7 +103,7 @@ fn comment<T: Word>(
 }
 
 /// Fills in the scalar type and the constant's prefix in a source text of the step.
-fn rendered<T: Word>(text: &str, constant: &str) -> String {
+pub(super) fn rendered<T: Word>(text: &str, constant: &str) -> String {
     let (float, word, bits) = match Scalar::of::<T>() {
         Scalar::F32 => ("float", "uint32_t", "32"),
         Scalar::F64 => ("double", "uint64_t", "64"),

@@ -85,8 +85,8 @@ fn the_page_about_the_c_library_works_word_for_word() {
         }
     }
     assert_eq!(
-        compared, 5,
-        "compiler alone, pkg-config, CMake, C++, health"
+        compared, 6,
+        "compiler alone, pkg-config, CMake, C++, health, hybrid test"
     );
     // QEMU's semihosting prints to standard error.
     assert!(

@@ -6,6 +6,7 @@ use std::path::Path;
 use assert_cmd::assert::Assert;
 use predicates::str::contains;
 use serde_json::Value;
+use xtask::tools::{GCC, have};
 
 use crate::common::dashpot;
 
@@ -124,4 +125,34 @@ fn bad_input_is_refused_with_what_is_allowed() {
     benchmark(&["--stiffness-n-per-m", "nan"], here())
         .code(2)
         .stderr(contains("--stiffness-n-per-m NaN is not allowed"));
+}
+
+/// The source and its header are written together, and compile with any C99 compiler.
+#[test]
+fn the_transfer_system_is_exported_as_portable_c() {
+    let folder = tempfile::tempdir().unwrap();
+    let export =
+        |arguments: &[&str]| dashpot(&[&["hybrid", "export"], arguments].concat(), folder.path());
+    export(&["--name", "FRONT", "--output", "front.c"])
+        .success()
+        .stdout("FRONT in front.c, declared in front.h\n");
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(read("front.c").contains("dashpot hybrid export --name FRONT --output 'front.c'"));
+    assert!(read("front.c").contains("#include \"front.h\""));
+    assert!(read("front.h").contains("front_command front_tick(front_system *system,"));
+    let whole = export(&["--output", "-"]).success();
+    let whole = String::from_utf8_lossy(&whole.get_output().stdout).into_owned();
+    assert!(whole.contains("transfer_tick(") && !whole.contains("#include \"transfer.h\""));
+    if have(&[GCC], "the exported transfer system") {
+        let mut gcc = std::process::Command::new(GCC.program);
+        gcc.args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-c", "front.c"]);
+        assert!(gcc.current_dir(folder.path()).status().unwrap().success());
+    }
+    export(&["--name", "front", "--output", "x.c"])
+        .failure()
+        .stderr(contains("front"));
+    export(&["--output", "front.h"])
+        .code(2)
+        .stderr(contains("allowed: another extension, such as .c"));
+    assert!(!folder.path().join("x.c").exists());
 }

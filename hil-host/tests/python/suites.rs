@@ -44,6 +44,7 @@ suites!(
     test_contact,
     test_damper,
     test_documentation,
+    test_hybrid,
     test_recording,
     test_replay,
     test_rig,

@@ -1,6 +1,7 @@
 //! `dashpot hybrid`: tests in which an actuator moves a real damper and the rest is simulated.
 
 mod benchmark;
+mod export;
 pub(super) mod plan;
 mod record;
 mod rig;
@@ -18,6 +19,7 @@ pub struct HybridArguments {
 enum Action {
     Benchmark(benchmark::BenchmarkArguments),
     Rig(rig::RigArguments),
+    Export(export::ExportArguments),
     Plan(Box<plan::PlanArguments>),
 }
 
@@ -29,6 +31,7 @@ pub fn run(arguments: &HybridArguments) -> Outcome<()> {
     match &arguments.action {
         Action::Benchmark(arguments) => benchmark::run(arguments),
         Action::Rig(arguments) => rig::run(arguments),
+        Action::Export(arguments) => export::run(arguments),
         Action::Plan(arguments) => plan::run(arguments),
     }
 }

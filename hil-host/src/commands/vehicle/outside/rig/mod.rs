@@ -27,6 +27,9 @@ pub(in crate::commands::vehicle) use section::{indices, section};
 use super::force::set_force_n;
 use crate::commands::failure::{Failure, Outcome};
 
+/// Why the test ends when the rig says that it follows no command.
+const RIG_HOLDS: &str = "the rig holds its displacement, because commands did not reach it in time";
+
 /// Velocity at which the specimen is linear for its compensator, m/s.
 const SMALL_VELOCITY_M_PER_S: f64 = 1e-3;
 
@@ -112,7 +115,7 @@ impl RigLine {
         let displacement_m = run.state().damper_displacements_m()[self.damper];
         let measured = self.rig.receive();
         if self.rig.is_held() {
-            self.coupling.transfer().guard().end(HybridStatus::RIG_HELD);
+            self.coupling.transfer().guard().end(HybridStatus::REQUESTED);
         }
         let tick = self.coupling.tick(displacement_m, measured);
         let command = tick.command;
@@ -142,7 +145,9 @@ impl RigLine {
         self.is_over = transfer.guard().is_held();
         self.rig.send(time_s, command.command_m);
         self.is_over.then(|| {
-            let reasons = reasons(ending).into_iter().map(str::to_owned).collect();
+            let seen = reasons(ending).into_iter();
+            let held = self.rig.is_held().then_some(RIG_HOLDS);
+            let reasons = seen.chain(held).map(str::to_owned).collect();
             run.guard_ended(&self.name, reasons, self.guarded_s.unwrap_or(time_s))
         })
     }

@@ -3,7 +3,7 @@
 use dashpot_core::hybrid::HybridStatus;
 
 /// Each status bit in words.
-const WORDS: [(HybridStatus, &str); 13] = [
+const WORDS: [(HybridStatus, &str); 12] = [
     (
         HybridStatus::COMMAND_LIMITED,
         "the rate of the command was limited",
@@ -36,10 +36,6 @@ const WORDS: [(HybridStatus, &str); 13] = [
     (
         HybridStatus::NO_FORCE,
         "the specimen moved far without a force",
-    ),
-    (
-        HybridStatus::RIG_HELD,
-        "the rig holds its displacement, because commands did not reach it",
     ),
 ];
 
