@@ -10,8 +10,8 @@ use dashpot_rail::vehicle::{Law, Running};
 use dashpot_vehicle_run::contact::ContactSetup;
 use dashpot_vehicle_run::{Run, outside_index};
 
-/// The vehicle at a speed on ideal track with rigid rails, as the linear equations have them, pushed aside a little; all
-/// dampers without clearance.
+/// The vehicle at a speed on ideal track with rigid rails, as the linear equations have them, pushed aside a little.
+/// All dampers are without clearance.
 fn case(vehicle: &str, km_h: f64) -> Case {
     let mut options = CaseOptions::load("straight-180").unwrap();
     options.set_vehicle(vehicle);

@@ -1,5 +1,5 @@
-//! Hybrid tests: compensators, guards, the published benchmark, the delay that a damper position bears, and dampers of the
-//! locomotive on a virtual rig.
+//! Hybrid tests: compensators, guards, the published benchmark, the delay that a damper position bears, and dampers of
+//! the locomotive on a virtual rig.
 
 mod benchmark;
 mod compensators;

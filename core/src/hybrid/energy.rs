@@ -171,8 +171,8 @@ impl AddedEnergy {
     }
 
     /// True while the force pushes in the direction of the desired or of the measured motion: vehicle or actuator gets
-    /// more than half of the exchanged energy back, which no damper can give. A sensor of force or displacement with the
-    /// wrong sign looks like this.
+    /// more than half of the exchanged energy back, which no damper can give. A sensor with the wrong sign looks like
+    /// this.
     #[inline]
     pub fn is_reversed(&self) -> bool {
         // The energy along the measured motion is what the vehicle gives plus what the actuator adds.

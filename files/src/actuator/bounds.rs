@@ -2,9 +2,6 @@
 
 use std::fmt;
 
-use super::law::ActuatorLaw;
-use super::{ActuatorLimits, ActuatorParameters};
-
 /// A value with its allowed range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bound {
@@ -50,36 +47,4 @@ pub(super) fn of_table<const N: usize>(
         greatest,
     };
     keys.map(bound).into()
-}
-
-impl ActuatorParameters {
-    /// All values with their allowed ranges.
-    pub(super) fn bounds(&self) -> impl Iterator<Item = Bound> + use<> {
-        let ActuatorLimits {
-            stroke_m,
-            velocity_m_per_s,
-            force_n,
-        } = self.limits;
-        let limits = of_table(
-            "limits",
-            [
-                ("stroke_m", stroke_m, 1e-3, 1.0),
-                ("velocity_m_per_s", velocity_m_per_s, 1e-3, 10.0),
-                ("force_n", force_n, 1.0, 1e7),
-            ],
-        );
-        let law = match &self.law {
-            ActuatorLaw::Coupled(law) => law.bounds(),
-            ActuatorLaw::SecondOrder(law) => law.bounds(),
-            ActuatorLaw::ServoHydraulic(law) => law.bounds(),
-        };
-        let sensors = [
-            self.displacement_sensor.bounds(),
-            self.force_sensor.bounds(),
-        ];
-        limits
-            .into_iter()
-            .chain(law)
-            .chain(sensors.into_iter().flatten())
-    }
 }

@@ -5,6 +5,7 @@ mod error;
 mod law;
 mod sensor;
 
+use bounds::{Bound, of_table};
 pub use error::ActuatorFileError;
 pub use law::{ActuatorLaw, Coupled, SecondOrder, ServoHydraulic};
 pub use sensor::{DisplacementSensor, ForceSensor};
@@ -128,5 +129,35 @@ impl ActuatorParameters {
                 bound,
             }),
         }
+    }
+
+    /// All values with their allowed ranges.
+    fn bounds(&self) -> impl Iterator<Item = Bound> + use<> {
+        let ActuatorLimits {
+            stroke_m,
+            velocity_m_per_s,
+            force_n,
+        } = self.limits;
+        let limits = of_table(
+            "limits",
+            [
+                ("stroke_m", stroke_m, 1e-3, 1.0),
+                ("velocity_m_per_s", velocity_m_per_s, 1e-3, 10.0),
+                ("force_n", force_n, 1.0, 1e7),
+            ],
+        );
+        let law = match &self.law {
+            ActuatorLaw::Coupled(law) => law.bounds(),
+            ActuatorLaw::SecondOrder(law) => law.bounds(),
+            ActuatorLaw::ServoHydraulic(law) => law.bounds(),
+        };
+        let sensors = [
+            self.displacement_sensor.bounds(),
+            self.force_sensor.bounds(),
+        ];
+        limits
+            .into_iter()
+            .chain(law)
+            .chain(sensors.into_iter().flatten())
     }
 }

@@ -2,7 +2,7 @@
 
 mod benchmark;
 mod export;
-pub(super) mod plan;
+mod plan;
 mod record;
 mod rig;
 

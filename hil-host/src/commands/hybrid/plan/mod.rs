@@ -1,7 +1,6 @@
 //! `dashpot hybrid plan`: what a hybrid test bears and asks for, before it starts.
 
 mod demand;
-mod position;
 mod report;
 
 use clap::ValueEnum;
@@ -9,10 +8,10 @@ use dashpot_files::actuator::ActuatorParameters;
 use dashpot_hybrid::Compensation;
 use dashpot_vehicle_run::outside_index;
 use demand::Demand;
-pub(in crate::commands) use position::{LinearVehicle, Margin};
 use report::{Position, Report};
 
 use crate::commands::failure::{Failure, Outcome};
+use crate::commands::margin::{LinearVehicle, Margin};
 use crate::commands::vehicle::{CaseArguments, Compensate};
 use crate::commands::{Format, print_report};
 

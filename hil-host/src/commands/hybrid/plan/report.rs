@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::demand::Demand;
-use super::position::Margin;
+use crate::commands::margin::Margin;
 
 /// Plan of a hybrid test.
 #[derive(Serialize)]
@@ -109,6 +109,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     writeln!(
         out,
         "\ncritical delay: pure delay at which motion begins to grow; margin: further delay that the loop with the\n\
-         actuator bears. Linear vehicle on straight track with rigid rails; bandwidth: 99 % of the power of the velocity."
+         actuator bears. Linear vehicle on straight track with rigid rails. Bandwidth: 99 % of the power of the\n\
+         velocity."
     )
 }

@@ -115,7 +115,10 @@ impl RigLine {
         let displacement_m = run.state().damper_displacements_m()[self.damper];
         let measured = self.rig.receive();
         if self.rig.is_held() {
-            self.coupling.transfer().guard().end(HybridStatus::REQUESTED);
+            self.coupling
+                .transfer()
+                .guard()
+                .end(HybridStatus::REQUESTED);
         }
         let tick = self.coupling.tick(displacement_m, measured);
         let command = tick.command;

@@ -6,7 +6,7 @@ use dashpot_files::case::Case;
 use dashpot_hybrid::Compensation;
 
 use crate::commands::failure::{Failure, Outcome};
-use crate::commands::hybrid::plan::LinearVehicle;
+use crate::commands::margin::LinearVehicle;
 
 /// Compensation of the actuator's delay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -35,8 +35,8 @@ impl From<Compensate> for Compensation {
 /// The actuator between the vehicle and an external damper.
 #[derive(Debug, Clone, clap::Args)]
 pub(in crate::commands::vehicle) struct RigArguments {
-    /// Actuator that moves the external dampers: built-in name (servo, second-order, slow, benchmark) or TOML file. Dampers
-    /// on `desk` are then mounted on a virtual rig.
+    /// Actuator that moves the external dampers: built-in name (servo, second-order, slow, benchmark) or TOML file.
+    /// Dampers on `desk` are then mounted on a virtual rig.
     #[arg(long, requires = "choices", value_name = "ACTUATOR")]
     actuator: Option<String>,
     /// Compensation of the delay of the actuator.
