@@ -9,6 +9,7 @@ mod faults;
 mod growth;
 mod guard;
 mod locomotive;
+mod network;
 mod plan;
 mod plan_of_vehicles;
 mod sequence;

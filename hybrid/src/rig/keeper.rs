@@ -25,6 +25,8 @@ pub struct CommandKeeper {
     command_m: f64,
     rate_m_per_s: f64,
     missed: u32,
+    /// True after the first command without the flag `START`: before, a vehicle that builds its model may be silent.
+    is_watched: bool,
     /// Rate at the beginning of the ramp, and its ticks so far.
     ramp: Option<(f64, u32)>,
     longest_gap: u32,
@@ -39,6 +41,7 @@ impl CommandKeeper {
             command_m: displacement_m,
             rate_m_per_s: 0.0,
             missed: 0,
+            is_watched: false,
             ramp: None,
             longest_gap: 0,
         }
@@ -47,6 +50,7 @@ impl CommandKeeper {
     /// Starts again at the present command.
     pub fn restart(&mut self) {
         (self.rate_m_per_s, self.missed, self.ramp) = (0.0, 0, None);
+        self.is_watched = false;
     }
 
     /// Takes the newest command of a tick, or none; returns the command for the actuator (m).
@@ -56,9 +60,11 @@ impl CommandKeeper {
         let wanted_rate = match (self.ramp, newest) {
             (None, Some(frame)) if !is_stop => {
                 self.missed = 0;
+                self.is_watched |= !frame.flags.contains(FrameFlags::START);
                 self.rate_m_per_s = f64::from(frame.other).clamp(-limit, limit);
                 (f64::from(frame.displacement_m) - self.command_m) / self.step_s
             }
+            (None, None) if !self.is_watched => 0.0,
             (None, _) => {
                 self.missed += 1;
                 self.longest_gap = self.longest_gap.max(self.missed);
@@ -83,6 +89,11 @@ impl CommandKeeper {
         *ticks = ticks.saturating_add(1);
         let share = f64::from(*ticks) * self.step_s / self.settings.ramp_s;
         *from * (1.0 - share).max(0.0)
+    }
+
+    /// The command of the last tick (m).
+    pub fn command_m(&self) -> f64 {
+        self.command_m
     }
 
     /// True if the rig follows no command until the next session.

@@ -141,6 +141,11 @@ impl RigServer {
         self.ticks
     }
 
+    /// The command of the actuator in the last tick (m).
+    pub fn command_m(&self) -> f64 {
+        self.keeper.command_m()
+    }
+
     /// True while the rig holds its displacement until the next session.
     pub fn is_held(&self) -> bool {
         self.keeper.is_held()
