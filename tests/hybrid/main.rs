@@ -4,6 +4,7 @@
 mod benchmark;
 mod compensators;
 mod coupled;
+mod datagram;
 mod delay_equation;
 mod faults;
 mod growth;

@@ -38,6 +38,7 @@ mod overturned_called_left_the_tables;
 mod replay;
 mod response;
 mod rig;
+mod rig_protocol;
 mod rig_report;
 mod rig_sheet;
 mod rows_of_other_physics;

@@ -55,29 +55,29 @@ impl CommandKeeper {
 
     /// Takes the newest command of a tick, or none; returns the command for the actuator (m).
     pub fn tick(&mut self, newest: Option<&Frame>) -> f64 {
-        let limit = self.settings.velocity_m_per_s;
         let is_stop = newest.is_some_and(|frame| frame.flags.contains(FrameFlags::STOP));
-        let wanted_rate = match (self.ramp, newest) {
+        let wanted_m = match (self.ramp, newest) {
             (None, Some(frame)) if !is_stop => {
                 self.missed = 0;
                 self.is_watched |= !frame.flags.contains(FrameFlags::START);
-                self.rate_m_per_s = f64::from(frame.other).clamp(-limit, limit);
-                (f64::from(frame.displacement_m) - self.command_m) / self.step_s
+                self.rate_m_per_s = f64::from(frame.other);
+                f64::from(frame.displacement_m)
             }
-            (None, None) if !self.is_watched => 0.0,
+            (None, None) if !self.is_watched => self.command_m,
             (None, _) => {
                 self.missed += 1;
                 self.longest_gap = self.longest_gap.max(self.missed);
                 if is_stop || self.missed > self.settings.extrapolated_ticks {
                     self.ramp = Some((self.rate_m_per_s, 0));
                 }
-                self.ramped_rate()
+                self.command_m + self.ramped_rate() * self.step_s
             }
-            (Some(_), _) => self.ramped_rate(),
+            (Some(_), _) => self.command_m + self.ramped_rate() * self.step_s,
         };
-        let travel_m = wanted_rate.clamp(-limit, limit) * self.step_s;
+        let most_m = self.settings.velocity_m_per_s * self.step_s;
         let stroke_m = self.settings.stroke_m;
-        self.command_m = (self.command_m + travel_m).clamp(-stroke_m, stroke_m);
+        let reachable_m = wanted_m.clamp(self.command_m - most_m, self.command_m + most_m);
+        self.command_m = reachable_m.clamp(-stroke_m, stroke_m);
         self.command_m
     }
 

@@ -1,6 +1,5 @@
 //! A rig in another process or on another machine, behind UDP.
 
-use std::io::ErrorKind;
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, ToSocketAddrs, UdpSocket};
 use std::time::{Duration, Instant};
 
@@ -14,6 +13,8 @@ use crate::commands::failure::{Failure, Outcome};
 const FIRST_ANSWER: Duration = Duration::from_secs(2);
 /// How long a run that is not paced waits for the answer of a tick.
 const ANSWER: Duration = Duration::from_millis(500);
+/// Shortest timeout that all systems take.
+const SHORTEST: Duration = Duration::from_micros(100);
 /// Time between two first commands.
 const RETRY: Duration = Duration::from_millis(2);
 /// Commands that end a session, because each can be lost.
@@ -26,7 +27,11 @@ pub(super) struct RemoteRig {
     client: RigClient,
     /// The vehicle waits for answers if it does not run in real time.
     is_realtime: bool,
-    failed_sends: u64,
+    /// Readings that the first call of `receive` returns.
+    first: Option<Measured>,
+    /// True if the last answer did not come.
+    is_silent: bool,
+    tick: Duration,
 }
 
 impl RemoteRig {
@@ -53,17 +58,20 @@ impl RemoteRig {
             socket,
             client: RigClient::new(fastrand::u32(1..), step_s),
             is_realtime,
-            failed_sends: 0,
+            first: None,
+            is_silent: false,
+            tick: Duration::from_secs_f64(step_s),
         };
         rig.socket.set_read_timeout(Some(RETRY)).map_err(failed)?;
         let started = Instant::now();
         loop {
             rig.send(0.0, 0.0);
-            if let Some(first) = rig.receive() {
-                rig.socket.set_read_timeout(Some(ANSWER)).map_err(failed)?;
+            if let Ok((Some(first), _)) = rig.take_one() {
                 rig.socket.set_nonblocking(is_realtime).map_err(failed)?;
+                rig.first = Some(first);
                 return Ok((rig, first));
             }
+            std::thread::sleep(SHORTEST);
             if started.elapsed() > FIRST_ANSWER {
                 return Err(Failure::new(format!(
                     "{}: no answer within {} s; is the rig running? `dashpot hybrid rig` starts a virtual one",
@@ -82,40 +90,49 @@ impl RemoteRig {
 
     fn send_frame(&mut self, frame: &Frame) {
         // A datagram that cannot be sent is lost, like any other.
-        let sent = self.socket.send(&frame.to_bytes());
-        self.failed_sends += u64::from(sent.is_err());
+        let _ = self.socket.send(&frame.to_bytes());
     }
 
     /// Returns the newest readings since the last call. In real time it takes what has arrived; otherwise it waits for
-    /// the answer to the last command.
+    /// the answer to the last command, and after an answer that did not come for a tick at a time.
     pub(super) fn receive(&mut self) -> Option<Measured> {
-        let mut newest = None;
+        let mut newest = self.first.take();
+        if self.is_realtime {
+            while let Ok((readings, _)) = self.take_one() {
+                newest = readings.or(newest);
+            }
+            return newest;
+        }
+        if newest.is_some() {
+            return newest;
+        }
+        let wait = if self.is_silent { self.tick } else { ANSWER };
+        let started = Instant::now();
+        let mut is_last = false;
+        while !is_last && started.elapsed() < wait {
+            let left = wait.saturating_sub(started.elapsed()).max(SHORTEST);
+            // Without its timeout the socket would wait for ever.
+            if self.socket.set_read_timeout(Some(left)).is_err() {
+                break;
+            }
+            // An error means that nothing came, or that nobody is there.
+            let Ok((readings, answers)) = self.take_one() else {
+                break;
+            };
+            newest = readings.or(newest);
+            is_last = answers == Some(self.client.sequence());
+        }
+        self.is_silent = newest.is_none();
+        newest
+    }
+
+    /// Takes one datagram; returns its readings and the command that it answers, if it is a new answer.
+    fn take_one(&mut self) -> std::io::Result<(Option<Measured>, Option<u32>)> {
         // One byte more than a datagram has shows that one is too long.
         let mut bytes = [0; FRAME_BYTES + 1];
-        let started = Instant::now();
-        loop {
-            match self.socket.recv(&mut bytes) {
-                Ok(count) => {
-                    let taken = self.client.take(&bytes[..count]);
-                    newest = taken.map(|(measured, _)| measured).or(newest);
-                    let is_last =
-                        taken.is_some_and(|(_, answers)| answers == self.client.sequence());
-                    if !self.is_realtime && (is_last || started.elapsed() > ANSWER) {
-                        return newest;
-                    }
-                }
-                // The other end was not there for a while: its readings are missing.
-                Err(error) if error.kind() == ErrorKind::ConnectionRefused => {
-                    if started.elapsed() > ANSWER {
-                        return newest;
-                    }
-                    if self.is_realtime || !self.client.is_answered() {
-                        return newest;
-                    }
-                }
-                Err(_) => return newest,
-            }
-        }
+        let count = self.socket.recv(&mut bytes)?;
+        let taken = self.client.take(&bytes[..count]);
+        Ok(taken.unzip())
     }
 
     /// True if the rig holds its displacement and follows no command.
