@@ -7,6 +7,9 @@ use super::bounds::{Bound, of_table};
 /// Highest resonance of mass and oil (Hz): a virtual rig steps 16 times in a period of it.
 const MAX_OIL_HZ: f64 = 1000.0;
 
+/// Fastest change of pressure (1/s): a virtual rig steps at least three times in the time constant.
+const MAX_FILLING_PER_S: f64 = 5000.0;
+
 /// How an actuator follows its command: one table of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ActuatorLaw {
@@ -158,6 +161,11 @@ impl ServoHydraulic {
         self.rated_flow_m3_per_s * libm::sqrt(self.supply_pressure_pa / self.rated_drop_pa)
     }
 
+    /// Rate of the pressure (1/s) with a flow per pressure (m^3/(s Pa)), `4 B/V` times that.
+    fn filling_per_s(&self, flow_m3_per_s_pa: f64) -> f64 {
+        4.0 * self.bulk_modulus_pa / self.oil_volume_m3 * flow_m3_per_s_pa
+    }
+
     pub(super) fn bounds(&self) -> Vec<Bound> {
         of_table(
             "servo_hydraulic",
@@ -179,6 +187,18 @@ impl ServoHydraulic {
                     self.oil_hz(),
                     1.0,
                     MAX_OIL_HZ,
+                ),
+                (
+                    "rate at which the open valve fills the oil, 1/s",
+                    self.filling_per_s(self.free_flow_m3_per_s() / self.supply_pressure_pa),
+                    0.1,
+                    MAX_FILLING_PER_S,
+                ),
+                (
+                    "rate at which the leakage empties the oil, 1/s",
+                    self.filling_per_s(self.leakage_m3_per_s_pa),
+                    0.0,
+                    MAX_FILLING_PER_S,
                 ),
             ],
         )

@@ -5,7 +5,8 @@ mod error;
 mod law;
 mod sensor;
 
-use bounds::{Bound, of_table};
+pub use bounds::Bound;
+use bounds::of_table;
 pub use error::ActuatorFileError;
 pub use law::{ActuatorLaw, Coupled, SecondOrder, ServoHydraulic};
 pub use sensor::{DisplacementSensor, ForceSensor};
@@ -122,13 +123,22 @@ impl ActuatorParameters {
             displacement_sensor: tables.displacement_sensor,
             force_sensor: tables.force_sensor,
         };
-        match parameters.bounds().find(|bound| !bound.is_kept()) {
-            None => Ok(parameters),
-            Some(bound) => Err(ActuatorFileError::Value {
+        match parameters.check() {
+            Ok(()) => Ok(parameters),
+            Err(bound) => Err(ActuatorFileError::Value {
                 name: name.to_owned(),
                 bound,
             }),
         }
+    }
+
+    /// Checks all values.
+    ///
+    /// # Errors
+    /// The first value that is not allowed.
+    pub fn check(&self) -> Result<(), Bound> {
+        let broken = self.bounds().find(|bound| !bound.is_kept());
+        broken.map_or(Ok(()), Err)
     }
 
     /// All values with their allowed ranges.

@@ -42,14 +42,25 @@ impl MovingCoupled {
         }
     }
 
-    /// Takes a step; returns true if the force was limited.
-    pub(super) fn step(&mut self, command_m: f64, force_n: f64, largest_n: f64) -> bool {
+    /// Takes a step between the ends of the stroke (m) with at most the largest force (N); returns true if the force was
+    /// limited.
+    pub(super) fn step(
+        &mut self,
+        command_m: f64,
+        force_n: f64,
+        [stroke_m, largest_n]: [f64; 2],
+    ) -> bool {
         self.system
             .step(&Vector2::new(command_m, force_n / N_PER_MN));
         let most = largest_n / N_PER_MN;
         let force = &mut self.system.state[2];
         let is_limited = force.abs() > most;
         *force = force.clamp(-most, most);
+        let displacement = &mut self.system.state[3];
+        if displacement.abs() > stroke_m {
+            *displacement = displacement.clamp(-stroke_m, stroke_m);
+            self.system.state[4] = 0.0;
+        }
         is_limited
     }
 

@@ -70,28 +70,31 @@ impl Actuator {
         }
     }
 
-    /// Takes a step with the command (m) and the force (N) of the specimen that resists extension.
+    /// Takes a step with the command (m) and the force (N) of the specimen that resists extension. The displacement
+    /// stays within 1.1 times the stroke.
     pub fn step(&mut self, command_m: f64, force_n: f64) {
         let ActuatorLimits {
             stroke_m,
             velocity_m_per_s,
             force_n: largest_n,
         } = self.limits;
+        // The stops of the cylinder lie a little beyond the stroke.
+        let end_m = 1.1 * stroke_m;
         let delayed_m = self.delay.push(command_m.clamp(-stroke_m, stroke_m));
         let travel_m = velocity_m_per_s * self.step_s;
         let limited_m = delayed_m.clamp(self.limited_m - travel_m, self.limited_m + travel_m);
         self.is_saturated = match &mut self.motion {
             MovingLaw::Coupled(law) => {
                 self.limited_m = limited_m;
-                law.step(limited_m, force_n, largest_n) || limited_m != delayed_m
+                law.step(limited_m, force_n, [end_m, largest_n]) || limited_m != delayed_m
             }
             MovingLaw::SecondOrder(law) => {
                 self.limited_m = limited_m;
-                law.step(limited_m);
+                law.step(limited_m, end_m);
                 limited_m != delayed_m || force_n.abs() > largest_n
             }
             // Its valve limits the velocity, its pressure the force.
-            MovingLaw::ServoHydraulic(law) => law.step(delayed_m, force_n),
+            MovingLaw::ServoHydraulic(law) => law.step(delayed_m, force_n, end_m),
         };
     }
 
@@ -101,6 +104,21 @@ impl Actuator {
         self.limits.force_n *= share;
         if let MovingLaw::ServoHydraulic(law) = &mut self.motion {
             law.weaken(share);
+        }
+    }
+
+    /// Moving mass (kg) that feels the force of the specimen, and the stiffness (N/m) that holds it; `None` for an
+    /// actuator that no force disturbs.
+    pub(crate) fn moving(parameters: &ActuatorParameters) -> Option<[f64; 2]> {
+        match &parameters.law {
+            ActuatorLaw::Coupled(law) => Some([
+                law.moving_mass_kg,
+                law.interaction_n_per_m + law.frame_stiffness_n_per_m,
+            ]),
+            ActuatorLaw::SecondOrder(_) => None,
+            ActuatorLaw::ServoHydraulic(law) => {
+                Some([law.moving_mass_kg, law.oil_stiffness_n_per_m()])
+            }
         }
     }
 

@@ -20,8 +20,14 @@ impl MovingSecondOrder {
         }
     }
 
-    pub(super) fn step(&mut self, command_m: f64) {
+    /// Takes a step between the ends of the stroke (m).
+    pub(super) fn step(&mut self, command_m: f64, stroke_m: f64) {
         self.system.step(&Vector1::new(command_m));
+        let displacement = &mut self.system.state[0];
+        if displacement.abs() > stroke_m {
+            *displacement = displacement.clamp(-stroke_m, stroke_m);
+            self.system.state[1] = 0.0;
+        }
     }
 
     pub(super) fn displacement_m(&self) -> f64 {

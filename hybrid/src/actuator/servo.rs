@@ -35,8 +35,8 @@ impl MovingServo {
         }
     }
 
-    /// Takes a step; returns true if the valve was fully open or the pressure close to that of the supply.
-    pub(super) fn step(&mut self, command_m: f64, force_n: f64) -> bool {
+    /// Takes a step between the ends of the stroke (m); returns true if the valve was fully open or the pressure close to that of the supply.
+    pub(super) fn step(&mut self, command_m: f64, force_n: f64, stroke_m: f64) -> bool {
         let (law, h) = (&self.law, self.step_s);
         let area = law.piston_area_m2;
         let error_m = command_m - self.displacement_m;
@@ -48,9 +48,17 @@ impl MovingServo {
         let flow = self.free_flow_m3_per_s * opening * libm::sqrt(drop.abs()).copysign(drop);
         self.velocity_m_per_s += h * (area * self.pressure_pa - force_n) / law.moving_mass_kg;
         self.displacement_m += h * self.velocity_m_per_s;
+        if self.displacement_m.abs() > stroke_m {
+            self.displacement_m = self.displacement_m.clamp(-stroke_m, stroke_m);
+            self.velocity_m_per_s = 0.0;
+        }
         let compressed =
             flow - area * self.velocity_m_per_s - law.leakage_m3_per_s_pa * self.pressure_pa;
-        self.pressure_pa += h * 4.0 * law.bulk_modulus_pa / law.oil_volume_m3 * compressed;
+        let pressure_pa =
+            self.pressure_pa + h * 4.0 * law.bulk_modulus_pa / law.oil_volume_m3 * compressed;
+        // Relief valves open a little above the supply pressure.
+        let relief_pa = 1.1 * law.supply_pressure_pa;
+        self.pressure_pa = pressure_pa.clamp(-relief_pa, relief_pa);
         wanted.abs() >= 1.0 || resisting > 0.95
     }
 

@@ -1,6 +1,7 @@
 //! A virtual rig: an actuator moves a damper, and sensors read its displacement and force.
 
 mod client;
+mod error;
 mod fault;
 mod keeper;
 mod server;
@@ -9,6 +10,7 @@ pub use client::RigClient;
 use dashpot_core::hybrid::Measured;
 use dashpot_core::{BuildError, CheckedParameters, Damper, DamperState};
 use dashpot_files::actuator::ActuatorParameters;
+pub use error::RigError;
 use fault::SensorFaults;
 pub use fault::{Reading, RigFault};
 pub use keeper::{CommandKeeper, KeeperSettings};
@@ -54,15 +56,17 @@ impl VirtualRig {
     /// A rig at rest in the middle of the stroke, for ticks of `step_s`. Its noise depends on the seed.
     ///
     /// # Errors
-    /// The damper cannot be built for the steps of the rig.
+    /// The damper cannot be built for the steps of the rig, or its mounts are too stiff for the moving mass of the
+    /// actuator.
     pub fn new(
         actuator: &ActuatorParameters,
         damper: &CheckedParameters,
         step_s: f64,
         seed: u64,
-    ) -> Result<Self, BuildError> {
+    ) -> Result<Self, RigError> {
         // A step of a sixteenth of a millisecond must not become two by rounding.
         let steps = libm::ceil(step_s / LONGEST_STEP_S * (1.0 - 1e-9)).max(1.0);
+        check_stiffness(actuator, damper, step_s / steps)?;
         let damper: Damper<f64> = damper.build(step_s / steps)?;
         let sensors = [
             (&actuator.displacement_sensor).into(),
@@ -135,4 +139,28 @@ impl VirtualRig {
     pub fn saturated_ticks(&self) -> u64 {
         self.saturated_ticks
     }
+}
+
+/// Largest product of the resonance of mass, oil and specimen (rad/s) and the step (s); beyond 2 it would grow.
+const MAX_PHASE: f64 = 1.0;
+
+/// Checks that the steps resolve the resonance of the moving mass.
+fn check_stiffness(
+    actuator: &ActuatorParameters,
+    damper: &CheckedParameters,
+    step_s: f64,
+) -> Result<(), RigError> {
+    let Some([mass_kg, held_n_per_m]) = Actuator::moving(actuator) else {
+        return Ok(());
+    };
+    let specimen_n_per_m = 1.0 / damper.mount.compliance_m_per_n();
+    let w = libm::sqrt((held_n_per_m + specimen_n_per_m) / mass_kg);
+    if w * step_s <= MAX_PHASE {
+        return Ok(());
+    }
+    let hz = std::f64::consts::TAU.recip();
+    Err(RigError::Resonance {
+        resonance_hz: w * hz,
+        highest_hz: MAX_PHASE / step_s * hz,
+    })
 }

@@ -104,7 +104,10 @@ pub(super) fn run(arguments: &RigArguments) -> Outcome<()> {
     let step_s = 1e-6 * f64::from(arguments.step_us);
     let actuator = ActuatorParameters::load(&arguments.actuator)?;
     let damper = damper::load(&arguments.damper, &arguments.overrides)?;
-    let rig = VirtualRig::new(&actuator, &damper, step_s, arguments.seed)?;
+    let rig = VirtualRig::new(&actuator, &damper, step_s, arguments.seed).map_err(|error| {
+        let (actuator, damper) = (&arguments.actuator, &arguments.damper);
+        Failure::new(format!("{actuator} with {damper}: {error}"))
+    })?;
     let limits = actuator.limits;
     let settings = KeeperSettings {
         extrapolated_ticks: arguments.extrapolate_ticks,

@@ -10,7 +10,7 @@ mod section;
 
 use dashpot_core::hybrid::HybridStatus;
 use dashpot_files::case::Case;
-use dashpot_hybrid::rig::VirtualRig;
+use dashpot_hybrid::rig::{RigError, VirtualRig};
 use dashpot_hybrid::{Coupling, Specimen};
 use dashpot_vehicle_run::{Ending, Run};
 
@@ -67,21 +67,23 @@ impl RigLine {
             .clone()
             .check()?;
         let actuator = &options.actuator;
-        let refused = |error| Failure::wrong_use(format!("--actuator {}: {error}", actuator.name));
+        let refused =
+            |error: RigError| Failure::wrong_use(format!("--actuator {}: {error}", actuator.name));
         let specimen = Specimen::at_velocity(&parameters, SMALL_VELOCITY_M_PER_S);
         let compensation = dashpot_hybrid::Compensation::from(options.compensate);
         let compensator = compensation
             .build(actuator, &specimen, case.step_s)
-            .map_err(refused)?;
+            .map_err(|error| refused(error.into()))?;
         let mut settings = options::transfer_settings(&actuator.limits, options.without_guard);
         if let Some(ticks) = hold_ticks {
             settings.guard.age_s = (ticks as f64 * case.step_s) as f32;
         }
-        let mut coupling = Coupling::new(compensator, &settings, case.step_s).map_err(refused)?;
+        let mut coupling = Coupling::new(compensator, &settings, case.step_s)
+            .map_err(|error| refused(error.into()))?;
         let rig = match address {
             None => {
                 let rig = VirtualRig::new(actuator, &parameters, case.step_s, options.seed);
-                let mut rig = rig.map_err(refused)?;
+                let mut rig = rig.map_err(&refused)?;
                 let first = rig.tick(0.0);
                 RigEnd::Virtual(Box::new(rig), first)
             }
