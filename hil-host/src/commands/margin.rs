@@ -3,6 +3,7 @@
 use dashpot_core::CheckedParameters;
 use dashpot_files::actuator::ActuatorParameters;
 use dashpot_files::case::Case;
+use dashpot_hybrid::actuator::is_stable;
 use dashpot_hybrid::plan::{
     CriticalDelay, LoopStability, PlanError, PlantWithoutDamper, critical_delay, stability,
 };
@@ -138,6 +139,11 @@ impl<'a> LinearVehicle<'a> {
         compensation: Compensation,
     ) -> Margin {
         self.smallest(damper, |plant, specimen| {
+            if !is_stable(actuator, &specimen) {
+                return Margin::Unknown {
+                    reason: "the actuator itself is unstable with this damper".into(),
+                };
+            }
             let factor = LoopFactor::new(actuator, specimen, compensation, self.case.step_s);
             Margin::of_loop(stability(plant, |s| factor.at(s)))
         })

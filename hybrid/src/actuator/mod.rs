@@ -6,6 +6,7 @@ mod inverse;
 mod response;
 mod second_order;
 mod servo;
+mod stability;
 
 use coupled::MovingCoupled;
 use dashpot_files::actuator::{ActuatorLaw, ActuatorLimits, ActuatorParameters};
@@ -14,6 +15,7 @@ pub use inverse::inverse_series;
 pub use response::response;
 use second_order::MovingSecondOrder;
 use servo::MovingServo;
+pub use stability::is_stable;
 
 /// An actuator in motion, stepped with a constant command and the force of its specimen.
 ///
