@@ -26,6 +26,7 @@ mod force_limit_of_the_oil;
 mod gaps;
 mod garbage_among_rows;
 mod hybrid;
+mod hybrid_plan;
 mod interruption;
 mod kept_curves;
 mod labview_page;

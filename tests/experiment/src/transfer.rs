@@ -41,7 +41,7 @@ pub fn system() -> Result<System, BuildError> {
             ..EnergySettings::default()
         },
         tracking_window_s: 1.0,
-        tracking_error: 0.3,
+        tracking_error: 100.0, // the sign shall be found first
     };
     TransferSystem::new(compensator, &settings, STEP_S)
 }
