@@ -5,6 +5,9 @@ use dashpot_hybrid::plan::{Complex, LoopStability, PlantWithoutDamper, critical_
 use dashpot_rail::vehicle::Running;
 use dashpot_vehicle_run::contact::ContactSetup;
 
+use dashpot::document;
+
+use crate::DOCUMENT;
 use crate::delay_equation::System;
 use crate::plan::check;
 
@@ -129,4 +132,38 @@ fn the_margin_of_a_delayed_damper_is_the_rest_of_its_critical_delay() {
     );
     let over = delayed(1.01 * critical.delay_s);
     assert_eq!(over, LoopStability::Unstable { roots: 2 });
+}
+
+/// The first damper of each kind stands for those beside it.
+#[test]
+fn the_page_lists_the_critical_delays() {
+    let mut table =
+        String::from("| vehicle | km/h | damper | critical delay |\n|---|---|---|---|\n");
+    for (vehicle, km_h) in [
+        ("locomotive", 180.0),
+        ("locomotive", 400.0),
+        ("locomotive-without-yaw-dampers", 180.0),
+        ("coach", 160.0),
+    ] {
+        let (running, names) = running(vehicle, km_h);
+        for (number, name) in names.iter().enumerate() {
+            let Some(kind) = name.strip_suffix(" 1") else {
+                continue;
+            };
+            let (_, plant) = position(&running, number);
+            let found = critical_delay(&plant).unwrap();
+            let text = found.map_or_else(
+                || "none".to_owned(),
+                |found| {
+                    format!(
+                        "{:.1} ms, {:.2} Hz",
+                        1e3 * found.delay_s,
+                        found.frequency_hz
+                    )
+                },
+            );
+            table += &format!("| {vehicle} | {km_h:.0} | {kind} | {text} |\n");
+        }
+    }
+    document::compare_part(DOCUMENT, "plan", &table);
 }

@@ -1,5 +1,7 @@
 //! Options of rigs whose actuator moves an external damper.
 
+use std::io::{self, Write};
+
 use dashpot_core::hybrid::{EnergySettings, GuardSettings, TransferSettings};
 use dashpot_files::actuator::{ActuatorLimits, ActuatorParameters};
 use dashpot_files::case::Case;
@@ -94,6 +96,11 @@ impl RigOptions {
     ) -> Outcome<()> {
         if self.without_margin {
             return Ok(());
+        }
+        if dampers.len() > 1 {
+            let note =
+                "note: the margin is that of one rig at a time; several rigs together bear less\n";
+            let _ = io::stderr().lock().write_all(note.as_bytes());
         }
         let vehicle = LinearVehicle::new(case)?;
         for (damper, element) in case.vehicle.dampers().enumerate() {
