@@ -42,8 +42,8 @@ impl MovingCoupled {
         }
     }
 
-    /// Takes a step between the ends of the stroke (m) with at most the largest force (N); returns true if the force was
-    /// limited.
+    /// Takes a step between the ends of the stroke (m) with at most the largest force (N); returns true if the force
+    /// was limited.
     pub(super) fn step(
         &mut self,
         command_m: f64,

@@ -35,7 +35,8 @@ impl MovingServo {
         }
     }
 
-    /// Takes a step between the ends of the stroke (m); returns true if the valve was fully open or the pressure close to that of the supply.
+    /// Takes a step between the ends of the stroke (m); returns true if the valve was fully open or the pressure close to
+    /// that of the supply.
     pub(super) fn step(&mut self, command_m: f64, force_n: f64, stroke_m: f64) -> bool {
         let (law, h) = (&self.law, self.step_s);
         let area = law.piston_area_m2;
