@@ -35,7 +35,7 @@ impl MovingServo {
         }
     }
 
-    /// Takes a step between the ends of the stroke (m); returns true if the valve was fully open or the pressure close to
+    /// Takes a step between the ends of the stroke (m); returns true if the valve was fully open or the pressure near
     /// that of the supply.
     pub(super) fn step(&mut self, command_m: f64, force_n: f64, stroke_m: f64) -> bool {
         let (law, h) = (&self.law, self.step_s);
