@@ -9,6 +9,7 @@ mod delay_equation;
 mod faults;
 mod growth;
 mod guard;
+mod guard_searched;
 mod locomotive;
 mod network;
 mod plan;

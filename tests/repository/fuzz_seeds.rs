@@ -9,7 +9,9 @@ use dashpot::requests::every_request;
 use dashpot::{damper, document};
 use dashpot_core::Damper;
 use dashpot_core::health::HealthSettings;
+use dashpot_core::hybrid::wire::{Frame, FrameFlags, FrameKind};
 use dashpot_core::link::{Header, Reals, Request, request_frame};
+use dashpot_files::actuator::ACTUATORS;
 use dashpot_files::case::{CASES, CaseOptions};
 use dashpot_files::damper::PRESETS;
 use dashpot_files::sheet::{SHEETS, SheetParameters};
@@ -89,6 +91,31 @@ fn case_files_are_the_shipped_ones_and_one_with_all_keys() {
     let mut seeds = shipped(&CASES);
     seeds.push(("every-key".into(), every_key.into()));
     compare("case_file", seeds);
+}
+
+#[test]
+fn actuator_files_are_the_shipped_ones() {
+    compare("actuator_file", shipped(&ACTUATORS));
+}
+
+#[test]
+fn rig_frames_are_one_of_each_kind() {
+    let frame = |kind| Frame {
+        kind,
+        flags: FrameFlags::START,
+        session: 7,
+        sequence: 2,
+        answers: 1,
+        time_s: 0.002,
+        displacement_m: 0.01,
+        other: 0.5,
+    };
+    let seed = |name: &str, kind| (name.to_owned(), frame(kind).to_bytes().to_vec());
+    let seeds = [
+        seed("command", FrameKind::Command),
+        seed("measurement", FrameKind::Measurement),
+    ];
+    compare("rig_frame", seeds.into());
 }
 
 /// One more seed is needed because the shipped file does not have every index.

@@ -153,7 +153,8 @@ enum Phase {
 /// Checks commands and measured values each tick. When a limit is exceeded, the command comes to rest in a stated time
 /// and stays there until [`Guard::clear`].
 ///
-/// The command never moves by more than the velocity limit times the step from one tick to the next, whatever happens.
+/// The command never moves by more than the velocity limit times the step from one tick to the next, whatever happens,
+/// beyond the resolution of single precision (1.2e-7 of the command).
 /// Limits are latched with their reason.
 ///
 /// ```
