@@ -3,7 +3,7 @@
 use dashpot_files::actuator::ActuatorParameters;
 use nalgebra::Complex;
 
-use crate::actuator::response;
+use crate::actuator::{measured_gain, response};
 use crate::compensation::Compensation;
 use crate::coupling::motion_hz;
 use crate::specimen::Specimen;
@@ -11,8 +11,8 @@ use crate::specimen::Specimen;
 /// Compensator, held command, actuator and exchange of a [`Coupling`](crate::Coupling) at small motion: the factor `F`
 /// of [`stability`](crate::plan::stability).
 ///
-/// A command is held for a tick, which is half a tick late on average, and its force acts a tick later. The adaptive
-/// time series is the inverse that it starts from.
+/// A command is held for a tick, which is half a tick late on average, and its force acts a tick later, after the lag of
+/// its sensor. The adaptive time series is the inverse that it starts from.
 ///
 /// ```
 /// use dashpot_files::actuator::ActuatorParameters;
@@ -23,7 +23,7 @@ use crate::specimen::Specimen;
 /// let specimen = Specimen { damping_n_s_per_m: 50e3, stiffness_n_per_m: 7e6 };
 /// let s = Complex::new(0.0, 20.0);
 /// let delay_s = |compensation| {
-///     let factor = LoopFactor::new(&servo, specimen, compensation, 1e-3);
+///     let factor = LoopFactor::new(&servo, specimen, (compensation, specimen), 1e-3);
 ///     -factor.at(s).arg() / s.im
 /// };
 /// assert!((delay_s(Compensation::None) - 0.022).abs() < 1e-3);
@@ -40,32 +40,32 @@ pub struct LoopFactor<'a> {
 }
 
 impl<'a> LoopFactor<'a> {
-    /// The factor for ticks of `step_s`.
+    /// The factor for ticks of `step_s`, with a compensator that is made for the specimen `nominal`.
     pub fn new(
         actuator: &'a ActuatorParameters,
         specimen: Specimen,
-        compensation: Compensation,
+        (compensation, nominal): (Compensation, Specimen),
         step_s: f64,
     ) -> Self {
         Self {
             actuator,
             specimen,
             compensation,
-            series: Compensation::series(actuator, &specimen, step_s),
+            series: Compensation::series(actuator, &nominal, step_s),
             step_s,
         }
     }
 
     /// The factor at `s` (rad/s).
     pub fn at(&self, s: Complex<f64>) -> Complex<f64> {
-        let moved = response(self.actuator, s, self.specimen.dynamic_stiffness(s));
-        self.command(s) * moved * (-s * (1.5 * self.step_s)).exp()
+        let read = (s * self.actuator.force_sensor.lag_s + 1.0).inv();
+        self.command(s) * self.moved(s) * read * (-s * (1.5 * self.step_s)).exp()
     }
 
     /// Delay (s) and gain of the actuator alone at a frequency (Hz).
     pub fn actuator_at(&self, frequency_hz: f64) -> (f64, f64) {
         let s = Complex::new(0.0, std::f64::consts::TAU * frequency_hz);
-        let moved = response(self.actuator, s, self.specimen.dynamic_stiffness(s));
+        let moved = self.moved(s);
         let phase = moved.arg();
         // An actuator is late by less than a period.
         let behind = if phase > 0.0 {
@@ -74,6 +74,12 @@ impl<'a> LoopFactor<'a> {
             phase
         };
         (-behind / s.im, moved.norm())
+    }
+
+    /// Displacement of the damper over command: that which a sensor reads is larger by its gain.
+    fn moved(&self, s: Complex<f64>) -> Complex<f64> {
+        let measured = response(self.actuator, s, self.specimen.dynamic_stiffness(s));
+        measured / measured_gain(self.actuator)
     }
 
     /// Command over displacement.

@@ -24,6 +24,11 @@ pub struct Specimen {
 }
 
 impl Specimen {
+    /// The damper for which compensators are made: at 1 mm/s.
+    pub fn nominal(parameters: &CheckedParameters) -> Self {
+        Self::at_velocity(parameters, 1e-3)
+    }
+
     /// The damper at a velocity (m/s).
     pub fn at_velocity(parameters: &CheckedParameters, velocity_m_per_s: f64) -> Self {
         let characteristic = Characteristic::new(parameters);

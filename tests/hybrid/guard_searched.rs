@@ -22,7 +22,11 @@ fn draw(random: &mut Rng, least: f32, most: f32) -> f32 {
 
 /// A number from 0 on.
 fn from_0(random: &mut Rng, most: f32) -> f32 {
-    if random.u8(0..5) == 0 { 0.0 } else { draw(random, 1e-6 * most, most) }
+    if random.u8(0..5) == 0 {
+        0.0
+    } else {
+        draw(random, 1e-6 * most, most)
+    }
 }
 
 fn settings(random: &mut Rng) -> GuardSettings {
@@ -41,7 +45,11 @@ fn settings(random: &mut Rng) -> GuardSettings {
         without_force_m: draw(random, 1e-6, 100.0),
         ramp_s: draw(random, 0.01, 10.0),
         approach_m_per_s: draw(random, 1e-4, 1.0),
-        action: if random.bool() { GuardAction::Hold } else { GuardAction::ZeroForce },
+        action: if random.bool() {
+            GuardAction::Hold
+        } else {
+            GuardAction::ZeroForce
+        },
         stiffness_n_per_m: draw(random, 1e3, 1e12),
     }
 }
@@ -83,7 +91,8 @@ fn ratio(trial: &Trial) -> f32 {
     for (number, (wanted_m, desired_m, measured)) in trial.ticks.iter().enumerate() {
         let command_m = guard.step(*wanted_m, *desired_m, *measured);
         assert!(command_m.abs() <= trial.settings.stroke_m, "{trial:?}");
-        let allowed_m = trial.settings.velocity_m_per_s * trial.step_s + f32::EPSILON * last_m.abs();
+        let allowed_m =
+            trial.settings.velocity_m_per_s * trial.step_s + f32::EPSILON * last_m.abs();
         most = most.max((command_m - last_m).abs() / allowed_m);
         last_m = command_m;
         if number % 40 == 39 {

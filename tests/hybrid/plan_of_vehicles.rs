@@ -153,7 +153,7 @@ fn the_page_lists_the_critical_delays() {
             let (_, plant) = position(&running, number);
             let found = critical_delay(&plant).unwrap();
             let text = found.map_or_else(
-                || "none".to_owned(),
+                || "any".to_owned(),
                 |found| {
                     format!(
                         "{:.1} ms, {:.2} Hz",

@@ -144,7 +144,8 @@ impl<'a> LinearVehicle<'a> {
                     reason: "the actuator itself is unstable with this damper".into(),
                 };
             }
-            let factor = LoopFactor::new(actuator, specimen, compensation, self.case.step_s);
+            let compensator = (compensation, self.nominal(damper));
+            let factor = LoopFactor::new(actuator, specimen, compensator, self.case.step_s);
             Margin::of_loop(stability(plant, |s| factor.at(s)))
         })
     }
@@ -158,7 +159,8 @@ impl<'a> LinearVehicle<'a> {
     ) -> (f64, f64) {
         let step_s = self.case.step_s;
         let [specimen, _] = self.specimens(damper);
-        LoopFactor::new(actuator, specimen, Compensation::None, step_s).actuator_at(frequency_hz)
+        let compensator = (Compensation::None, specimen);
+        LoopFactor::new(actuator, specimen, compensator, step_s).actuator_at(frequency_hz)
     }
 
     /// The smallest margin over the damper in small motion and at its largest secant.
@@ -198,19 +200,28 @@ impl<'a> LinearVehicle<'a> {
 
     /// The damper in small motion and at its largest secant.
     fn specimens(&self, damper: usize) -> [Specimen; 2] {
-        let element = self.case.vehicle.dampers().nth(damper);
-        let parameters = element.and_then(|element| self.case.damper(&element.name));
-        let checked = parameters.and_then(|damper| damper.clone().check().ok());
-        let of = |damper: &CheckedParameters| {
+        self.checked(damper).map_or([NO_SPECIMEN; 2], |damper| {
             [
-                Specimen::at_velocity(damper, 1e-4),
-                Specimen::at_largest_secant(damper, FASTEST_M_PER_S),
+                Specimen::at_velocity(&damper, 1e-4),
+                Specimen::at_largest_secant(&damper, FASTEST_M_PER_S),
             ]
-        };
-        let none = Specimen {
-            damping_n_s_per_m: 0.0,
-            stiffness_n_per_m: 0.0,
-        };
-        checked.as_ref().map_or([none; 2], of)
+        })
+    }
+
+    /// The damper for which the compensator is made.
+    fn nominal(&self, damper: usize) -> Specimen {
+        let checked = self.checked(damper);
+        checked.map_or(NO_SPECIMEN, |damper| Specimen::nominal(&damper))
+    }
+
+    fn checked(&self, damper: usize) -> Option<CheckedParameters> {
+        let element = self.case.vehicle.dampers().nth(damper)?;
+        self.case.damper(&element.name)?.clone().check().ok()
     }
 }
+
+/// In place of a damper that does not exist.
+const NO_SPECIMEN: Specimen = Specimen {
+    damping_n_s_per_m: 0.0,
+    stiffness_n_per_m: 0.0,
+};

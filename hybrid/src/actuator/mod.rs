@@ -12,6 +12,7 @@ use coupled::MovingCoupled;
 use dashpot_files::actuator::{ActuatorLaw, ActuatorLimits, ActuatorParameters};
 use delay::DelayLine;
 pub use inverse::inverse_series;
+pub(crate) use response::measured_gain;
 pub use response::response;
 use second_order::MovingSecondOrder;
 use servo::MovingServo;

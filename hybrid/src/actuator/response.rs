@@ -51,6 +51,14 @@ pub fn response(
     }
 }
 
+/// Measured displacement over real one.
+pub(crate) fn measured_gain(parameters: &ActuatorParameters) -> f64 {
+    match &parameters.law {
+        ActuatorLaw::Coupled(law) => law.measured_gain,
+        ActuatorLaw::SecondOrder(_) | ActuatorLaw::ServoHydraulic(_) => 1.0,
+    }
+}
+
 /// `w^2/(s^2 + 2 z w s + w^2)`.
 fn of_second_order(s: Complex<f64>, w: f64, z: f64) -> Complex<f64> {
     (s * (s + 2.0 * z * w) + w * w).inv() * (w * w)

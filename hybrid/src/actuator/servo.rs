@@ -12,7 +12,9 @@ pub(super) struct MovingServo {
     law: ServoHydraulic,
     /// Opening of the valve (share of the full one) and its rate.
     valve: LinearSystem<2, 1>,
+    /// Flow of the fully open valve without load, and that for which the controller is made (m^3/s).
     free_flow_m3_per_s: f64,
+    nominal_flow_m3_per_s: f64,
     /// Pressure difference of the chambers (Pa).
     pressure_pa: f64,
     displacement_m: f64,
@@ -28,6 +30,7 @@ impl MovingServo {
             law: *law,
             valve: of_second_order(w, law.valve_damping_ratio, step_s),
             free_flow_m3_per_s: law.free_flow_m3_per_s(),
+            nominal_flow_m3_per_s: law.free_flow_m3_per_s(),
             pressure_pa: 0.0,
             displacement_m: 0.0,
             velocity_m_per_s: 0.0,
@@ -41,7 +44,7 @@ impl MovingServo {
         let (law, h) = (&self.law, self.step_s);
         let area = law.piston_area_m2;
         let error_m = command_m - self.displacement_m;
-        let wanted = law.loop_gain_per_s * area * error_m / self.free_flow_m3_per_s;
+        let wanted = law.loop_gain_per_s * area * error_m / self.nominal_flow_m3_per_s;
         self.valve.step(&Vector1::new(wanted.clamp(-1.0, 1.0)));
         let opening = self.valve.state[0].clamp(-1.0, 1.0);
         let resisting = self.pressure_pa / law.supply_pressure_pa * opening.signum();

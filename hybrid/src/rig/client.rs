@@ -16,6 +16,10 @@ pub struct RigClient {
     step_s: f32,
     is_answered: bool,
     is_held: bool,
+    saturated: u64,
+    time_s: f64,
+    /// Time of the vehicle and of the rig at the first answer to a moving clock, and at the last one (s).
+    clocks: Option<[[f64; 2]; 2]>,
 }
 
 impl RigClient {
@@ -29,6 +33,9 @@ impl RigClient {
             step_s: step_s as f32,
             is_answered: false,
             is_held: false,
+            saturated: 0,
+            time_s: 0.0,
+            clocks: None,
         }
     }
 
@@ -46,6 +53,7 @@ impl RigClient {
 
     fn frame(&mut self, time_s: f64, command_m: f32, rate: f32, mut flags: FrameFlags) -> Frame {
         self.sequence = self.sequence.wrapping_add(1);
+        self.time_s = time_s;
         let is_starting = !self.is_answered || self.sequence <= STARTING_TICKS;
         flags.set(FrameFlags::START, is_starting);
         Frame {
@@ -64,13 +72,33 @@ impl RigClient {
     /// newer than all before.
     pub fn take(&mut self, bytes: &[u8]) -> Option<(Measured, u32)> {
         let frame = self.inbox.accept(bytes)?;
+        if !self.is_answered {
+            // The rate of the first command is that from where the rig is.
+            self.last_m = frame.displacement_m;
+        }
         self.is_answered = true;
+        self.saturated += u64::from(frame.flags.contains(FrameFlags::SATURATED));
+        if self.time_s > 0.0 {
+            let now = [self.time_s, frame.time_s];
+            self.clocks = Some([self.clocks.map_or(now, |[first, _]| first), now]);
+        }
         self.is_held = frame.flags.contains(FrameFlags::HELD);
         let measured = Measured {
             displacement_m: frame.displacement_m,
             force_n: frame.other,
         };
         Some((measured, frame.answers))
+    }
+
+    /// Seconds of the rig for each second of the vehicle; `None` in the first 0.1 s.
+    pub fn clock_ratio(&self) -> Option<f64> {
+        let [[own_0, rig_0], [own_1, rig_1]] = self.clocks?;
+        (own_1 - own_0 >= 0.1).then(|| (rig_1 - rig_0) / (own_1 - own_0))
+    }
+
+    /// Answers with the flag `SATURATED`.
+    pub fn saturated(&self) -> u64 {
+        self.saturated
     }
 
     /// Number of the newest command.

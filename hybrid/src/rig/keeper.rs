@@ -55,18 +55,23 @@ impl CommandKeeper {
 
     /// Takes the newest command of a tick, or none; returns the command for the actuator (m).
     pub fn tick(&mut self, newest: Option<&Frame>) -> f64 {
+        let limit = self.settings.velocity_m_per_s;
+        self.missed = match newest {
+            None if self.is_watched => self.missed.saturating_add(1),
+            _ => 0,
+        };
+        self.longest_gap = self.longest_gap.max(self.missed);
         let is_stop = newest.is_some_and(|frame| frame.flags.contains(FrameFlags::STOP));
         let wanted_m = match (self.ramp, newest) {
+            // A vehicle that has no answer yet does not know where the rig is.
+            (None, Some(frame)) if !is_stop && frame.answers == 0 => self.command_m,
             (None, Some(frame)) if !is_stop => {
-                self.missed = 0;
                 self.is_watched |= !frame.flags.contains(FrameFlags::START);
-                self.rate_m_per_s = f64::from(frame.other);
+                self.rate_m_per_s = f64::from(frame.other).clamp(-limit, limit);
                 f64::from(frame.displacement_m)
             }
             (None, None) if !self.is_watched => self.command_m,
             (None, _) => {
-                self.missed += 1;
-                self.longest_gap = self.longest_gap.max(self.missed);
                 if is_stop || self.missed > self.settings.extrapolated_ticks {
                     self.ramp = Some((self.rate_m_per_s, 0));
                 }
@@ -74,7 +79,7 @@ impl CommandKeeper {
             }
             (Some(_), _) => self.command_m + self.ramped_rate() * self.step_s,
         };
-        let most_m = self.settings.velocity_m_per_s * self.step_s;
+        let most_m = limit * self.step_s;
         let stroke_m = self.settings.stroke_m;
         let reachable_m = wanted_m.clamp(self.command_m - most_m, self.command_m + most_m);
         self.command_m = reachable_m.clamp(-stroke_m, stroke_m);
@@ -99,6 +104,13 @@ impl CommandKeeper {
     /// True if the rig follows no command until the next session.
     pub fn is_held(&self) -> bool {
         self.ramp.is_some()
+    }
+
+    /// True if the command of a held rig has come to rest.
+    pub fn is_at_rest(&self) -> bool {
+        let past_s = |ticks: u32| f64::from(ticks) * self.step_s;
+        self.ramp
+            .is_some_and(|(_, ticks)| past_s(ticks) >= self.settings.ramp_s)
     }
 
     /// Largest number of ticks in a row without a command.

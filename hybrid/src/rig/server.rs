@@ -7,8 +7,8 @@ use super::keeper::{CommandKeeper, KeeperSettings};
 
 /// A virtual rig that follows datagrams and answers them.
 ///
-/// A session begins with a command that has the flag `START` and a session number other than the present one. While
-/// commands of a session arrive, a start of another session is foreign: nobody can take a rig over.
+/// A session begins with a command that has the flag `START` and a session number other than the present one. Until the
+/// actuator has come to rest after the present session, a start of another one is foreign.
 #[derive(Clone, Debug)]
 pub struct RigServer {
     rig: VirtualRig,
@@ -30,7 +30,7 @@ struct Session {
     newest: Option<Frame>,
 }
 
-/// Ticks without a command after which another session may begin.
+/// Ticks without a command after which another session may begin, whatever the state of the present one.
 const TAKEOVER_TICKS: u32 = 1000;
 
 impl RigServer {
@@ -59,6 +59,7 @@ impl RigServer {
         if let Some(frame) = starts
             && self.may_start(frame.session)
         {
+            self.foreign = self.counts().foreign;
             self.session = Some(Session {
                 inbox: Inbox::new(FrameKind::Command, frame.session),
                 sequence: 0,
@@ -78,11 +79,16 @@ impl RigServer {
 
     /// A session that is over, or silent, gives way to another.
     fn may_start(&self, number: u32) -> bool {
-        let is_free = self.keeper.is_held() || self.silent_ticks > TAKEOVER_TICKS;
+        let is_free = self.keeper.is_at_rest() || self.silent_ticks > TAKEOVER_TICKS;
         match &self.session {
             None => true,
             Some(session) => is_free && session.inbox.session() != number,
         }
+    }
+
+    /// Lets another session begin: the present one has been silent for long, and no ticks tell.
+    pub fn release(&mut self) {
+        self.silent_ticks = TAKEOVER_TICKS + 1;
     }
 
     /// Makes a tick with the newest command; returns the answer, or `None` without a session or without readings.
@@ -121,7 +127,7 @@ impl RigServer {
         })
     }
 
-    /// Counts of the present session; foreign datagrams before it are included.
+    /// Counts of the present session; foreign datagrams are those of all.
     pub fn counts(&self) -> InboxCounts {
         let mut counts = self
             .session

@@ -26,8 +26,8 @@ use crate::commands::{Format, RealtimeArguments, interruption, print_report};
 and in another terminal
   dashpot vehicle --case straight-180 --outside \"front lateral damper 1=udp:127.0.0.1:9100\" --actuator servo --realtime
 
-docs/rig-protocol.md describes the datagrams. The first sender that starts a session has the rig until the session ends
-or is silent for 1000 ticks. If commands do not arrive, the actuator goes on at the last rate for --extrapolate-ticks,
+docs/rig-protocol.md describes the datagrams. The first vehicle that starts a session has the rig until the
+session is over and the actuator at rest. If commands do not arrive, the actuator goes on at the last rate for --extrapolate-ticks,
 then comes to rest in 0.2 s and holds until the next session. Ctrl-C ends the rig and prints its report.")]
 pub(super) struct RigArguments {
     /// Actuator: built-in name (servo, second-order, slow, benchmark) or TOML file.
@@ -81,6 +81,9 @@ struct Report {
 
 /// Time in which an actuator without commands comes to rest, s.
 const RAMP_S: f64 = 0.2;
+
+/// Time without a command after which a rig in step takes its vehicle for gone.
+const GONE: Duration = Duration::from_secs(1);
 
 /// How often a rig that waits for datagrams looks whether it shall end.
 const LOOK: Duration = Duration::from_millis(50);
@@ -202,11 +205,19 @@ impl Served {
     /// Makes a tick for each new command.
     fn follow_commands(&mut self, end: Option<Duration>) {
         let started = Instant::now();
+        let mut last_command = started;
         while !interruption::is_wanted() && end.is_none_or(|end| started.elapsed() < end) {
             match self.receive() {
-                Ok(true) => self.tick(),
+                Ok(true) => {
+                    last_command = Instant::now();
+                    self.tick();
+                }
                 Ok(false) => {}
-                Err(error) if is_silence(&error) => {}
+                Err(error) if is_silence(&error) => {
+                    if last_command.elapsed() > GONE {
+                        self.server.release();
+                    }
+                }
                 // An answer to a vehicle that has gone: the next one may come.
                 Err(_) => std::thread::yield_now(),
             }
@@ -226,10 +237,10 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
         report.damper,
         report.ticks,
         report.sessions,
-        if report.is_held {
-            "the rig holds"
-        } else {
-            "the rig follows commands"
+        match (report.sessions, report.is_held) {
+            (0, _) => "nobody has come",
+            (_, true) => "the rig holds",
+            (_, false) => "the rig follows commands",
         }
     )?;
     writeln!(

@@ -58,7 +58,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     )?;
     writeln!(
         out,
-        "damper                    critical delay       actuator there   margin: none     chosen"
+        "damper                    critical delay       actuator there   uncompensated    compensated"
     )?;
     for position in &report.positions {
         let critical = match &position.critical {

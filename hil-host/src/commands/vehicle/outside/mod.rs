@@ -40,7 +40,7 @@ pub(super) struct OutsideArguments {
     )]
     choices: Vec<Choice>,
     /// With --realtime: largest number of ticks in a row in which the vehicle may use the last force of a target that
-    /// does not answer [default: 100]. Then the run ends. The first such tick waits for --timeout-ms, by default one
+    /// does not answer [default: 100; for a rig 10 ms]. Then the run ends. The first such tick waits for --timeout-ms, by default one
     /// tick, and each further one until its deadline. Without --realtime, the vehicle waits as long as --timeout-ms and
     /// --tries allow.
     #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(0..=10_000))]
@@ -131,7 +131,7 @@ impl OutsideArguments {
     /// Returns the actuator of the rigs.
     ///
     /// # Errors
-    /// The actuator cannot be used, or a damper is neither on the desk nor a recorded force.
+    /// The actuator cannot be used, or a damper is neither on the desk nor on a rig.
     fn rig(&self) -> Outcome<Option<RigOptions>> {
         let rig = self.rig.read()?;
         let mut linked = self.choices.iter();
@@ -140,6 +140,16 @@ impl OutsideArguments {
             Some(_) => !is_behind_actuator(&choice.source),
             None => matches!(choice.source, Source::Rig(_)),
         });
+        let remote = self
+            .choices
+            .iter()
+            .find(|choice| matches!(choice.source, Source::Rig(_)));
+        if let (Some(choice), Some(true)) = (remote, rig.as_ref().map(|rig| rig.without_guard)) {
+            return Err(Failure::wrong_use(format!(
+                "--outside \"{}={}\": --without-guard is allowed with desk only: a rig can be a real one",
+                choice.damper, choice.name
+            )));
+        }
         match wrong {
             None => Ok(rig),
             Some(choice) if rig.is_none() => Err(Failure::wrong_use(format!(
@@ -246,11 +256,15 @@ impl Outside {
     /// # Errors
     /// The run with internal dampers fails.
     pub(super) fn finish(
-        self,
+        mut self,
         case: &Case,
         run: &Run,
         ending: &mut Ending,
     ) -> Outcome<(OutsideReport, Traces)> {
+        // A rig must not wait for the comparison.
+        for rig in &mut self.lines.rigs {
+            rig.stop(run.time_s());
+        }
         let mut targets = Vec::new();
         let mut silences: Vec<(usize, Silence)> = Vec::new();
         for line in self.lines.lines {
@@ -283,8 +297,7 @@ impl Outside {
         let mut report = OutsideReport::new(&self.choices, &silences, case, targets, effect);
         let histories = self.lines.recorded.iter().map(|(_, history)| history);
         report.add_unended(histories);
-        let rigs = self.lines.rigs.into_iter();
-        let rigs = rigs.map(|rig| rig.finish(run.time_s()));
+        let rigs = self.lines.rigs.into_iter().map(RigLine::finish);
         let (rig_reports, rigs): (Vec<_>, Vec<Samples>) = rigs.unzip();
         report.rigs = rig_reports;
         Ok((report, Traces { forces, rigs }))

@@ -46,11 +46,19 @@ impl RigEnd {
         }
     }
 
-    /// Ticks at a limit of the actuator; `None` if the rig does not tell.
-    pub(super) fn saturated_ticks(&self) -> Option<u64> {
+    /// Ticks at a limit of the actuator.
+    pub(super) fn saturated_ticks(&self) -> u64 {
         match self {
-            Self::Virtual(rig, _) => Some(rig.saturated_ticks()),
-            Self::Remote(_) => None,
+            Self::Virtual(rig, _) => rig.saturated_ticks(),
+            Self::Remote(rig) => rig.saturated(),
+        }
+    }
+
+    /// Seconds of a rig with its own clock for each second of the vehicle.
+    pub(super) fn clock_ratio(&self) -> Option<f64> {
+        match self {
+            Self::Virtual(..) => None,
+            Self::Remote(rig) => rig.clock_ratio(),
         }
     }
 

@@ -28,10 +28,7 @@ use super::force::set_force_n;
 use crate::commands::failure::{Failure, Outcome};
 
 /// Why the test ends when the rig says that it follows no command.
-const RIG_HOLDS: &str = "the rig holds its displacement, because commands did not reach it in time";
-
-/// Velocity at which the specimen is linear for its compensator, m/s.
-const SMALL_VELOCITY_M_PER_S: f64 = 1e-3;
+const RIG_HOLDS: &str = "the rig holds its displacement and follows no command";
 
 /// A damper on a rig.
 pub(super) struct RigLine {
@@ -40,7 +37,8 @@ pub(super) struct RigLine {
     options: RigOptions,
     coupling: Coupling,
     rig: RigEnd,
-    is_over: bool,
+    ticks: u64,
+    status: HybridStatus,
     samples: Samples,
     /// Time at which the guard acted, s.
     guarded_s: Option<f64>,
@@ -69,7 +67,7 @@ impl RigLine {
         let actuator = &options.actuator;
         let refused =
             |error: RigError| Failure::wrong_use(format!("--actuator {}: {error}", actuator.name));
-        let specimen = Specimen::at_velocity(&parameters, SMALL_VELOCITY_M_PER_S);
+        let specimen = Specimen::nominal(&parameters);
         let compensation = dashpot_hybrid::Compensation::from(options.compensate);
         let compensator = compensation
             .build(actuator, &specimen, case.step_s)
@@ -98,7 +96,8 @@ impl RigLine {
             damper,
             coupling,
             rig,
-            is_over: false,
+            ticks: 0,
+            status: HybridStatus::empty(),
             options: options.clone(),
             samples: Samples {
                 damper: name.to_owned(),
@@ -140,6 +139,8 @@ impl RigLine {
             added_j: transfer.energy().added_j(),
             status: command.status,
         };
+        self.ticks += 1;
+        self.status = command.status;
         if self.samples.rows.len() < self.samples.rows.capacity() {
             self.samples.rows.push(sample);
         }
@@ -147,19 +148,28 @@ impl RigLine {
         if !ending.is_empty() {
             self.guarded_s.get_or_insert(time_s);
         }
-        self.is_over = transfer.guard().is_held();
+        let is_over = transfer.guard().is_held();
         self.rig.send(time_s, command.command_m);
-        self.is_over.then(|| {
-            let seen = reasons(ending).into_iter();
-            let held = self.rig.is_held().then_some(RIG_HOLDS);
+        is_over.then(|| {
+            let is_held = self.rig.is_held();
+            let asked = match is_held {
+                true => HybridStatus::REQUESTED,
+                false => HybridStatus::empty(),
+            };
+            let seen = reasons(ending - asked).into_iter();
+            let held = is_held.then_some(RIG_HOLDS);
             let reasons = seen.chain(held).map(str::to_owned).collect();
             run.guard_ended(&self.name, reasons, self.guarded_s.unwrap_or(time_s))
         })
     }
 
-    /// Ends the session; returns the report and the signals.
-    pub(super) fn finish(mut self, time_s: f64) -> (RigReport, Samples) {
+    /// Ends the session.
+    pub(super) fn stop(&mut self, time_s: f64) {
         self.rig.stop(time_s);
+    }
+
+    /// Returns the report and the signals.
+    pub(super) fn finish(self) -> (RigReport, Samples) {
         (RigReport::new(&self), self.samples)
     }
 }

@@ -44,7 +44,8 @@ pub(in crate::commands::vehicle) struct RigArguments {
     /// Compensation of the delay of the actuator.
     #[arg(long, value_enum, default_value_t = Compensate::Ats, requires = "actuator")]
     compensate: Compensate,
-    /// Go on when a limit of the guard is exceeded or the actuator adds energy. For virtual rigs only.
+    /// Go on when the actuator adds energy or follows badly, and beyond the limits of force and velocity. The stroke,
+    /// the rate of the command and the age of readings stay limited. For virtual rigs in this process only.
     #[arg(long, requires = "actuator")]
     without_guard: bool,
     /// Start although the plan leaves no margin; see `dashpot hybrid plan`.
@@ -60,7 +61,7 @@ pub(in crate::commands::vehicle) struct RigArguments {
 pub(in crate::commands::vehicle) struct RigOptions {
     pub(super) actuator: ActuatorParameters,
     pub(super) compensate: Compensate,
-    pub(super) without_guard: bool,
+    pub(in crate::commands::vehicle) without_guard: bool,
     without_margin: bool,
     pub(super) seed: u64,
 }
@@ -143,6 +144,7 @@ pub(in crate::commands) fn transfer_settings(
         // The widest limits that the guard takes. The stroke and the rate of the command stay limited.
         guard.force_n = 1e7;
         guard.least_force_n = 0.0;
+        guard.stuck_travel_m = 1.0;
         (guard.error_m, guard.error_s, guard.limited_s) = (1.0, 10.0, 10.0);
         (guard.plausible_m_per_s, guard.plausible_n_per_s) = (1e3, 1e12);
         (energy.largest_share, energy.least_power_w) = (100.0, 1e6);

@@ -31,7 +31,14 @@ pub(super) struct RemoteRig {
     first: Option<Measured>,
     /// True if the last answer did not come.
     is_silent: bool,
+    is_stopped: bool,
     tick: Duration,
+}
+
+impl Drop for RemoteRig {
+    fn drop(&mut self) {
+        self.stop(0.0);
+    }
 }
 
 impl RemoteRig {
@@ -60,6 +67,7 @@ impl RemoteRig {
             is_realtime,
             first: None,
             is_silent: false,
+            is_stopped: false,
             tick: Duration::from_secs_f64(step_s),
         };
         rig.socket.set_read_timeout(Some(RETRY)).map_err(failed)?;
@@ -74,7 +82,8 @@ impl RemoteRig {
             std::thread::sleep(SHORTEST);
             if started.elapsed() > FIRST_ANSWER {
                 return Err(Failure::new(format!(
-                    "{}: no answer within {} s; is the rig running? `dashpot hybrid rig` starts a virtual one",
+                    "{}: no answer within {} s; is the rig running, and free of another session? `dashpot hybrid rig` \
+                     starts a virtual one",
                     rig.name,
                     FIRST_ANSWER.as_secs()
                 )));
@@ -142,10 +151,23 @@ impl RemoteRig {
 
     /// Ends the session.
     pub(super) fn stop(&mut self, time_s: f64) {
+        if std::mem::replace(&mut self.is_stopped, true) {
+            return;
+        }
         for _ in 0..STOPS {
             let frame = self.client.stop(time_s);
             self.send_frame(&frame);
         }
+    }
+
+    /// Seconds of the rig for each second of the vehicle.
+    pub(super) fn clock_ratio(&self) -> Option<f64> {
+        self.client.clock_ratio()
+    }
+
+    /// Answers with the actuator at a limit.
+    pub(super) fn saturated(&self) -> u64 {
+        self.client.saturated()
     }
 
     /// Counts of the answers.

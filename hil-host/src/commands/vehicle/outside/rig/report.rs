@@ -1,6 +1,5 @@
 //! Report on a rig.
 
-use dashpot_core::hybrid::HybridStatus;
 use dashpot_core::hybrid::wire::InboxCounts;
 use serde::Serialize;
 
@@ -8,6 +7,9 @@ use super::RigLine;
 use super::options::Compensate;
 use super::reasons::reasons;
 use super::samples::Sample;
+
+/// Difference between the clocks of vehicle and rig that is told.
+const CLOCK_ERROR: f64 = 0.01;
 
 /// What happened on a rig.
 #[derive(Debug, Clone, Serialize)]
@@ -27,12 +29,16 @@ pub(in crate::commands::vehicle) struct RigReport {
     largest_command_rate_m_per_s: f64,
     largest_force_n: f64,
     missing_readings: u64,
-    /// `None` if the rig does not tell.
-    saturated_ticks: Option<u64>,
+    saturated_ticks: u64,
+    /// Seconds of the rig for each second of the vehicle; `None` in this process.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clock_ratio: Option<f64>,
     /// Datagrams of the rig; `None` for a rig in this process.
     #[serde(skip_serializing_if = "Option::is_none")]
     datagrams: Option<Datagrams>,
     ticks: u64,
+    /// Ticks that all figures and hybrid.csv contain: those of the first ten minutes at 1 ms.
+    recorded_ticks: u64,
     is_guarded: bool,
     /// Time at which the guard acted, s; `None` if it did not.
     guarded_s: Option<f64>,
@@ -103,7 +109,7 @@ impl RigReport {
         let last = rows.last();
         let of_last =
             |value: &dyn Fn(&Sample) -> f32| last.map_or(0.0, |row| f64::from(value(row)));
-        let status = last.map_or(HybridStatus::empty(), |row| row.status);
+        let status = line.status;
         let mean = |values: &dyn Fn() -> f64, count: usize| values() / count.max(1) as f64;
         let count = read.count();
         let middle = mean(&|| desired.clone().sum(), count);
@@ -135,8 +141,10 @@ impl RigReport {
             largest_force_n: largest(&|row| row.force_n),
             missing_readings: rows.iter().filter(|row| row.measured_m.is_nan()).count() as u64,
             saturated_ticks: line.rig.saturated_ticks(),
+            clock_ratio: line.rig.clock_ratio(),
             datagrams: line.rig.counts().map(Datagrams::from),
-            ticks: rows.len() as u64,
+            ticks: line.ticks,
+            recorded_ticks: rows.len() as u64,
             is_guarded: !line.options.without_guard,
             guarded_s: line.guarded_s,
             status: reasons(status),
@@ -158,12 +166,10 @@ impl RigReport {
             None => "a virtual rig",
             Some(_) => "a rig behind UDP",
         };
-        let at_limit = self.saturated_ticks.map_or_else(String::new, |ticks| {
-            format!(
-                "; {ticks} ticks of {} at a limit of the actuator",
-                self.ticks
-            )
-        });
+        let at_limit = format!(
+            "; {} ticks of {} at a limit of the actuator",
+            self.saturated_ticks, self.ticks
+        );
         let mut lines = vec![
             (
                 self.damper.clone(),
@@ -197,6 +203,23 @@ impl RigReport {
             ),
             ("  guard".into(), format!("{guard}{seen}")),
         ];
+        if self.recorded_ticks < self.ticks {
+            let text = format!(
+                "all but the guard is of the first {} ticks of {}",
+                self.recorded_ticks, self.ticks
+            );
+            lines.push(("  record".into(), text));
+        }
+        if let Some(ratio) = self
+            .clock_ratio
+            .filter(|ratio| (ratio - 1.0).abs() > CLOCK_ERROR)
+        {
+            let text = format!(
+                "WRONG: {ratio:.3} s of the rig passed for each second of the vehicle, so the damper moved at another \
+                 speed than it should"
+            );
+            lines.push(("  clock".into(), text));
+        }
         if let Some(datagrams) = &self.datagrams {
             let text = format!(
                 "{}; no reading in {} ticks of {}",
