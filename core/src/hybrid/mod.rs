@@ -15,9 +15,9 @@
 //! - [`TransferSystem`] combines them.
 //! - [`wire`] is the protocol between a simulated vehicle and a rig.
 //!
-//! All parts take a fixed number of operations a tick, use single precision, do not allocate, and return only finite
-//! numbers. Displacements (m) are positive in extension; forces (N) are positive when they resist extension. See
-//! docs/hybrid.md.
+//! All parts take a bounded number of operations a tick, use single precision, do not allocate, and return only finite
+//! numbers; a [`MotionFilter`] does so for finite displacements. Displacements (m) are positive in extension; forces (N)
+//! are positive when they resist extension. See docs/hybrid.md.
 
 mod adaptive;
 mod compensator;

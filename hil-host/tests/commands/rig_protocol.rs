@@ -228,7 +228,7 @@ fn a_missing_rig_and_wrong_ends_are_named() {
         (
             nobody.as_str(),
             &["--actuator", "servo"][..],
-            "is the rig running?",
+            "is the rig running, and free of another session?",
         ),
         (nobody.as_str(), &[], "a rig needs --actuator"),
         (
