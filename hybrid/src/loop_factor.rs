@@ -11,8 +11,8 @@ use crate::specimen::Specimen;
 /// Compensator, held command, actuator and exchange of a [`Coupling`](crate::Coupling) at small motion: the factor `F`
 /// of [`stability`](crate::plan::stability).
 ///
-/// A command is held for a tick, which is half a tick late on average, and its force acts a tick later, after the lag of
-/// its sensor. The adaptive time series is the inverse that it starts from.
+/// A command is held for a tick, which is half a tick late on average, and its force acts a tick later, after the lag
+/// of its sensor. The adaptive time series is the inverse that it starts from.
 ///
 /// ```
 /// use dashpot_files::actuator::ActuatorParameters;

@@ -16,8 +16,8 @@
 //! - [`wire`] is the protocol between a simulated vehicle and a rig.
 //!
 //! All parts take a bounded number of operations a tick, use single precision, do not allocate, and return only finite
-//! numbers; a [`MotionFilter`] does so for finite displacements. Displacements (m) are positive in extension; forces (N)
-//! are positive when they resist extension. See docs/hybrid.md.
+//! numbers; a [`MotionFilter`] does so for finite displacements. Displacements (m) are positive in extension, forces
+//! (N) when they resist extension. See docs/hybrid.md.
 
 mod adaptive;
 mod compensator;

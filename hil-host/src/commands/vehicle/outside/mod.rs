@@ -30,9 +30,8 @@ use dashpot_vehicle_run::{Ending, Run, outside_index};
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct OutsideArguments {
     /// Take the force of one damper from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE), from a rig
-    /// (udp:HOST:PORT, with --actuator) or from a
-    /// recording (CSV, MDF4 or Parquet) with the channels time_s and force_n. A target is loaded with the damper's
-    /// parameters. May be repeated.
+    /// (udp:HOST:PORT, with --actuator) or from a recording (CSV, MDF4 or Parquet) with the channels time_s and
+    /// force_n. A target is loaded with the damper's parameters. May be repeated.
     #[arg(
         long = "outside",
         value_name = "DAMPER=LINK|FILE",
@@ -40,7 +39,8 @@ pub(super) struct OutsideArguments {
     )]
     choices: Vec<Choice>,
     /// With --realtime: largest number of ticks in a row in which the vehicle may use the last force of a target that
-    /// does not answer [default: 100; for a rig 10 ms]. Then the run ends. The first such tick waits for --timeout-ms, by default one
+    /// does not answer [default: 100; for a rig 10 ms]. Then the run ends. The first such tick waits for --timeout-ms, by
+    /// default one
     /// tick, and each further one until its deadline. Without --realtime, the vehicle waits as long as --timeout-ms and
     /// --tries allow.
     #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(0..=10_000))]
