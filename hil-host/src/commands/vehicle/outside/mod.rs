@@ -39,10 +39,9 @@ pub(super) struct OutsideArguments {
     )]
     choices: Vec<Choice>,
     /// With --realtime: largest number of ticks in a row in which the vehicle may use the last force of a target that
-    /// does not answer [default: 100; for a rig 10 ms]. Then the run ends. The first such tick waits for --timeout-ms, by
-    /// default one
-    /// tick, and each further one until its deadline. Without --realtime, the vehicle waits as long as --timeout-ms and
-    /// --tries allow.
+    /// does not answer [default: 100; for a rig 10 ms]. Then the run ends. The first such tick waits for --timeout-ms,
+    /// by default one tick, and each further one until its deadline. Without --realtime, the vehicle waits as long as
+    /// --timeout-ms and --tries allow.
     #[arg(long, value_name = "TICKS", value_parser = clap::value_parser!(u64).range(0..=10_000))]
     hold_ticks: Option<u64>,
     #[command(flatten)]
