@@ -7,12 +7,15 @@ const TICKS: usize = 80;
 const STARTS: usize = 300;
 const CLIMBS: usize = 60;
 
+/// Wanted command and desired displacement (m), and measured displacement (m) and force (N), of a tick.
+type Asked = (f32, f32, Option<(f32, f32)>);
+
 /// A guard, and all that it is asked: wanted command, desired displacement and measured values of each tick.
 #[derive(Clone, Debug)]
 struct Trial {
     settings: GuardSettings,
     step_s: f32,
-    ticks: Vec<(f32, f32, Option<(f32, f32)>)>,
+    ticks: Vec<Asked>,
 }
 
 /// A number from the whole range, by its logarithm.
@@ -65,7 +68,7 @@ fn value(random: &mut Rng, size: f32) -> f32 {
     }
 }
 
-fn tick(random: &mut Rng, settings: &GuardSettings) -> (f32, f32, Option<(f32, f32)>) {
+fn tick(random: &mut Rng, settings: &GuardSettings) -> Asked {
     let size_m = 1.2 * settings.stroke_m;
     let measured = (value(random, size_m), value(random, 1.2 * settings.force_n));
     (
