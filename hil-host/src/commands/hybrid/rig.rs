@@ -46,7 +46,7 @@ pub(super) struct RigArguments {
     #[arg(long, default_value_t = 1000, value_name = "US", value_parser = clap::value_parser!(u32).range(100..=1000))]
     step_us: u32,
     /// Ticks in a row without a command in which the actuator goes on at the last rate.
-    #[arg(long, default_value_t = 5, value_name = "TICKS", value_parser = clap::value_parser!(u32).range(0..=1000))]
+    #[arg(long, default_value_t = 10, value_name = "TICKS", value_parser = clap::value_parser!(u32).range(0..=1000))]
     extrapolate_ticks: u32,
     /// Make a tick for each new command instead of real time: the time of the rig passes as commands arrive.
     #[arg(long, conflicts_with_all = ["fifo", "lock_memory", "core"])]
