@@ -62,6 +62,8 @@ impl CommandKeeper {
         };
         self.longest_gap = self.longest_gap.max(self.missed);
         let is_stop = newest.is_some_and(|frame| frame.flags.contains(FrameFlags::STOP));
+        // After the end of a session, silence is no gap.
+        self.is_watched &= !is_stop;
         let wanted_m = match (self.ramp, newest) {
             // A vehicle that has no answer yet does not know where the rig is.
             (None, Some(frame)) if !is_stop && frame.answers == 0 => self.command_m,
