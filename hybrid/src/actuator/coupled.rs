@@ -3,6 +3,7 @@
 use dashpot_files::actuator::Coupled;
 use nalgebra::{SMatrix, Vector2};
 
+use super::stopped;
 use crate::linear::LinearSystem;
 
 /// Forces are states in MN, so that all states have similar sizes.
@@ -56,11 +57,8 @@ impl MovingCoupled {
         let force = &mut self.system.state[2];
         let is_limited = force.abs() > most;
         *force = force.clamp(-most, most);
-        let displacement = &mut self.system.state[3];
-        if displacement.abs() > stroke_m {
-            *displacement = displacement.clamp(-stroke_m, stroke_m);
-            self.system.state[4] = 0.0;
-        }
+        let state = &mut self.system.state;
+        [state[3], state[4]] = stopped([state[3], state[4]], stroke_m);
         is_limited
     }
 

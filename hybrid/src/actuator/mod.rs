@@ -42,6 +42,15 @@ pub struct Actuator {
     is_saturated: bool,
 }
 
+/// Displacement (m) and velocity of a piston that the ends of its cylinder stop.
+fn stopped([displacement_m, velocity_m_per_s]: [f64; 2], end_m: f64) -> [f64; 2] {
+    if displacement_m.abs() > end_m {
+        [displacement_m.clamp(-end_m, end_m), 0.0]
+    } else {
+        [displacement_m, velocity_m_per_s]
+    }
+}
+
 #[derive(Clone, Debug)]
 enum MovingLaw {
     Coupled(MovingCoupled),

@@ -3,6 +3,7 @@
 use dashpot_files::actuator::SecondOrder;
 use nalgebra::{Matrix2, Vector1, Vector2};
 
+use super::stopped;
 use crate::linear::LinearSystem;
 
 /// The actuator in motion.
@@ -23,11 +24,8 @@ impl MovingSecondOrder {
     /// Takes a step between the ends of the stroke (m).
     pub(super) fn step(&mut self, command_m: f64, stroke_m: f64) {
         self.system.step(&Vector1::new(command_m));
-        let displacement = &mut self.system.state[0];
-        if displacement.abs() > stroke_m {
-            *displacement = displacement.clamp(-stroke_m, stroke_m);
-            self.system.state[1] = 0.0;
-        }
+        let state = &mut self.system.state;
+        [state[0], state[1]] = stopped([state[0], state[1]], stroke_m);
     }
 
     pub(super) fn displacement_m(&self) -> f64 {

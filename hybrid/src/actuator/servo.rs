@@ -4,6 +4,7 @@ use dashpot_files::actuator::ServoHydraulic;
 use nalgebra::Vector1;
 
 use super::second_order::of_second_order;
+use super::stopped;
 use crate::linear::LinearSystem;
 
 /// The actuator in motion.
@@ -52,10 +53,8 @@ impl MovingServo {
         let flow = self.free_flow_m3_per_s * opening * libm::sqrt(drop.abs()).copysign(drop);
         self.velocity_m_per_s += h * (area * self.pressure_pa - force_n) / law.moving_mass_kg;
         self.displacement_m += h * self.velocity_m_per_s;
-        if self.displacement_m.abs() > stroke_m {
-            self.displacement_m = self.displacement_m.clamp(-stroke_m, stroke_m);
-            self.velocity_m_per_s = 0.0;
-        }
+        let moved = [self.displacement_m, self.velocity_m_per_s];
+        [self.displacement_m, self.velocity_m_per_s] = stopped(moved, stroke_m);
         let compressed =
             flow - area * self.velocity_m_per_s - law.leakage_m3_per_s_pa * self.pressure_pa;
         let pressure_pa =
