@@ -7,6 +7,7 @@ use dashpot_core::link::MAX_DAMPERS;
 
 use super::choice::{Choice, Source};
 use super::force::set_force_n;
+use super::named_damper::named_damper;
 use super::report::Target;
 use super::silence::Silence;
 use crate::commands::failure::{Failure, Outcome, remedy};
@@ -261,10 +262,7 @@ fn desk(case: &Case, dampers: &[usize]) -> Outcome<Box<dyn Link + Send>> {
 
 /// Builds the damper with index `damper` in single precision.
 fn build(case: &Case, damper: usize, step_s: f64) -> Outcome<Damper<f32>> {
-    let element = case.vehicle.dampers().nth(damper);
-    let parameters = element
-        .and_then(|element| case.damper(&element.name))
-        .ok_or_else(|| Failure::new(format!("the vehicle has no damper {damper}")))?;
+    let (_, parameters) = named_damper(case, damper)?;
     Ok(parameters.build(step_s)?)
 }
 

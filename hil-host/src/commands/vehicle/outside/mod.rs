@@ -4,6 +4,7 @@ mod choice;
 mod force;
 pub mod line;
 pub mod lines;
+mod named_damper;
 mod report;
 pub(in crate::commands) mod rig;
 pub mod silence;

@@ -25,6 +25,7 @@ pub(in crate::commands::vehicle) use samples::{Samples, write};
 pub(in crate::commands::vehicle) use section::{indices, section};
 
 use super::force::set_force_n;
+use super::named_damper::named_damper;
 use crate::commands::failure::{Failure, Outcome};
 
 /// Why the test ends when the rig says that it follows no command.
@@ -57,13 +58,8 @@ impl RigLine {
         hold: (bool, Option<u64>),
     ) -> Outcome<Self> {
         let (is_realtime, hold_ticks) = hold;
-        let element = case.vehicle.dampers().nth(damper);
-        let name = element.map_or("", |element| element.name.as_str());
-        let parameters = case
-            .damper(name)
-            .ok_or_else(|| Failure::new(format!("the vehicle has no damper {damper}")))?
-            .clone()
-            .check()?;
+        let (name, parameters) = named_damper(case, damper)?;
+        let parameters = parameters.clone().check()?;
         let actuator = &options.actuator;
         let refused =
             |error: RigError| Failure::wrong_use(format!("--actuator {}: {error}", actuator.name));
