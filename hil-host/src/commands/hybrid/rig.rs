@@ -212,14 +212,13 @@ impl Served {
                     last_command = Instant::now();
                     self.tick();
                 }
-                Ok(false) => {}
-                Err(error) if is_silence(&error) => {
-                    if last_command.elapsed() > GONE {
-                        self.server.release();
-                    }
-                }
                 // An answer to a vehicle that has gone: the next one may come.
-                Err(_) => std::thread::yield_now(),
+                Err(error) if !is_silence(&error) => std::thread::yield_now(),
+                Ok(false) | Err(_) => {}
+            }
+            // The next vehicle may already knock, so that there is no silence.
+            if last_command.elapsed() > GONE {
+                self.server.release();
             }
         }
     }
