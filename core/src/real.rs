@@ -4,7 +4,11 @@ use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::math::{Groups, Lanes};
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(any(
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
 use crate::table::NUMBERS_PER_PIECE;
 use crate::table::Table;
 
@@ -64,7 +68,11 @@ pub(crate) trait Scalar: Lanes<Self, 1> + Groups + 'static {
     /// Number of significant binary digits.
     const MANTISSA_DIGITS: u32;
     /// Two pieces of zeros.
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(any(
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        all(target_arch = "wasm32", target_feature = "simd128")
+    ))]
     const ZERO_PIECES: &'static [Self; 2 * NUMBERS_PER_PIECE];
     /// A table of zeros.
     #[cfg(feature = "builder")]
@@ -116,7 +124,11 @@ macro_rules! real {
             #[cfg(feature = "builder")]
             const EPSILON: f64 = $float::EPSILON as f64;
             const MANTISSA_DIGITS: u32 = $float::MANTISSA_DIGITS;
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            #[cfg(any(
+                target_arch = "x86_64",
+                target_arch = "aarch64",
+                all(target_arch = "wasm32", target_feature = "simd128")
+            ))]
             const ZERO_PIECES: &'static [Self; 2 * NUMBERS_PER_PIECE] =
                 &[0.0; 2 * NUMBERS_PER_PIECE];
             #[cfg(feature = "builder")]

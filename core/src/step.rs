@@ -83,7 +83,11 @@ impl<T: Real> Damper<T> {
 }
 
 /// Travel (m) of a damper in a group in which an input or a state is unusual, as its own step takes it.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(any(
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
 pub(crate) fn travel<T: Real>(
     damper: &Damper<T>,
     state: &mut DamperState<T>,

@@ -28,7 +28,11 @@ pub(crate) type Piece<T> = [[T; 4]; ROWS_PER_PIECE];
 pub(crate) const ROWS_PER_PIECE: usize = 4;
 
 /// Number of numbers of a piece.
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(any(
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
 pub(crate) const NUMBERS_PER_PIECE: usize = 4 * ROWS_PER_PIECE;
 /// Row of a piece: flow `v_h` times the step (m). It has the sign of the stretch.
 pub(crate) const FLOW: usize = 0;

@@ -44,6 +44,14 @@ impl WheelOnRail {
         Ok(Arc::new(cached.tables))
     }
 
+    /// Computes the contact tables, without reading or writing a file.
+    ///
+    /// # Errors
+    /// See [`Self::geometry`].
+    pub fn computed(&self) -> Result<Arc<Tables>, VehicleRunError> {
+        Ok(Arc::new(Tables::new(self.geometry()?)))
+    }
+
     /// Reads the contact tables from the bytes of a file.
     ///
     /// # Errors

@@ -160,6 +160,19 @@ impl Run {
         }
     }
 
+    /// Replaces a damper by a built one from the next tick on; its force stays continuous. Does not allocate.
+    ///
+    /// # Errors
+    /// No damper with this index.
+    pub fn put_damper(&mut self, index: usize, built: &Damper<f64>) -> Result<(), VehicleRunError> {
+        Ok(self.vehicle.replace_damper(index, built)?)
+    }
+
+    /// Replaces the track from the next tick on. Under the vehicle both tracks must be the same, or the wheels jump.
+    pub fn put_track(&mut self, track: &Arc<Track>) {
+        self.track = Arc::clone(track);
+    }
+
     /// True if all ticks have been simulated.
     pub fn is_over(&self) -> bool {
         self.state.ticks() >= self.ticks

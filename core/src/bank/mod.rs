@@ -7,7 +7,11 @@ use crate::damper::Damper;
 use crate::real::Real;
 use crate::state::DamperState;
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(any(
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
 mod group;
 mod width;
 

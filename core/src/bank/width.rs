@@ -1,6 +1,10 @@
 //! Width of the vectors of a bank.
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(any(
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
 use fearless_simd::Level;
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::{Simd, x86::Avx2};
@@ -41,8 +45,8 @@ enum Width {
 }
 
 impl VectorWidth {
-    /// Vectors that every processor for which the program is compiled has: SSE2 on x86-64, NEON on 64-bit Arm, AVX2 if
-    /// the compiler may use it everywhere. On other processors dampers are stepped one by one.
+    /// Vectors that every processor for which the program is compiled has: SSE2 on x86-64, NEON on 64-bit Arm, SIMD128 in
+    /// WebAssembly if the compiler may use it, AVX2 if it may use that everywhere. On other processors dampers are stepped one by one.
     #[inline]
     pub fn baseline() -> Self {
         #[cfg(target_arch = "x86_64")]
@@ -62,12 +66,12 @@ impl VectorWidth {
         Self::baseline()
     }
 
-    /// Name of the instruction set: `AVX2`, `SSE2`, `NEON` or `none`.
+    /// Name of the instruction set: `AVX2`, `SSE2`, `NEON`, `SIMD128` or `none`.
     ///
     /// ```
     /// use dashpot_core::VectorWidth;
     ///
-    /// assert!(["AVX2", "SSE2", "NEON", "none"].contains(&VectorWidth::baseline().name()));
+    /// assert!(["AVX2", "SSE2", "NEON", "SIMD128", "none"].contains(&VectorWidth::baseline().name()));
     /// ```
     pub const fn name(self) -> &'static str {
         match self.0 {
@@ -75,6 +79,9 @@ impl VectorWidth {
             Width::Avx2(_) => "AVX2",
             Width::Baseline if cfg!(target_arch = "x86_64") => "SSE2",
             Width::Baseline if cfg!(target_arch = "aarch64") => "NEON",
+            Width::Baseline if cfg!(all(target_arch = "wasm32", target_feature = "simd128")) => {
+                "SIMD128"
+            }
             Width::Baseline => "none",
         }
     }
@@ -92,9 +99,17 @@ impl VectorWidth {
     #[inline(always)]
     pub(super) fn step<T: Real>(self, bank: Bank<'_, T>) -> Bank<'_, T> {
         match self.0 {
-            #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+            #[cfg(not(any(
+                target_arch = "x86_64",
+                target_arch = "aarch64",
+                all(target_arch = "wasm32", target_feature = "simd128")
+            )))]
             Width::Baseline => bank,
-            #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+            #[cfg(any(
+                target_arch = "x86_64",
+                target_arch = "aarch64",
+                all(target_arch = "wasm32", target_feature = "simd128")
+            ))]
             Width::Baseline => T::in_groups(baseline(), bank),
             #[cfg(target_arch = "x86_64")]
             Width::Avx2(avx2) => wide(avx2, bank),
@@ -128,4 +143,13 @@ fn baseline() -> fearless_simd::aarch64::Neon {
     Level::baseline()
         .as_neon()
         .expect("the baseline of the processor")
+}
+
+/// Returns the token of the baseline, with which the module is compiled.
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+#[inline(always)]
+fn baseline() -> fearless_simd::wasm32::WasmSimd128 {
+    Level::baseline()
+        .as_wasm_simd128()
+        .expect("the baseline of the module")
 }

@@ -1,6 +1,10 @@
 //! Square roots of several numbers, with the vector instructions that every processor of the architecture has.
 
-#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+#[cfg(any(
+    target_arch = "x86_64",
+    target_arch = "aarch64",
+    all(target_arch = "wasm32", target_feature = "simd128")
+))]
 use fearless_simd::{Level, f64x2, prelude::*};
 
 /// Returns the square roots; a vector has the bits of `libm::sqrt`, because IEEE 754 defines square roots exactly.
@@ -10,7 +14,13 @@ pub(crate) fn square_roots<const N: usize>(numbers: [f64; N]) -> [f64; N] {
     let baseline = Level::baseline().as_sse2();
     #[cfg(target_arch = "aarch64")]
     let baseline = Level::baseline().as_neon();
-    #[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    let baseline = Level::baseline().as_wasm_simd128();
+    #[cfg(any(
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        all(target_arch = "wasm32", target_feature = "simd128")
+    ))]
     if let Some(baseline) = baseline {
         let mut roots = numbers;
         let (pairs, last) = roots.as_chunks_mut();

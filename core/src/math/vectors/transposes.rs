@@ -48,6 +48,9 @@ fn transposed<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
 #[cfg(target_arch = "aarch64")]
 impl Transposes for fearless_simd::aarch64::Neon {}
 
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+impl Transposes for fearless_simd::wasm32::WasmSimd128 {}
+
 #[cfg(target_arch = "x86_64")]
 impl Transposes for Sse2 {}
 

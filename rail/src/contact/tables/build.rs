@@ -90,27 +90,31 @@ impl Tables {
             .collect();
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let rows_each = rows.len().div_ceil(threads);
-        let all = std::thread::scope(|scope| {
-            let compute = |rows: &'_ [[f64; 2]]| {
-                let mut part = Part::default();
-                for row in rows {
-                    part.add_row(&geometry, shifts, &shear, *row);
-                }
-                part
-            };
-            let parts: Vec<_> = rows
-                .chunks(rows_each)
-                .map(|rows| scope.spawn(move || compute(rows)))
-                .collect();
-            let mut all = Part::default();
-            for part in parts {
-                match part.join() {
-                    Ok(part) => all.append(part),
-                    Err(panic) => std::panic::resume_unwind(panic),
-                }
+        let compute = |rows: &'_ [[f64; 2]]| {
+            let mut part = Part::default();
+            for row in rows {
+                part.add_row(&geometry, shifts, &shear, *row);
             }
-            all
-        });
+            part
+        };
+        // WebAssembly has one thread and cannot start another.
+        let all = match threads {
+            1 => compute(&rows),
+            _ => std::thread::scope(|scope| {
+                let parts: Vec<_> = rows
+                    .chunks(rows_each)
+                    .map(|rows| scope.spawn(|| compute(rows)))
+                    .collect();
+                let mut all = Part::default();
+                for part in parts {
+                    match part.join() {
+                        Ok(part) => all.append(part),
+                        Err(panic) => std::panic::resume_unwind(panic),
+                    }
+                }
+                all
+            }),
+        };
         Self::from_parts(geometry, axes, &shear, all.nodes, all.records)
     }
 

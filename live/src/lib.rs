@@ -1,0 +1,45 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+
+mod action;
+mod built;
+mod choice;
+mod defect;
+mod desk;
+mod error;
+mod fault;
+mod message;
+mod observer;
+mod outline;
+mod quantity;
+mod recording;
+mod reference;
+mod saved;
+mod scene;
+mod session;
+mod signal;
+mod simulation;
+mod status;
+
+pub use action::Action;
+pub use built::Built;
+pub use choice::{Choice, ChoiceError, endless};
+pub use dashpot_vehicle_run::contact::WheelOnRail;
+pub use defect::{DEFECTS, DefectKind};
+pub use desk::{Change, Desk, Place, SPEED_KM_H};
+pub use error::ActionError;
+pub use fault::{FAULTS, FaultKind};
+pub use message::{Message, Request};
+pub use observer::{Observer, flags};
+pub use outline::{Outline, wheelbase};
+pub use quantity::Quantity;
+pub use reference::{REFERENCE_DIGEST, reference_digest};
+pub use scene::Scene;
+/// A message to a page.
+pub use serde_json::Value as Json;
+pub use session::{Session, TablesOf};
+pub use signal::SignalWords;
+pub use simulation::Simulation;
+pub use status::{Setting, Status};

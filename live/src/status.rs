@@ -1,0 +1,91 @@
+//! What a page shows besides the numbers of a frame.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::desk::Desk;
+use crate::quantity::{self, WEAR};
+use crate::{Action, Choice};
+
+/// State of the desk and of the run in words and numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Status {
+    #[serde(rename = "type")]
+    kind: &'static str,
+    /// Factor of real time that is wanted; 0 while paused.
+    pub factor: f64,
+    speed_km_h: f64,
+    friction_factor: f64,
+    /// How the run ended.
+    pub ended: Option<String>,
+    /// Results outside the validity of the model.
+    pub warnings: Vec<String>,
+    dampers: Vec<DamperStatus>,
+    /// Everything that a link needs to start the same run.
+    pub setting: Option<Setting>,
+    /// True while the vehicle as new runs beside.
+    pub is_comparing: bool,
+    /// True while ticks are recorded.
+    pub is_recording: bool,
+    /// Ticks of the recording.
+    pub recorded_ticks: u64,
+    /// `operator` or `viewer`.
+    pub role: &'static str,
+    /// Pages that are connected.
+    pub viewers: u32,
+}
+
+/// A case and the actions on it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Setting {
+    version: &'static str,
+    choice: Choice,
+    actions: Vec<(u64, Action)>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct DamperStatus {
+    values: BTreeMap<&'static str, f64>,
+    changed: bool,
+    fault: Option<&'static str>,
+}
+
+impl Status {
+    /// The status of a desk, for an operator who is alone.
+    pub fn new(desk: &Desk, choice: Option<&Choice>) -> Self {
+        let damper = |index: usize| {
+            let (changed, fault, wear) = desk.condition(index);
+            let now = desk.now(index);
+            let quantities = quantity::of_damper(now);
+            let numbers = quantities.iter().map(|quantity| match quantity.key {
+                WEAR => (WEAR, wear),
+                key => (key, quantity.value),
+            });
+            DamperStatus {
+                values: numbers.collect(),
+                changed,
+                fault,
+            }
+        };
+        Self {
+            kind: "status",
+            factor: 1.0,
+            speed_km_h: desk.speed_km_h(),
+            friction_factor: desk.friction_factor(),
+            ended: None,
+            warnings: Vec::new(),
+            dampers: (0..desk.dampers()).map(damper).collect(),
+            setting: choice.map(|choice| Setting {
+                version: env!("CARGO_PKG_VERSION"),
+                choice: choice.clone(),
+                actions: desk.actions().to_vec(),
+            }),
+            is_comparing: false,
+            is_recording: false,
+            recorded_ticks: 0,
+            role: "operator",
+            viewers: 1,
+        }
+    }
+}
