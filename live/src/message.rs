@@ -68,6 +68,8 @@ pub enum Request {
     },
     /// Digest of the reference run.
     Digest,
+    /// Status and health.
+    Status,
     /// Emergency stop.
     Stop,
 }

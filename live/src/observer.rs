@@ -1,11 +1,13 @@
 //! Numbers of a frame: the last value of each signal, and its least and greatest since the frame before.
 
-use dashpot_files::case::{Case, Change, Event};
+use dashpot_files::case::{Change, Event};
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::signals::Signal;
 use dashpot_vehicle_run::{Indexer, Run, ValidityWatch, VehicleTick, filtered_names};
 
-use crate::desk::SPEED_KM_H;
+use crate::ActionError;
+use crate::desk::{Desk, SPEED_KM_H};
+use crate::health::{HealthLine, HealthWatch};
 
 /// Bytes before the numbers of a frame.
 const HEADER_BYTES: usize = 48;
@@ -29,6 +31,7 @@ pub struct Observer {
     names: Vec<String>,
     indexer: Indexer,
     validity: ValidityWatch,
+    health: HealthWatch,
     last: Vec<f32>,
     least: Vec<f32>,
     greatest: Vec<f32>,
@@ -40,8 +43,12 @@ pub struct Observer {
 }
 
 impl Observer {
-    /// Follows `run`, a run of `case` before its first tick.
-    pub fn new(case: &Case, run: &Run) -> Self {
+    /// Follows `run`, a run of the desk's case before its first tick.
+    ///
+    /// # Errors
+    /// A damper whose parameters cannot be checked.
+    pub fn new(desk: &Desk, run: &Run) -> Result<Self, ActionError> {
+        let case = desk.case();
         let signals = all_signals(run, &case.vehicle);
         let names: Vec<String> = signals
             .iter()
@@ -58,6 +65,7 @@ impl Observer {
         let mut observer = Self {
             indexer: Indexer::new(&slowest),
             validity: ValidityWatch::new(case, run.track()),
+            health: HealthWatch::new(desk)?,
             last: vec![0.0; names.len()],
             least: vec![f32::INFINITY; names.len()],
             greatest: vec![f32::NEG_INFINITY; names.len()],
@@ -70,7 +78,7 @@ impl Observer {
             step_s: case.step_s,
         };
         observer.read(run.state());
-        observer
+        Ok(observer)
     }
 
     /// Names of the signals, as in a history.
@@ -84,6 +92,7 @@ impl Observer {
         self.time_s = ticks as f64 * self.step_s;
         self.indexer.add(tick);
         self.validity.add(tick);
+        self.health.add(tick);
         self.read(tick);
         self.ticks_in_frame += 1;
     }
@@ -104,6 +113,11 @@ impl Observer {
     /// Last value of each signal.
     pub fn values(&self) -> &[f32] {
         &self.last
+    }
+
+    /// Health of the dampers.
+    pub fn health(&self) -> Vec<HealthLine> {
+        self.health.lines()
     }
 
     /// Results outside the validity of the model, in words.

@@ -94,7 +94,7 @@ impl Session {
     ) -> Result<Self, ActionError> {
         let run = built.run()?;
         let desk = Desk::new(built.case(), &run)?;
-        let observer = Observer::new(built.case(), &run);
+        let observer = Observer::new(&desk, &run)?;
         Ok(Self {
             scene: Scene::new(&desk, &run, observer.names())?,
             main: Watched {
@@ -267,6 +267,10 @@ impl Session {
             Request::Digest => {
                 let digest = reference_digest(&*self.tables)?;
                 return Ok((Vec::new(), json!({"digest": digest})));
+            }
+            Request::Status => {
+                let health = json!({"type": "health", "readings": self.main.observer.health()});
+                return Ok((vec![health], none));
             }
             Request::Stop => {
                 self.factor = 0.0;
