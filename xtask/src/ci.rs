@@ -10,6 +10,7 @@ use crate::tags::check_interfaces;
 use crate::test_run::test;
 use crate::timings;
 use crate::tools::CARGO_HACK;
+use crate::web;
 
 /// Manifests outside the main workspace: the C library has a C name and its own panic strategy, the firmware is built
 /// for the target, and fuzz targets have their own entry point.
@@ -41,6 +42,7 @@ pub fn ci() -> Outcome {
     rehearse_publishing()?;
     rust_version::check()?;
     each_feature()?;
+    web::check()?;
     firmware::build_default()?;
     // No other check builds the command with optimisation, so measuring this build costs no extra time.
     timings::build_and_demonstrate()?;

@@ -21,4 +21,5 @@ pub mod test_run;
 pub mod timings;
 pub mod tools;
 pub mod vehicle_validation;
+pub mod web;
 pub mod wheel;

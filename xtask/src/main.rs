@@ -9,6 +9,7 @@ use xtask::search;
 use xtask::test_run::test;
 use xtask::timings::{Build, timings};
 use xtask::vehicle_validation::vehicle_validation;
+use xtask::web::web;
 use xtask::wheel::wheel;
 use xtask::{bench, firmware, mutants, nightly, python, slurm, timings as compiler};
 
@@ -41,6 +42,7 @@ Commands:
                          Options are those of cargo-mutants, such as --jobs 2, or --shard 0/8 for an eighth.
   kalker-book            compute the tables of the recommended creep law from exact theory (about fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md and write it (about six minutes)
+  web                    build the engine of the live page as WebAssembly into page/module (three minutes)
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
   python                 install into target/python the Python packages that tests need, and maturin into target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
@@ -89,6 +91,7 @@ fn main() -> ExitCode {
         ]),
         ["vehicle-validation"] => vehicle_validation(),
         ["python"] => python::install(),
+        ["web"] => web(),
         ["wheel"] => build_wheel(),
         ["miri"] => nightly::miri(),
         ["fuzz"] => nightly::fuzz(60),

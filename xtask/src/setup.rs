@@ -6,6 +6,7 @@ use crate::processor::{CORTEX_M7, CORTEX_M33, TARGETS};
 use crate::python;
 use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
+use crate::web;
 use crate::tools::{ARM_GCC, ARM_LD, ARM_LIBC, QEMU, TEST_TOOLS, Tool, install, missing};
 
 /// Debian packages with a compiler for the Cortex-M processors, for a machine without rustup.
@@ -21,6 +22,7 @@ pub fn install_for_tests() {
         packages.push(python::ENVIRONMENTS);
     }
     install_targets(&TARGETS);
+    install_targets(&[web::TARGET]);
     report(install_tools(&TEST_TOOLS, &packages));
     report(python::install());
 }

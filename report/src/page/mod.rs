@@ -8,6 +8,7 @@ mod series;
 
 pub use crate::plot::sheet::panel;
 pub use figure::Figure;
+pub use policy::content_policy;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::DrawError;

@@ -8,7 +8,7 @@ use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest, Sha256};
 
 /// Returns the policy of a page with these scripts and styles.
-pub(super) fn content_policy(scripts: &[&str], styles: &[&str]) -> String {
+pub fn content_policy(scripts: &[&str], styles: &[&str]) -> String {
     format!(
         "default-src 'none'; script-src {}; style-src {}; base-uri 'none'; form-action 'none'",
         hashes(scripts),

@@ -1,0 +1,86 @@
+//! The engine of the live page as WebAssembly, built so that every machine with the same compiler gets the same bytes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::run::{Outcome, output_of, repository, run};
+use crate::target_toolchain::TargetToolchain;
+
+/// Target of the module; rustup has its library.
+pub const TARGET: &str = "wasm32-unknown-unknown";
+
+/// The committed module.
+const MODULE: &str = "page/module/dashpot.wasm";
+
+/// The compiler that built the committed module, as it prints its version.
+const COMPILER: &str = "page/module/compiler.txt";
+
+/// Test that knows the digest of the module's sources.
+const SOURCES_TEST: [&str; 7] = ["test", "-p", "dashpot", "--test", "repository", "module_of_the_page", "--quiet"];
+
+/// Builds the module and commits it to the working tree, with the digest of its sources.
+///
+/// # Errors
+/// It cannot be built or written.
+pub fn web() -> Outcome {
+    let built = build()?;
+    let failed = |error: std::io::Error| format!("{MODULE}: {error}");
+    fs::copy(&built, repository().join(MODULE)).map_err(failed)?;
+    let compiler = TargetToolchain::Installed.version()?;
+    fs::write(repository().join(COMPILER), compiler + "\n").map_err(failed)?;
+    let mut test = Command::new("cargo");
+    test.args(SOURCES_TEST).env("DASHPOT_BLESS", "1").current_dir(repository());
+    run(test, "the digest of the module's sources")
+}
+
+/// Builds the module again and compares it with the committed one.
+///
+/// # Errors
+/// It cannot be built, or the bytes differ.
+pub fn check() -> Outcome {
+    let built = build()?;
+    let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
+    if read(&built)? == read(&repository().join(MODULE))? {
+        return Ok(());
+    }
+    let of = fs::read_to_string(repository().join(COMPILER)).unwrap_or_default();
+    let here = TargetToolchain::Installed.version()?;
+    Err(format!(
+        "{MODULE} is not what its sources give with {here}; it was built by {}. `cargo xtask web` builds it",
+        of.trim()
+    ))
+}
+
+/// Builds the module and returns its path.
+fn build() -> Outcome<PathBuf> {
+    TargetToolchain::installed(TARGET)
+        .ok_or_else(|| format!("the page's engine needs its target: run `rustup target add {TARGET}`"))?;
+    // Texts of panics have the places of sources; they must not depend on this machine.
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))).unwrap_or_default();
+    let mut rustc = Command::new("rustc");
+    rustc.args(["--print", "sysroot"]);
+    let sysroot = output_of(rustc, "rustc --print sysroot")?;
+    let mut flags = vec![
+        "-Ctarget-feature=+simd128".to_owned(),
+        format!("--remap-path-prefix={}=dashpot", repository().display()),
+        format!("--remap-path-prefix={}=rust", sysroot.trim()),
+    ];
+    // A registry's folder is named after its address.
+    let registries = fs::read_dir(home.join("registry/src")).into_iter().flatten().flatten();
+    flags.extend(registries.map(|folder| format!("--remap-path-prefix={}=registry", folder.path().display())));
+    let folder = repository().join("target/web");
+    let mut cargo = Command::new("cargo");
+    cargo
+        .args(["build", "--locked", "--profile", "web", "--target", TARGET, "--package", "dashpot-browser"])
+        .arg("--target-dir")
+        .arg(&folder)
+        .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"))
+        // Settings of this machine must not change the bytes.
+        .env_remove("CARGO_INCREMENTAL")
+        .env_remove("CARGO_PROFILE_WEB_STRIP")
+        .current_dir(repository());
+    run(cargo, "cargo build of the page's engine")?;
+    Ok(folder.join(TARGET).join("web/dashpot_browser.wasm"))
+}
