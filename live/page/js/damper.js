@@ -1,0 +1,54 @@
+"use strict";
+// A damper in a drawing: cylinder, rod, the force on its ends, and a mark if it is not as new.
+{
+  const live = (globalThis.live ??= {});
+  const { paint, vehicle } = live;
+
+  // Draws a damper between two points in pixels. Arrows show the force on its ends: towards each other in tension.
+  live.damper = (context, first, second, damper, number, pixelsPerNewton) => {
+    const { colours } = paint;
+    const [dx, dy] = [second[0] - first[0], second[1] - first[1]];
+    const length = Math.hypot(dx, dy) || 1;
+    const [ux, uy] = [dx / length, dy / length];
+    const at = part => [first[0] + part * dx, first[1] + part * dy];
+    const isChosen = live.view.dampers.includes(number);
+    const isChanged = vehicle.changed(number);
+    context.lineCap = "butt";
+    if (isChosen) {
+      context.lineCap = "round";
+      context.globalAlpha = 0.3;
+      paint.line(context, ...first, ...second, "accent", 15);
+      context.globalAlpha = 1;
+      context.lineCap = "butt";
+    }
+    paint.line(context, ...first, ...second, "metal", 2.5);
+    paint.line(context, ...at(0.12), ...at(0.6), "metal", 9);
+    paint.line(context, ...at(0.15), ...at(0.57), isChanged ? "worn" : "paper", 6);
+    context.fillStyle = colours.metal;
+    for (const [x, y] of [first, second]) {
+      context.beginPath();
+      context.arc(x, y, 2.6, 0, 7);
+      context.fill();
+    }
+    if (isChanged) paint.text(context, "!", ...middle(at(0.36)), { colour: "ink", size: 9, weight: 700, align: "center" });
+    // Beside the damper, so that the arrows do not hide it.
+    const [ox, oy] = [-uy * 9, ux * 9];
+    const force = vehicle.force(damper) * pixelsPerNewton;
+    paint.arrow(context, first[0] + ox, first[1] + oy, ux * force, uy * force, "force");
+    paint.arrow(context, second[0] + ox, second[1] + oy, -ux * force, -uy * force, "force");
+  };
+
+  const middle = ([x, y]) => [x, y + 3.2];
+
+  // A damper seen along its axis.
+  live.damperEnd = (context, [x, y], number) => {
+    const { colours } = paint;
+    context.beginPath();
+    context.arc(x, y, 5, 0, 7);
+    context.fillStyle = vehicle.changed(number) ? colours.worn : colours.paper;
+    context.fill();
+    context.strokeStyle = live.view.dampers.includes(number) ? colours.accent : colours.metal;
+    context.lineWidth = live.view.dampers.includes(number) ? 3 : 2;
+    context.stroke();
+  };
+}
