@@ -161,7 +161,7 @@
     }
     live.scene.dampers.forEach((damper, number) => {
       const points = vehicle.ends(damper).map(([x, lateral]) => [sheet.x(x), y(lateral + bent(x)[0])]);
-      if (damper.direction === "vertical") live.damperEnd(context, points[0], number);
+      if (damper.direction === "vertical") live.damperEnd(context, points[0], number, Math.max(2.5, Math.min(5, 0.13 * sheet.pixels)));
       else live.damper(context, ...points, damper, number, sheet.pixels / live.side.FORCE_PER_M);
     });
     if (frames.has(1)) {

@@ -12,7 +12,6 @@
   // Share of its limit that a value reaches; its word follows from it.
   const KINDS = {
     climbing: {
-      limit: () => live.scene.derailment_limit,
       most: 1.4,
       signals: set => SIDES.map(side => `${set.slug}_${side}_derailment`),
       share: value => Math.max(0, value) / live.scene.derailment_limit,
@@ -20,7 +19,6 @@
       worst: ([, greatest]) => greatest,
     },
     shifting: {
-      limit: set => set.lateral_limit_n,
       most: 1.4,
       signals: set => [set.slug + "_lateral_force_n"],
       share: (value, set) => Math.abs(value) / set.lateral_limit_n,
@@ -28,11 +26,10 @@
       worst: ([least, greatest]) => (-least > greatest ? least : greatest),
     },
     unloading: {
-      limit: () => 0,
       most: 2,
       signals: set => SIDES.map(side => `${set.slug}_${side}_load_n`),
-      // Half of the load at standstill is often the limit of unloading in service; zero is a lifted wheel.
-      share: (value, set) => 1 + (1e-3 - Math.max(0, value) / set.load_static_n) * 0.5 - (value > 0 ? 1e-3 : 0),
+      // Unloading: 1 is a lifted wheel. The usual limit in service is 0.6.
+      share: (value, set) => 1 - value / set.load_static_n,
       write: value => words.fixed(Math.max(0, value) * 1e-3, 0) + " kN",
       worst: ([least]) => least,
     },
@@ -56,7 +53,7 @@
   const stateOf = (name, value, set) => {
     if (!Number.isFinite(value)) return "within";
     if (name !== "unloading") return words.state(KINDS[name].share(value, set));
-    return value <= 0 ? "over" : value < 0.4 * set.load_static_n ? "near" : "within";
+    return value <= 0 ? "over" : KINDS[name].share(value, set) > 0.6 ? "near" : "within";
   };
 
   // The worst wheel or wheelset of a kind.
@@ -65,7 +62,7 @@
     let found = null;
     for (const [number, sides] of (held.get(name) ?? []).entries()) {
       for (const [side, { value, set }] of sides.entries()) {
-        const share = name === "unloading" ? 1 - value / set.load_static_n : kind.share(value, set);
+        const share = kind.share(value, set);
         if (Number.isFinite(share) && !(found?.share >= share))
           found = { share, value, set, number, side: sides.length > 1 ? SIDES[side] : null, state: stateOf(name, value, set) };
       }

@@ -5,43 +5,46 @@
   const { paint, words } = live;
   const { value } = live.frames;
 
-  const HEIGHT_PX = 250;
+  const [HEIGHT_PX, HEAD_PX, FOOT_PX] = [300, 28, 46];
   // Shown part of the profiles, m from the tread datum, and the depth of the top of the rail in it.
   const [INNER_M, OUTER_M] = [-0.082, 0.072];
   const FORCE_PER_PX = 1500;
-  const [SHIFT_M, SHIFT_STEP_M] = [0.012, 0.0002];
+  // Steps of the shift of a wheel on its rail, and how many are looked at to each side.
+  const [STEP_M, SHIFTS] = [0.0004, 32];
 
   let table = null;
 
-  // Depth of a profile at a place, m; Infinity beside it.
-  function depth(points, y) {
-    let next = points.findIndex(([at]) => at >= y);
-    if (next === 0 && points[0][0] === y) next = 1;
-    if (next <= 0) return Infinity;
-    const [[y0, z0], [y1, z1]] = [points[next - 1], points[next]];
-    return z0 + ((y - y0) / (y1 - y0 || 1)) * (z1 - z0);
+  // Depths of a profile (m) at the multiples of a step; Infinity beside the profile.
+  function grid(points) {
+    const sorted = [...points].sort((a, b) => a[0] - b[0]);
+    const depths = new Map();
+    for (let n = 1; n < sorted.length; n++) {
+      const [[y0, z0], [y1, z1]] = [sorted[n - 1], sorted[n]];
+      for (let at = Math.ceil(y0 / STEP_M); at * STEP_M <= y1; at++)
+        depths.set(at, z0 + ((at * STEP_M - y0) / (y1 - y0 || 1)) * (z1 - z0));
+    }
+    return depths;
   }
 
   // For each outward shift of a wheel: how far it sinks until it touches, and where.
   function touching({ wheel_m, rail_m }) {
-    const rail = [...rail_m].sort((a, b) => a[0] - b[0]);
-    const wheel = [...wheel_m].sort((a, b) => a[0] - b[0]).filter(([y], n) => n % 2 === 0 || y < -0.025);
+    const [rail, wheel] = [grid(rail_m), grid(wheel_m)];
     const rows = [];
-    for (let shift = -SHIFT_M; shift <= SHIFT_M; shift += SHIFT_STEP_M) {
+    for (let shift = -SHIFTS; shift <= SHIFTS; shift++) {
       let [sink, place] = [Infinity, 0];
       for (const [y, z] of wheel) {
-        const gap = depth(rail, y + shift) - z;
+        const gap = (rail.get(y + shift) ?? Infinity) - z;
         if (gap < sink) [sink, place] = [gap, y];
       }
-      rows.push({ shift, sink: Number.isFinite(sink) ? sink : 0, place });
+      rows.push({ shift: shift * STEP_M, sink: Number.isFinite(sink) ? sink : 0, place: place * STEP_M });
     }
-    return rows;
+    return { rows, wheel };
   }
 
   // The rails deviate from their course by unknown amounts, so the wheel is put where its contact is.
   function placing(shift, contact) {
-    let [best, least] = [table[0], Infinity];
-    for (const row of table) {
+    let [best, least] = [table.rows[0], Infinity];
+    for (const row of table.rows) {
       const error = (row.place - contact) ** 2 + 0.3 * (row.shift - shift) ** 2;
       if (error < least) [best, least] = [row, error];
     }
@@ -67,7 +70,7 @@
     const at = [row.shift, row.sink - (isLifted ? 0.003 : 0)];
     context.save();
     context.beginPath();
-    context.rect(box.x, 0, box.width, HEIGHT_PX);
+    context.rect(box.x, HEAD_PX, box.width, HEIGHT_PX - HEAD_PX - FOOT_PX);
     context.clip();
     context.translate(box.x + (mirror > 0 ? -INNER_M : OUTER_M) * scale, box.top);
     const [inner, outer] = [wheel_m[0][0], wheel_m[wheel_m.length - 1][0]];
@@ -80,18 +83,18 @@
     } else {
       paint.shape(context, rim, true);
     }
-    if (run === 0 && !isLifted) arrows(context, mirror, scale, wheel_m, at, contact, { load, lateral, side });
+    if (run === 0 && !isLifted) arrows(context, mirror, scale, at, contact, { load, lateral, side });
     context.restore();
     if (run === 0) labels(context, box, { side, load, lateral, ratio, isLifted });
   }
 
-  function arrows(context, mirror, scale, wheel_m, at, contact, { load, lateral, side }) {
-    const inWheel = depth(wheel_m, contact);
-    const [x, y] = [mirror * (contact + at[0]) * scale, ((Number.isFinite(inWheel) ? inWheel : 0) + at[1]) * scale];
+  function arrows(context, mirror, scale, at, contact, { load, lateral, side }) {
+    const inWheel = table.wheel.get(Math.round(contact / STEP_M));
+    const [x, y] = [mirror * (contact + at[0]) * scale, ((inWheel ?? 0) + at[1]) * scale];
     // Nadal: the lateral force at which this load would no longer hold the wheel down.
     const limit = (-mirror * live.scene.derailment_limit * load) / FORCE_PER_PX;
-    paint.line(context, x, y, x + limit, y, "line", 1, [3, 3]);
-    paint.line(context, x + limit, y - 9, x + limit, y + 9, "over", 2.5);
+    paint.line(context, x, y, x + limit, y, "over", 1, [3, 3]);
+    paint.line(context, x + limit, y - 8, x + limit, y + 8, "over", 2.5);
     paint.arrow(context, x, y, 0, -load / FORCE_PER_PX, side, 3);
     paint.arrow(context, x, y, (-mirror * lateral) / FORCE_PER_PX, 0, side, 4);
     context.beginPath();
@@ -106,7 +109,7 @@
   function labels(context, box, { side, load, lateral, ratio, isLifted }) {
     const rows = [["Q", words.quantity(load, "N", 0)], ["Y", words.quantity(lateral, "N", 1)], ["Y/Q", words.fixed(ratio, 2)]];
     const x = box.x + 8;
-    paint.text(context, isLifted ? `${side} wheel: lifted` : `${side} wheel`, x, 18, { colour: isLifted ? "over" : side, weight: 600, size: 13 });
+    paint.text(context, isLifted ? `${side} wheel: lifted` : `${side} wheel`, x, 17, { colour: isLifted ? "over" : side, weight: 600, size: 13 });
     rows.forEach(([name, number], index) => {
       const at = x + index * Math.min(92, box.width / 3.1);
       paint.text(context, name, at, HEIGHT_PX - 24, { size: 11.5 });
@@ -120,9 +123,9 @@
     const set = live.scene.wheelsets[live.view.wheelset] ?? live.scene.wheelsets[0];
     const half = (width - 16) / 2;
     for (const [side, x] of [["left", 0], ["right", half + 16]])
-      for (const run of live.frames.has(1) ? [0, 1] : [0]) wheel(context, side, { x, width: half, top: 128 }, set, run);
-    paint.line(context, width / 2, 8, width / 2, HEIGHT_PX - 8, "line", 1, [2, 4]);
-    paint.text(context, "middle of the track", width / 2, HEIGHT_PX - 46, { align: "center", size: 11 });
+      for (const run of live.frames.has(1) ? [0, 1] : [0]) wheel(context, side, { x, width: half, top: 150 }, set, run);
+    paint.line(context, width / 2, HEAD_PX, width / 2, HEIGHT_PX - FOOT_PX - 18, "line", 1, [2, 4]);
+    paint.text(context, "middle of the track", width / 2, HEIGHT_PX - FOOT_PX - 6, { align: "center", size: 11 });
   }
 
   live.drawContact = () => paint.view("contact", { height: () => HEIGHT_PX, draw, period_ms: 32 });

@@ -4,8 +4,8 @@
   const live = (globalThis.live ??= {});
   const { paint, words, frames } = live;
 
-  const COLUMNS = 400;
-  const HEIGHT_PX = 132;
+  const COLUMNS = 500;
+  const HEIGHT_PX = 116;
   const [LEFT, RIGHT, TOP, BOTTOM] = [46, 20, 8, 20];
   const LETTERS = "ABCDEF";
 
@@ -18,8 +18,8 @@
 
   // Least and greatest of a signal in columns of time. Column n covers [n, n + 1) times the width of a column.
   class Trace {
-    constructor(signal, run) {
-      Object.assign(this, { signal, run, least: new Float32Array(COLUMNS + 2), greatest: new Float32Array(COLUMNS + 2), keys: new Int32Array(COLUMNS + 2) });
+    constructor(name, run) {
+      Object.assign(this, { name, signal: live.index.get(name), run, least: new Float32Array(COLUMNS + 2), greatest: new Float32Array(COLUMNS + 2), keys: new Int32Array(COLUMNS + 2) });
       this.reset();
     }
 
@@ -94,11 +94,12 @@
     const height = HEIGHT_PX - TOP - BOTTOM;
     const y = value => TOP + ((high - value) / (high - low)) * height;
     const step = nice((high - low) * panel.factor * 0.28);
-    const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(step) - 0.02) + (/^[1368]?\.?5/.test(step.toPrecision(2)) ? 0 : 0)));
+    // As many decimals as the step needs.
+    const digits = [0, 1, 2, 3, 4, 5].find(digits => Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) < 1e-6) ?? 6;
     for (let n = Math.ceil((low * panel.factor) / step - 1e-9); n * step <= high * panel.factor + 1e-9; n++) {
       const at = y((n * step) / panel.factor);
-      paint.line(context, LEFT, at, width - RIGHT, at, n === 0 ? "soft" : "line", n === 0 ? 1 : 1);
-      paint.text(context, words.fixed(n * step, step * 10 ** digits % 1 > 1e-6 ? digits + 1 : digits), LEFT - 6, at + 4, { size: 11.5, align: "right" });
+      paint.line(context, LEFT, at, width - RIGHT, at, n === 0 ? "soft" : "line");
+      paint.text(context, words.fixed(n * step, digits), LEFT - 6, at + 4, { size: 11.5, align: "right" });
     }
     const seconds = nice(span / 6);
     for (let n = Math.ceil(begin / seconds); n * seconds <= begin + span; n++) {
@@ -122,6 +123,8 @@
     for (const { runs } of panel.traces) runs.forEach(trace => trace.update(begin, width_s));
     const [low, high] = fit(panel, first, last);
     const y = axes(context, panel, width, [low, high], begin, shown.window_s);
+    const unit = words.unit(panel.unit).text;
+    if (unit) paint.text(context, unit, 2, TOP + 4, { size: 11.5 });
     const pixels = (width - LEFT - RIGHT) / COLUMNS;
     context.save();
     context.beginPath();
@@ -151,14 +154,25 @@
     }
     context.setLineDash([]);
     context.restore();
-    for (const [index, { runs: [trace], colour }] of panel.traces.entries()) {
-      const slot = endSlot(trace, last);
-      if (slot >= 0)
-        paint.text(context, LETTERS[index], width - RIGHT + 5, Math.min(HEIGHT_PX - BOTTOM, Math.max(TOP + 10, y(trace.greatest[slot]) + 4)), { colour, size: 11.5, weight: 700 });
-    }
+    letters(context, panel, width, y, last);
     if (shown.cursor !== null) {
       const x = LEFT + shown.cursor * (width - LEFT - RIGHT);
       paint.line(context, x, TOP, x, HEIGHT_PX - BOTTOM, "soft", 1, [3, 3]);
+    }
+  }
+
+  // Letters at the ends of the curves, moved apart where they would overlap.
+  function letters(context, panel, width, y, last) {
+    const ends = panel.traces.flatMap(({ runs: [trace], colour }, index) => {
+      const slot = endSlot(trace, last);
+      return slot < 0 ? [] : [{ at: y(trace.greatest[slot]) + 4, colour, letter: LETTERS[index] }];
+    });
+    let free = TOP + 8;
+    const room = HEIGHT_PX - BOTTOM - 12 * (ends.length - 1);
+    for (const [index, { at, colour, letter }] of ends.sort((a, b) => a.at - b.at).entries()) {
+      const place = Math.max(free, Math.min(at, room + 12 * index));
+      free = place + 12;
+      paint.text(context, letter, width - RIGHT + 5, place, { colour, size: 11.5, weight: 700 });
     }
   }
 
@@ -170,7 +184,7 @@
     return -1;
   }
 
-  // Values at the cursor, or the newest: least to greatest of the column.
+  // Values at the cursor, least to greatest of the column, or the newest value.
   function read(panel, trace) {
     const width_s = shown.window_s / COLUMNS;
     const first = Math.floor(from() / width_s);
@@ -179,6 +193,7 @@
     for (let near = 0; slot < 0 && near < 4; near++) slot = Math.max(trace.column(key - near), trace.column(key + near));
     if (slot < 0) return "–";
     const digits = words.unit(panel.unit).digits;
+    if (shown.cursor === null && shown.from === null) return words.fixed(live.frames.value(trace.name, trace.run) * panel.factor, digits);
     const [low, high] = [trace.least[slot], trace.greatest[slot]].map(value => words.fixed(value * panel.factor, digits));
     return low === high ? low : `${low} to ${high}`;
   }

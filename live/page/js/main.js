@@ -30,17 +30,20 @@
     live.scene = message;
     live.defects = [];
     live.index = new Map(message.signals.map(({ name }, number) => [name, number]));
-    live.histories = [0, 1].map(() => new live.frames.History(message.signals.length));
+    live.histories = [new live.frames.History(message.signals.length)];
     for (const view of live.paint.views) view.fit();
-    if (!isSame || live.curves.panels.length === 0) {
-      live.panels.show(live.view.signals ?? live.panels.usual());
-      live.view.signals = null;
-    }
     live.curves.reset();
     live.controls.scene();
-    live.dampers.scene();
-    live.choices.scene();
     live.verdict.restart();
+    // In tasks of their own, so that none is long.
+    setTimeout(() => live.dampers.scene());
+    if (!isSame || live.curves.panels.length === 0) {
+      setTimeout(() => {
+        live.panels.show(live.view.signals ?? live.panels.usual());
+        live.view.signals = null;
+      });
+      setTimeout(() => live.choices.scene());
+    }
     live.panels.tell();
     document.body.dataset.source = message.source;
     by("waiting").hidden = true;
@@ -50,7 +53,7 @@
   function status(message) {
     const wasComparing = live.status?.is_comparing;
     live.status = message;
-    if (wasComparing && !message.is_comparing) live.histories?.[1].clear();
+    if (wasComparing && !message.is_comparing) live.histories?.[1]?.clear();
     if (!live.scene) return;
     live.controls.status();
     live.dampers.status();
@@ -63,9 +66,10 @@
     frame(buffer) {
       if (!live.histories) return;
       const frame = live.frames.decode(buffer);
-      const isBack = live.histories[frame.run]?.push(frame);
+      const history = (live.histories[frame.run] ??= new live.frames.History(frame.last.length));
+      const isBack = history.push(frame);
       if (isBack && frame.run === 0) {
-        live.histories[1].clear();
+        live.histories[1]?.clear();
         live.curves.reset();
         live.verdict.restart();
       }

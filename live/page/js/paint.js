@@ -22,8 +22,8 @@
   function view(id, { height, draw, period_ms = 0 }) {
     const canvas = document.getElementById(id);
     const surface = { canvas, context: canvas.getContext("2d"), width: 0, height: 0, isSeen: true, isStale: true, drawn: 0, period_ms };
-    surface.fit = () => {
-      const width = canvas.parentElement.clientWidth;
+    // The width comes from the observer, because asking the page for it would force a layout.
+    surface.fit = (width = surface.width) => {
       if (width === 0) return;
       const ratio = Math.min(2, devicePixelRatio || 1);
       Object.assign(surface, { width, height: Math.round(height(width)), ratio, isStale: true });
@@ -39,10 +39,9 @@
       draw(surface);
       surface.isStale = false;
     };
-    new ResizeObserver(surface.fit).observe(canvas.parentElement);
+    new ResizeObserver(([{ contentRect }]) => surface.fit(Math.round(contentRect.width))).observe(canvas.parentElement);
     new IntersectionObserver(([entry]) => (surface.isSeen = entry.isIntersecting), { rootMargin: "80px" }).observe(canvas);
     views.push(surface);
-    surface.fit();
     return surface;
   }
 
@@ -59,7 +58,7 @@
   function arrow(context, x, y, dx, dy, colour, width = 2.5) {
     const length = Math.hypot(dx, dy);
     if (!(length > 1)) return;
-    const head = Math.min(9, 0.6 * length);
+    const head = Math.min(3.4 * width, 0.6 * length);
     const [ux, uy] = [dx / length, dy / length];
     const [bx, by] = [x + dx - ux * head, y + dy - uy * head];
     context.strokeStyle = context.fillStyle = colours[colour] ?? colour;

@@ -30,7 +30,7 @@
     if (!panel) panels.push((panel = make(kind, signal.unit)));
     const taken = panel.traces.map(({ colour }) => colour);
     const colour = [1, 2, 3, 4, 5, 6].map(n => "series-" + n).find(colour => !taken.includes(colour)) ?? "series-1";
-    panel.traces.push({ name, colour, label: signal.label, runs: [0, 1].map(run => new curves.Trace(number, run)) });
+    panel.traces.push({ name, colour, label: signal.label, runs: [0, 1].map(run => new curves.Trace(name, run)) });
     panel.limits = [...new Set(panel.traces.flatMap(({ name }) => limits(name)))];
     legend(panel);
   }
@@ -47,7 +47,6 @@
   }
 
   function legend(panel) {
-    const unit = words.unit(panel.unit).text;
     panel.head.replaceChildren(
       ...panel.traces.map((trace, index) => {
         trace.value = element("span", { className: "value" });
@@ -55,7 +54,7 @@
         remove.setAttribute("aria-label", `Remove ${trace.label}`);
         const letter = element("b", { className: "letter", textContent: curves.LETTERS[index] });
         letter.style.color = `var(--${trace.colour})`;
-        return element("li", {}, letter, ` ${words.capital(trace.label)} `, trace.value, unit ? ` ${unit}` : "", remove);
+        return element("li", {}, letter, ` ${words.capital(trace.label)} `, trace.value, remove);
       }),
     );
     panel.canvas.setAttribute("aria-label", `Curves of ${panel.traces.map(({ label }) => label).join("; ")}. Arrow keys move the cursor.`);

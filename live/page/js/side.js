@@ -5,7 +5,9 @@
   const { paint, vehicle, frames } = live;
 
   const SKY_M = 4.35;
-  const DEPTH_M = 1.3;
+  const DEPTH_M = 1.25;
+  // Room for the key above the vehicle and for the distances below it.
+  const [KEY_PX, FOOT_PX] = [20, 20];
   const MARGIN_M = 1.7;
   // Newtons that a metre of arrow stands for in the drawings of the vehicle.
   const FORCE_PER_M = 20e3;
@@ -37,10 +39,9 @@
     context.globalAlpha = 1;
     paint.line(context, 0, y(-0.085), width, y(-0.085), "metal", Math.max(2.5, 0.17 * pixels));
     paint.line(context, 0, y(0), width, y(0), "ink", 1);
-    const spacing = pixels > 24 ? 5 : 10;
-    marks(spacing, (x, place) => {
-      paint.line(context, sheet.x(x), y(-0.53), sheet.x(x), y(-0.53) + 5, "soft");
-      if (!paint.isStill()) paint.text(context, `${Math.round(place)}`, sheet.x(x), y(-0.53) + 16, { align: "center", size: 11 });
+    marks(5, (x, place) => {
+      paint.line(context, sheet.x(x), y(-0.53), sheet.x(x), y(-1.25) + 2, "line");
+      if (!paint.isStill()) paint.text(context, `${Math.round(place)} m`, sheet.x(x), y(-1.25) + 14, { align: "center", size: 11 });
     });
     for (const { at_m, label } of live.defects ?? []) {
       if (at_m - at < rear || at_m - at > front) continue;
@@ -74,7 +75,7 @@
     context.fill();
     paint.text(context, String(number + 1), cx, cy + 4, { colour: isChosen ? "paper" : "ink", size: Math.min(12, radius), weight: 600, align: "center" });
     const load = frames.value(wheelset.slug + "_right_load_n") * (sheet.pixels / LOAD_PER_M);
-    paint.arrow(context, cx, y(-0.42) + load * 0.62, 0, -load * 0.62, "right");
+    paint.arrow(context, cx, y(-0.42) + load * 0.62, 0, -load * 0.62, "right", Math.min(2.5, 0.1 * sheet.pixels));
   }
 
   function outline(body, sheet, y, run) {
@@ -133,10 +134,10 @@
     context.globalAlpha = 1;
   }
 
-  function draw({ context, width, height }) {
+  function draw({ context, width }) {
     if (!live.scene) return;
     const sheet = scale(width);
-    const y = height_m => (SKY_M - height_m) * sheet.pixels;
+    const y = height_m => KEY_PX + (SKY_M - height_m) * sheet.pixels;
     ground(context, sheet, y, width);
     const runs = frames.has(1) ? [0, 1] : [0];
     for (const kind of ["body", "frame"]) {
@@ -168,5 +169,5 @@
   }
 
   live.side = { scale, FORCE_PER_M };
-  live.drawSide = () => paint.view("side", { height: width => scale(width).pixels * (SKY_M + DEPTH_M), draw });
+  live.drawSide = () => paint.view("side", { height: width => KEY_PX + FOOT_PX + scale(width).pixels * (SKY_M + DEPTH_M), draw });
 }

@@ -4,6 +4,8 @@
   const live = (globalThis.live ??= {});
 
   const RETRY_MS = [500, 1000, 2000, 4000, 8000];
+  // Letters of base64 that are decoded at once; a multiple of four.
+  const PART = 400000;
 
   // Answers by the number of their question.
   const waiting = new Map();
@@ -18,9 +20,21 @@
     }
   }
 
+  // Decodes base64 in parts, so that the page stays responsive.
+  async function bytes(text) {
+    const parts = [];
+    for (let at = 0; at < text.length; at += PART) {
+      const letters = atob(text.slice(at, at + PART));
+      const part = new Uint8Array(letters.length);
+      for (let n = 0; n < letters.length; n++) part[n] = letters.charCodeAt(n);
+      parts.push(part);
+      await new Promise(resolve => setTimeout(resolve, 0));
+    }
+    return parts;
+  }
+
   async function unpack(text) {
-    const bytes = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    const stream = new Blob(await bytes(text.trim())).stream().pipeThrough(new DecompressionStream("gzip"));
     return new Response(stream).arrayBuffer();
   }
 

@@ -29,15 +29,15 @@
     const [first, second] = damper.ends_m;
     const gap = Math.hypot(...first.map((at, axis) => second[axis] - at));
     const away = APART[damper.direction] ?? APART.vertical;
-    const side = damper.direction === "lateral" ? -Math.sign(first[1] || 1) : damper.direction === "longitudinal" ? outwards(first[0]) : 1;
+    const side = damper.direction === "lateral" ? -Math.sign(first[1] || 1) : damper.direction === "longitudinal" ? inwards(first[0]) : 1;
     const other = gap > 0.25 ? second : first.map((at, axis) => at + side * away[axis]);
     return [moved(first, frameAt(first[0]) ?? bodyAt(first[0]), run), moved(other, bodyAt(other[0]), run)];
   }
 
-  // A damper along the track points away from the middle of its bogie.
-  function outwards(x) {
+  // A damper along the track points to the middle of its bogie, where there is room between the wheels.
+  function inwards(x) {
     const frame = frameAt(x);
-    return Math.sign(x - (frame?.centre_m[0] ?? 0)) || 1;
+    return -Math.sign(x - (frame?.centre_m[0] ?? 0)) || 1;
   }
 
   function moved([x, y, height], part, run) {

@@ -76,10 +76,10 @@
     const rows = readings.map(({ damper, label, value, low, high, unit, alarm }) => {
       const row = document.createElement("tr");
       if (alarm) row.className = "alarm";
-      const number = value => words.quantity(value, unit).replace(/ [^ ]*$/, match => (words.unit(unit).text ? "" : match));
-      const written = words.unit(unit).text;
-      const cells = [damper, label, `${number(value)} ${written}`, `${number(low)} to ${number(high)} ${written}`, alarm ? "▲ alarm" : "✓ good"];
-      row.append(...cells.map((text, n) => Object.assign(document.createElement(n === 0 ? "th" : "td"), { textContent: text.trim(), ...(n === 0 ? { scope: "row" } : {}) })));
+      const { factor, text: written, digits } = words.unit(unit);
+      const [middle, least, most] = [value, low, high].map(number => words.fixed(number * factor, digits));
+      const cells = [words.capital(damper), label, `${middle} ${written}`.trim() + ` (${least} to ${most})`, alarm ? "▲ alarm" : "✓ good"];
+      row.append(...cells.map((text, n) => Object.assign(document.createElement(n === 0 ? "th" : "td"), { textContent: text, ...(n === 0 ? { scope: "row" } : {}) })));
       return row;
     });
     by("health-rows").replaceChildren(...rows);
@@ -103,14 +103,13 @@
     measurePace(now);
     const newest = live.histories?.[0]?.newest;
     const wanted = live.status?.factor ?? 0;
-    put("reached", wanted === 0 ? "paused" : Number.isFinite(pace.reached) ? `${words.fixed(pace.reached, 2)} × real time` : "–");
-    by("reached").dataset.state = newest && newest.flags & frames.FLAGS.slow ? "near" : "within";
+    put("reached", wanted === 0 ? "paused" : Number.isFinite(pace.reached) ? `${words.fixed(pace.reached, 2)} times real time` : "–");
     put("slower", newest && newest.flags & frames.FLAGS.slow ? "▲ slower than wanted" : "");
     if (!newest || !(newest.work_us > 0)) return;
     const tick = 1e6 * live.scene.step_s;
     put("work-mean", `${words.short(newest.work_us)} µs`);
     put("work-most", `${words.short(newest.greatest_us)} µs`);
-    put("work-share", `${words.fixed((100 * newest.work_us) / tick, 1)} % of the ${words.short(tick / 1000)} ms of a tick`);
+    put("work-share", `${words.fixed((100 * newest.work_us) / tick, 1)} % of the ${words.short(tick / 1000)} ms of a tick.`);
     by("work-bar").value = Math.min(1, newest.work_us / tick);
     const { mean_ms, greatest_ms, frames: count } = live.timing;
     put("page-timing", `This page: ${words.fixed(mean_ms, 1)} ms of script a frame, at most ${words.fixed(greatest_ms, 1)} ms in ${count} frames.`);
