@@ -111,9 +111,9 @@
     const x = box.x + 8;
     paint.text(context, isLifted ? `${side} wheel: lifted` : `${side} wheel`, x, 17, { colour: isLifted ? "over" : side, weight: 600, size: 13 });
     rows.forEach(([name, number], index) => {
-      const at = x + index * Math.min(92, box.width / 3.1);
+      const at = x + index * Math.min(92, box.width / 2.9);
       paint.text(context, name, at, HEIGHT_PX - 24, { size: 11.5 });
-      paint.text(context, number, at, HEIGHT_PX - 8, { colour: "ink", weight: 600, size: 13 });
+      paint.text(context, number, at, HEIGHT_PX - 8, { colour: "ink", weight: 600, size: box.width < 200 ? 12 : 13 });
     });
   }
 

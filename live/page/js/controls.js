@@ -6,6 +6,9 @@
   const { put } = live.verdict;
 
   const by = id => document.getElementById(id);
+  // What only an operator may use. A viewer may stop a rig.
+  const OPERATED = `.try button, .bar button:not(.emergency), #factor, #quantities input, #fault, #preset, #as-new, #all-as-new,
+    #speed, #speed-number, #friction, #friction-number, #defect-put, #gust-left, #gust-right, #loop-compare, #load-button, #record, #start button`;
   // The factor to which "Run" returns after a pause.
   let pace = 1;
 
@@ -116,7 +119,6 @@
     put("track-name", live.scene.track);
     const isFar = live.scene.source === "machine" || live.scene.source === "target";
     by("emergency").hidden = !(isFar && live.scene.has_rig);
-    document.body.classList.toggle("viewer", live.scene.role === "viewer");
   }
 
   function defectSize() {
@@ -145,7 +147,7 @@
     by("warnings").hidden = !(warnings?.length > 0);
     const isViewer = (role ?? live.scene?.role) === "viewer";
     put("role", isViewer ? "You are watching. Another page operates this run." : viewers > 1 ? `${viewers} pages watch this run.` : "");
-    document.body.classList.toggle("viewer", isViewer);
+    for (const place of document.querySelectorAll(OPERATED)) place.disabled = isViewer;
   }
 
   function start() {

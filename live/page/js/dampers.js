@@ -35,7 +35,7 @@
     Object.assign(number, { min: quantity.min * factor, max: quantity.max * factor, step: "any" });
     unitPlace.textContent = unit;
     usual.textContent = `as new ${words.short(quantity.value * factor)}${unit ? ` ${unit}` : ""}`;
-    const send = value => each({ action: "damper", key: quantity.key, value: value / factor });
+    const send = value => each({ action: "damper", key: quantity.key, value: Number((value / factor).toPrecision(5)) });
     live.controls.pair(range, number, send, { toValue: part => toValue(part) * factor, toPart: value => toPart(value / factor) });
     range.addEventListener("input", () => range.setAttribute("aria-valuetext", `${number.value} ${unit}`.trim()));
     const show = value => {

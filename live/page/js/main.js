@@ -137,11 +137,9 @@
     const chosen = linked?.choice ?? live.setup.choice;
     live.cases.show(chosen);
     if (live.setup.source === "page") {
-      if (live.paint.isStill()) {
-        live.source.send({ do: "run", factor: 0 });
-        live.controls.note("Paused, because your system asks for less motion. Press Run to start.");
-      }
-      await live.cases.begin(chosen, linked?.actions ?? []);
+      if (live.paint.isStill()) live.source.send({ do: "run", factor: 0 });
+      const { error } = await live.cases.begin(chosen, linked?.actions ?? []);
+      if (!error && live.paint.isStill()) live.controls.note("Paused, because your system asks for less motion. Press Run to start.");
     } else if (linked) {
       await live.cases.begin(chosen, linked.actions ?? []);
     }
