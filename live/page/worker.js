@@ -10,7 +10,8 @@
   const PART_S = 0.005;
   const SLOWER_THAN_WANTED = 8;
 
-  const { encode, decode } = { encode: text => new TextEncoder().encode(text), decode: bytes => new TextDecoder().decode(bytes) };
+  const encode = text => new TextEncoder().encode(text);
+  const decode = bytes => new TextDecoder().decode(bytes);
   const soon = new MessageChannel();
   let engine = null;
   let step_s = 1e-3;
@@ -152,8 +153,18 @@
     }
   }
 
-  async function begin(module) {
+  // Gives the engine its tables of contact; without them it computes its own, which takes long.
+  function store({ name, content }) {
+    const letters = encode(name);
+    const place = memory(engine.input(letters.length + content.byteLength), letters.length + content.byteLength);
+    place.set(letters);
+    place.set(new Uint8Array(content), letters.length);
+    engine.tables(letters.length);
+  }
+
+  async function begin({ module, tables }) {
     engine = (await WebAssembly.instantiate(module, {})).instance.exports;
+    tables.forEach(store);
     for (const message of waiting.splice(0)) handle(message);
     setInterval(() => ask({ do: "status" }), 1000);
   }
@@ -163,7 +174,7 @@
 
   onmessage = ({ data }) => {
     try {
-      if (data.module) begin(data.module).catch(failed);
+      if (data.module) begin(data).catch(failed);
       else if (engine) handle(data);
       else waiting.push(data);
     } catch (error) {

@@ -9,18 +9,21 @@
   const [LEFT, RIGHT, TOP] = [18, 52, 20];
   const SIDES = ["left", "right"];
 
+  // The limits are for forces that are filtered and averaged over 2 m; a source without them gives the forces.
+  const filtered = (start, name) => (live.index.has(`${start}_filtered_${name}`) ? `${start}_filtered_${name}` : `${start}_${name}`);
+
   // Share of its limit that a value reaches; its word follows from it.
   const KINDS = {
     climbing: {
       most: 1.4,
-      signals: set => SIDES.map(side => `${set.slug}_${side}_derailment`),
+      signals: set => SIDES.map(side => filtered(`${set.slug}_${side}`, "derailment")),
       share: value => Math.max(0, value) / live.scene.derailment_limit,
       write: value => words.fixed(Math.max(0, value), 2),
       worst: ([, greatest]) => greatest,
     },
     shifting: {
       most: 1.4,
-      signals: set => [set.slug + "_lateral_force_n"],
+      signals: set => [filtered(set.slug, "lateral_force_n")],
       share: (value, set) => Math.abs(value) / set.lateral_limit_n,
       write: value => words.fixed(Math.abs(value) * 1e-3, 1) + " kN",
       worst: ([least, greatest]) => (-least > greatest ? least : greatest),

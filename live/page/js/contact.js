@@ -26,9 +26,15 @@
     return depths;
   }
 
+  // Profiles of a scene are measured from the middle of the track, contacts from the tread datum of the wheel.
+  function fromDatum({ wheel_m, rail_m, datum_offset_m: offset = 0 }) {
+    const moved = points => points.map(([y, z]) => [y - offset, z]);
+    return { wheel_m: moved(wheel_m), rail_m: moved(rail_m) };
+  }
+
   // For each outward shift of a wheel: how far it sinks until it touches, and where.
   function touching({ wheel_m, rail_m }) {
-    const [rail, wheel] = [grid(rail_m), grid(wheel_m)];
+    const [rail, wheel] = [rail_m, wheel_m].map(grid);
     const rows = [];
     for (let shift = -SHIFTS; shift <= SHIFTS; shift++) {
       let [sink, place] = [Infinity, 0];
@@ -38,14 +44,14 @@
       }
       rows.push({ shift: shift * STEP_M, sink: Number.isFinite(sink) ? sink : 0, place: place * STEP_M });
     }
-    return { rows, wheel };
+    return { rows, wheel, wheel_m, rail_m };
   }
 
   // The rails deviate from their course by unknown amounts, so the wheel is put where its contact is.
   function placing(shift, contact) {
     let [best, least] = [table.rows[0], Infinity];
     for (const row of table.rows) {
-      const error = (row.place - contact) ** 2 + 0.3 * (row.shift - shift) ** 2;
+      const error = (row.place - contact) ** 2 + 0.02 * (row.shift - shift) ** 2;
       if (error < least) [best, least] = [row, error];
     }
     return best;
@@ -64,7 +70,7 @@
     const of = suffix => value(`${set.slug}_${side}${suffix}`, run);
     const [load, lateral, ratio, contact] = ["_load_n", "_lateral_n", "_derailment", "_contact_m"].map(of);
     const scale = box.width / (OUTER_M - INNER_M);
-    const { wheel_m, rail_m } = live.scene.profiles;
+    const { wheel_m, rail_m } = table;
     const isLifted = live.frames.has(run) && load <= 0;
     const row = placing(mirror * value(set.slug + "_lateral_m", run), isLifted ? 0 : contact);
     const at = [row.shift, row.sink - (isLifted ? 0.003 : 0)];
@@ -119,7 +125,7 @@
 
   function draw({ context, width }) {
     if (!live.scene?.profiles) return;
-    if (table?.of !== live.scene.profiles) table = Object.assign(touching(live.scene.profiles), { of: live.scene.profiles });
+    if (table?.of !== live.scene.profiles) table = Object.assign(touching(fromDatum(live.scene.profiles)), { of: live.scene.profiles });
     const set = live.scene.wheelsets[live.view.wheelset] ?? live.scene.wheelsets[0];
     const half = (width - 16) / 2;
     for (const [side, x] of [["left", 0], ["right", half + 16]])

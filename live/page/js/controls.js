@@ -52,6 +52,8 @@
     return act({ action: "defect", kind, size });
   }
 
+  // Clearance at which everyone sees what it does.
+  const WORSE_M = 0.015;
   // The first things to try; each says where to look.
   const TRIES = {
     worsen() {
@@ -60,11 +62,11 @@
       const worsened = yaw.length > 0 ? yaw : scene.dampers;
       for (const damper of worsened) {
         const clearance = damper.quantities.find(({ key }) => key === "mount.clearance_m");
-        if (clearance) act({ action: "damper", damper: damper.name, key: clearance.key, value: Math.min(clearance.max, 0.008) });
+        if (clearance) act({ action: "damper", damper: damper.name, key: clearance.key, value: Math.min(clearance.max, WORSE_M) });
       }
       live.dampers.choose(worsened.map(damper => scene.dampers.indexOf(damper)));
       const noun = yaw.length > 0 ? "yaw dampers" : "dampers";
-      return `The ${noun} now have 8 mm of clearance. From above: the bogies turn a little more before the dampers hold them, and the wheelsets swing wider.`;
+      return `The ${noun} now have ${1000 * WORSE_M} mm of clearance. From above: the bogies turn further before the dampers hold them. Curves: the wheelsets swing wider, and Y/Q rises.`;
     },
     dip() {
       const known = live.scene.defects.find(({ kind }) => kind === "dip") ?? live.scene.defects[0];
@@ -117,6 +119,8 @@
     put("try-worsen", hasYaw ? "Worsen the yaw dampers" : "Worsen the dampers");
     put("case-name", live.scene.case);
     put("track-name", live.scene.track);
+    const [slowest, fastest] = live.scene.speed_range_km_h ?? [10, 350];
+    for (const id of ["speed", "speed-number"]) Object.assign(by(id), { min: slowest, max: fastest });
     const isFar = live.scene.source === "machine" || live.scene.source === "target";
     by("emergency").hidden = !(isFar && live.scene.has_rig);
   }

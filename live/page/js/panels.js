@@ -17,7 +17,7 @@
   function limits(name) {
     const { scene } = live;
     if (name.endsWith("_derailment")) return [scene.derailment_limit];
-    const set = scene.wheelsets.find(({ slug }) => name === slug + "_lateral_force_n");
+    const set = scene.wheelsets.find(({ slug }) => [slug + "_lateral_force_n", slug + "_filtered_lateral_force_n"].includes(name));
     return set ? [set.lateral_limit_n, -set.lateral_limit_n] : [];
   }
 
@@ -25,7 +25,7 @@
     const number = live.index.get(name);
     if (number === undefined || panels.some(panel => panel.traces.some(trace => trace.name === name))) return;
     const signal = live.scene.signals[number];
-    const kind = signal.unit + (name.match(/_(derailment|load_n|lateral_force_n|force_n)$/)?.[1] ?? "");
+    const kind = signal.unit + (name.match(/_(acceleration|derailment|load_n|contact_m|lateral_force_n|force_n)/)?.[1] ?? "");
     let panel = panels.find(panel => panel.kind === kind && panel.traces.length < curves.LETTERS.length);
     if (!panel) panels.push((panel = make(kind, signal.unit)));
     const taken = panel.traces.map(({ colour }) => colour);

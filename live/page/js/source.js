@@ -40,6 +40,9 @@
 
   function worker(handlers) {
     const text = id => document.getElementById(id).textContent;
+    // Messages before the engine is there wait for it.
+    const early = [];
+    let isOpen = false;
     const place = URL.createObjectURL(new Blob([text("worker")], { type: "text/javascript" }));
     const worker = new Worker(place);
     worker.onmessage = ({ data }) => {
@@ -49,14 +52,18 @@
       live.timing.spend(performance.now() - start);
     };
     worker.onerror = event => handlers.link("failed", event.message);
-    unpack(text("engine")).then(
-      module => {
-        worker.postMessage({ module }, [module]);
-        handlers.link("open");
-      },
-      error => handlers.link("failed", String(error)),
-    );
-    return message => worker.postMessage(message);
+    const load = async () => {
+      const module = await unpack(text("engine"));
+      const tables = [];
+      for (const place of document.querySelectorAll("script[data-tables]"))
+        tables.push({ name: place.dataset.tables, content: await unpack(place.textContent) });
+      worker.postMessage({ module, tables }, [module, ...tables.map(({ content }) => content)]);
+      for (const message of early.splice(0)) worker.postMessage(message);
+      isOpen = true;
+      handlers.link("open");
+    };
+    load().catch(error => handlers.link("failed", String(error)));
+    return message => (isOpen ? worker.postMessage(message) : early.push(message));
   }
 
   function socket(handlers) {

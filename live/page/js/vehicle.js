@@ -31,7 +31,14 @@
     const away = APART[damper.direction] ?? APART.vertical;
     const side = damper.direction === "lateral" ? -Math.sign(first[1] || 1) : damper.direction === "longitudinal" ? inwards(first[0]) : 1;
     const other = gap > 0.25 ? second : first.map((at, axis) => at + side * away[axis]);
-    return [moved(first, frameAt(first[0]) ?? bodyAt(first[0]), run), moved(other, bodyAt(other[0]), run)];
+    const [lower, upper] = carriers(damper);
+    return [moved(first, lower, run), moved(other, upper, run)];
+  }
+
+  // The bodies at the ends of a damper; the frame first, then the body, if the source does not tell.
+  function carriers({ on = [], ends_m: [[x]] }) {
+    const named = slug => live.scene.bodies.find(body => body.slug === slug);
+    return [named(on[0]) ?? frameAt(x) ?? bodyAt(x), named(on[1]) ?? bodyAt(x)];
   }
 
   // A damper along the track points to the middle of its bogie, where there is room between the wheels.

@@ -5,6 +5,8 @@
   const { words, bars, frames, vehicle } = live;
 
   const QUIET_MS = 4000;
+  // Readings that are shown.
+  const ROWS = 12;
   const by = id => document.getElementById(id);
   const spoken = { text: "", at: -QUIET_MS };
   const pace = { at: 0, time_s: 0, reached: NaN };
@@ -72,20 +74,24 @@
     put("summary", sentences.join(" "));
   }
 
+  // Alarms first, then the chosen dampers; all others are good or unknown.
   function health({ readings }) {
-    const rows = readings.map(({ damper, label, value, low, high, unit, alarm }) => {
+    const chosen = live.view.dampers.map(number => live.scene.dampers[number]?.name);
+    const isAlarm = ({ alarm, trusted }) => alarm && trusted !== false;
+    const shown = [...readings.filter(isAlarm), ...readings.filter(reading => !isAlarm(reading) && chosen.includes(reading.damper))].slice(0, ROWS);
+    const rows = shown.map(({ damper, label, value, low, high, unit, alarm, trusted }) => {
       const row = document.createElement("tr");
-      if (alarm) row.className = "alarm";
+      if (alarm && trusted !== false) row.className = "alarm";
       const { factor, text: written, digits } = words.unit(unit);
       const [middle, least, most] = [value, low, high].map(number => words.fixed(number * factor, digits));
-      const cells = [words.capital(damper), label, `${middle} ${written}`.trim() + ` (${least} to ${most})`, alarm ? "▲ alarm" : "✓ good"];
+      const cells = [words.capital(damper), label, `${middle} ${written}`.trim() + ` (${least} to ${most})`, trusted === false ? "not yet sure" : alarm ? "▲ alarm" : "✓ good"];
       row.append(...cells.map((text, n) => Object.assign(document.createElement(n === 0 ? "th" : "td"), { textContent: text, ...(n === 0 ? { scope: "row" } : {}) })));
       return row;
     });
     by("health-rows").replaceChildren(...rows);
     by("health-none").hidden = rows.length > 0;
     by("health-table").hidden = rows.length === 0;
-    const alarms = readings.filter(({ alarm }) => alarm).length;
+    const alarms = readings.filter(isAlarm).length;
     put("health-word", alarms ? `▲ ${alarms} alarm${alarms > 1 ? "s" : ""}` : "");
   }
 
