@@ -4,7 +4,7 @@
   const live = (globalThis.live ??= {});
   const { paint, vehicle, frames } = live;
 
-  const HALF_M = 2.15;
+  const HALF_M = 2.4;
   const COURSE_PX = 46;
   const [BEHIND_M, AHEAD_M] = [60, 300];
   // Half the distance between the middles of the rails.
@@ -28,15 +28,6 @@
       const [offset, heading] = offsets.get(n) ?? [0, 0];
       return [offset + heading * (x - n * step), heading];
     };
-  }
-
-  // A rigid vehicle in a curve lies inside the track's middle by this much without any displacement of its springs.
-  function chord(part, at) {
-    const supports = part.kind === "body" ? vehicle.frames().map(frame => frame.centre_m[0]) : live.scene.wheelsets.map(set => set.x_m);
-    const near = supports.filter(x => x >= part.x_m[0] && x <= part.x_m[1]).map(x => Math.abs(x - part.centre_m[0]));
-    if (near.length === 0) return 0;
-    const mean = near.reduce((sum, x) => sum + x * x, 0) / near.length;
-    return 0.5 * vehicle.course(at + part.centre_m[0]).curvature * mean;
   }
 
   function track(context, sheet, y, bent, at, width) {
@@ -79,13 +70,12 @@
   }
 
   // Path of a rectangle [x0, x1] by half a width around a part, moved and turned with it.
-  function plate(sheet, y, bent, centre, motion, inside, [x0, x1], half, radius) {
+  function plate(sheet, y, bent, centre, motion, [x0, x1], half, radius) {
     const [middle, heading] = bent(centre);
     const { pixels } = sheet;
     const flat = new Path2D();
     flat.roundRect((x0 - centre) * pixels, -half * pixels, (x1 - x0) * pixels, 2 * half * pixels, radius);
-    const lateral = middle + inside + motion.lateral - live.view.exaggeration * inside;
-    const matrix = new DOMMatrix().translate(sheet.x(centre), y(lateral)).rotate(((heading + motion.yaw) * 180) / Math.PI);
+    const matrix = new DOMMatrix().translate(sheet.x(centre), y(middle + motion.lateral)).rotate(((heading + motion.yaw) * 180) / Math.PI);
     const path = new Path2D();
     path.addPath(flat, matrix);
     return path;
@@ -93,7 +83,7 @@
 
   function wheelset(context, sheet, y, bent, set, number, run) {
     const motion = vehicle.motion(set, run);
-    const of = (box, half, radius) => plate(sheet, y, bent, set.x_m, motion, 0, [set.x_m + box[0], set.x_m + box[1]], half, radius);
+    const of = (box, half, radius) => plate(sheet, y, bent, set.x_m, motion, [set.x_m + box[0], set.x_m + box[1]], half, radius);
     const [middle, heading] = bent(set.x_m);
     const turn = heading + motion.yaw;
     const isChosen = live.view.wheelset === number;
@@ -107,9 +97,10 @@
       paint.shape(context, path, run === 1, isChosen ? "accent" : "paper", isChosen ? "accent" : "ink");
     }
     if (run === 1) return;
+    live.pick.note(context, [sheet.x(set.x_m), y(middle + motion.lateral)], { wheelset: number });
     // Force of the rails on the wheels across the track.
     const push = frames.value(set.slug + "_right_lateral_n") * -1 + frames.value(set.slug + "_left_lateral_n");
-    paint.arrow(context, sheet.x(set.x_m), y(middle + motion.lateral), 0, (push / live.side.FORCE_PER_M) * 0.5 * sheet.pixels, "right");
+    paint.arrow(context, sheet.x(set.x_m), y(middle + motion.lateral), 0, (push / live.side.FORCE_PER_M) * 0.5 * sheet.pixels, "ink");
   }
 
   function strip(context, width, top, at) {
@@ -135,6 +126,7 @@
 
   function draw({ context, width, height }) {
     if (!live.scene) return;
+    live.pick.clear(context.canvas);
     const sheet = live.side.scale(width);
     const at = vehicle.distance();
     const bent = bend(at);
@@ -145,7 +137,7 @@
     context.clip();
     track(context, sheet, y, bent, at, width);
     const part = (body, run) =>
-      plate(sheet, y, bent, body.centre_m[0], vehicle.motion(body, run), chord(body, at), body.x_m, body.half_width_m, body.kind === "body" ? 0.35 * sheet.pixels : 4);
+      plate(sheet, y, bent, body.centre_m[0], vehicle.motion(body, run), body.x_m, body.half_width_m, body.kind === "body" ? 0.35 * sheet.pixels : 4);
     for (const body of live.scene.bodies.filter(body => body.kind === "frame")) {
       context.globalAlpha = 0.75;
       paint.shape(context, part(body, 0), false, "ground", "metal");
@@ -160,7 +152,10 @@
       paint.shape(context, path, false, null, "metal", 1.5);
     }
     live.scene.dampers.forEach((damper, number) => {
-      const points = vehicle.ends(damper).map(([x, lateral]) => [sheet.x(x), y(lateral + bent(x)[0])]);
+      const points = vehicle.ends(damper).map(([x, lateral, , centre]) => {
+        const [middle, heading] = bent(centre);
+        return [sheet.x(x), y(lateral + middle + heading * (x - centre))];
+      });
       if (damper.direction === "vertical") live.damperEnd(context, points[0], number, Math.max(2.5, Math.min(5, 0.13 * sheet.pixels)));
       else live.damper(context, ...points, damper, number, sheet.pixels / live.side.FORCE_PER_M);
     });

@@ -4,7 +4,7 @@
   const live = (globalThis.live ??= {});
   const { paint, vehicle, frames } = live;
 
-  const HALF_M = 2.1;
+  const HALF_M = 2.4;
   const [TOP_M, DEPTH_M] = [4.3, 0.85];
   const RAIL_M = 0.75;
 

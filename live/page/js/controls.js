@@ -117,6 +117,9 @@
     defectSize();
     const hasYaw = live.scene.dampers.some(({ direction }) => direction === "longitudinal");
     put("try-worsen", hasYaw ? "Worsen the yaw dampers" : "Worsen the dampers");
+    const speed = words.fixed(live.status?.speed_km_h ?? live.setup.choice.speed_km_h ?? 160, 0);
+    const article = /^[aeiou]/i.test(live.scene.vehicle) ? "An" : "A";
+    put("lead", `${article} ${live.scene.vehicle} at ${speed} km/h. Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`);
     put("case-name", live.scene.case);
     put("track-name", live.scene.track);
     const [slowest, fastest] = live.scene.speed_range_km_h ?? [10, 350];

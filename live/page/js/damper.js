@@ -7,6 +7,7 @@
   // Draws a damper between two points in pixels. Arrows show the force on its ends: towards each other in tension.
   live.damper = (context, first, second, damper, number, pixelsPerNewton) => {
     const { colours } = paint;
+    live.pick.note(context, [0.5 * (first[0] + second[0]), 0.5 * (first[1] + second[1])], { damper: number });
     const [dx, dy] = [second[0] - first[0], second[1] - first[1]];
     const length = Math.hypot(dx, dy) || 1;
     const [ux, uy] = [dx / length, dy / length];
@@ -45,6 +46,7 @@
   // A damper seen along its axis.
   live.damperEnd = (context, [x, y], number, radius = 5) => {
     const { colours } = paint;
+    live.pick.note(context, [x, y], { damper: number });
     context.beginPath();
     context.arc(x, y, radius, 0, 7);
     context.fillStyle = vehicle.changed(number) ? colours.worn : colours.paper;

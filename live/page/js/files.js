@@ -71,6 +71,15 @@
     if (answer.base64) file(answer);
   }
 
+  // The same bits as the native program, or not.
+  async function compareDigest() {
+    live.verdict.put("digest-note", "The reference run takes some seconds …");
+    const { digest, error } = await live.controls.ask({ do: "digest" });
+    const wanted = live.scene.native_digest || live.setup.native_digest;
+    const text = error ? `✕ ${error}` : digest === wanted ? "✓ The same bits as the native program." : "✕ Not the bits of the native program.";
+    live.verdict.put("digest-note", `${text} ${error ? "" : digest.slice(0, 12)}`.trim());
+  }
+
   function status() {
     const { is_recording: isOn, recorded_ticks: ticks } = live.status;
     live.verdict.put("record-text", isOn ? "Stop recording" : "Record");
@@ -86,6 +95,7 @@
     on("load-button", () => by("load").click());
     by("load").addEventListener("change", () => loadState(by("load").files[0]));
     on("picture", picture);
+    on("digest", compareDigest);
     on("record", () => live.controls.ask({ do: "record", on: !live.status?.is_recording }));
     on("save-csv", () => recording("csv"));
     on("save-mdf4", () => recording("mdf4"));

@@ -125,7 +125,7 @@
   }
 
   async function start() {
-    for (const part of [live.controls, live.dampers, live.cases, live.setting, live.files, live.keys, live.choices]) part.start();
+    for (const part of [live.controls, live.dampers, live.cases, live.setting, live.files, live.keys, live.choices, live.pick]) part.start();
     live.bars.start();
     for (const view of [live.drawSide, live.drawAbove, live.drawBehind, live.drawContact, live.drawLoops]) view();
     requestAnimationFrame(draw);

@@ -59,6 +59,7 @@
     circle.arc(cx, cy, radius, 0, 7);
     paint.shape(context, circle, run === 1, "paper", "metal", Math.max(2, 0.09 * sheet.pixels));
     if (run === 1) return;
+    live.pick.note(context, [cx, cy], { wheelset: number });
     context.globalAlpha = paint.sharpness(0.8, vehicle.speed());
     if (context.globalAlpha > 0.02) {
       const angle = paint.isStill() ? 0 : vehicle.distance() / wheelset.radius_m;
@@ -136,6 +137,7 @@
 
   function draw({ context, width }) {
     if (!live.scene) return;
+    live.pick.clear(context.canvas);
     const sheet = scale(width);
     const y = height_m => KEY_PX + (SKY_M - height_m) * sheet.pixels;
     ground(context, sheet, y, width);

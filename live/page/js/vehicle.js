@@ -12,9 +12,26 @@
     const factor = live.view.exaggeration;
     const of = suffix => factor * value(part.slug + suffix, run);
     return {
-      lateral: of("_lateral_m"), vertical: of("_vertical_m"), roll: of("_roll_rad"),
+      // The place of a rigid vehicle in a curve is no displacement, so it is not exaggerated.
+      lateral: of("_lateral_m") - (factor - 1) * chord(part), vertical: of("_vertical_m"), roll: of("_roll_rad"),
       pitch: of("_pitch_rad"), yaw: of("_yaw_rad"),
     };
+  }
+
+  // Distances of the supports of a body from its centre: bogies of a body, wheelsets of a frame.
+  const supports = new WeakMap();
+  function support(part) {
+    if (!supports.has(part)) {
+      const all = part.kind === "body" ? frames().map(frame => frame.centre_m[0]) : live.scene.wheelsets.map(set => set.x_m);
+      const near = all.filter(x => x >= part.x_m[0] && x <= part.x_m[1]).map(x => (x - part.centre_m[0]) ** 2);
+      supports.set(part, near.length === 0 ? 0 : near.reduce((sum, square) => sum + square, 0) / near.length);
+    }
+    return supports.get(part);
+  }
+
+  // How far inside of the track's middle a rigid body lies in a curve.
+  function chord(part) {
+    return part.centre_m ? 0.5 * course(distance() + part.centre_m[0]).curvature * support(part) : 0;
   }
 
   const carries = (body, x) => x >= body.x_m[0] - 0.6 && x <= body.x_m[1] + 0.6;
@@ -22,7 +39,7 @@
   const frameAt = x => frames().find(body => carries(body, x));
   const bodyAt = x => live.scene.bodies.find(body => body.kind === "body" && carries(body, x)) ?? live.scene.bodies[0];
 
-  // Ends of a damper in the drawing [x, y, height], moved with the parts that carry them. Ends at one point are drawn
+  // Ends of a damper in the drawing [x, y, height, middle of the body that carries it], moved with the parts that carry them. Ends at one point are drawn
   // apart along the direction of the damper.
   const APART = { vertical: [0, 0, 0.62], lateral: [0, 0.55, 0], longitudinal: [0.72, 0, 0] };
   function ends(damper, run = 0) {
@@ -50,7 +67,7 @@
   function moved([x, y, height], part, run) {
     const { lateral, vertical, roll, pitch, yaw } = motion(part, run);
     const [dx, dz] = [x - part.centre_m[0], part.centre_m[1] - height];
-    return [x - yaw * y, y + lateral - roll * dz + yaw * dx, height - vertical - roll * y + pitch * dx];
+    return [x - yaw * y, y + lateral - roll * dz + yaw * dx, height - vertical - roll * y + pitch * dx, part.centre_m[0]];
   }
 
   const changed = number => Boolean(live.status?.dampers?.[number]?.changed || live.status?.dampers?.[number]?.fault);

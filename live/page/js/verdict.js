@@ -17,6 +17,11 @@
   };
 
   const of = ({ number, side }) => `wheelset ${number + 1}${side ? `, ${side} wheel` : ""}`;
+  const SHORT = {
+    climbing: found => `${of(found)}: Y/Q ${words.fixed(found.value, 2)} of ${words.fixed(live.scene.derailment_limit, 2)}`,
+    shifting: found => `${of(found)}: lateral force ${words.fixed(Math.abs(found.value) * 1e-3, 0)} of ${words.quantity(found.set.lateral_limit_n, "N", 0)}`,
+    unloading: found => `${of(found)}: ${found.value <= 0 ? "lifted" : `${Math.round((100 * found.value) / found.set.load_static_n)} % of its load`}`,
+  };
   const SENTENCES = {
     climbing: found => `Y/Q is ${words.fixed(found.value, 2)} of at most ${words.fixed(live.scene.derailment_limit, 2)} at ${of(found)}`,
     shifting: found => `${of(found)} pushes the track with ${words.quantity(Math.abs(found.value), "N")} of at most ${words.quantity(found.set.lateral_limit_n, "N")}`,
@@ -37,7 +42,7 @@
     if (live.status?.ended) return ["over", `Ended: ${live.status.ended}`];
     if (!worst) return ["within", "Not started"];
     if (worst.state === "within") return ["within", "All wheels are within their limits"];
-    const sentence = words.capital(SENTENCES[name](worst));
+    const sentence = words.capital(SHORT[name](worst));
     return [worst.state, flags & frames.FLAGS.invalid ? `${sentence}; outside the validity of the model` : sentence];
   }
 
@@ -46,7 +51,7 @@
     const place = by("verdict");
     place.dataset.state = state;
     put("verdict-text", `${words.STATES[state].sign} ${text}`);
-    const heard = state === "within" ? text : `${words.STATES[state].word}. ${text.replace(/ is [\d.]+ of/, " is high, of")}`;
+    const heard = state === "within" ? text : `${words.STATES[state].word}. ${text}`;
     const subject = `${state} ${text.replace(/[\d.,]+/g, "")}`;
     if (subject === spoken.text || now - spoken.at < QUIET_MS) return;
     Object.assign(spoken, { text: subject, at: now });
