@@ -1,0 +1,183 @@
+"use strict";
+// Buttons and sliders for the run: pace, speed, friction, defects, gusts, comparison, the first things to try.
+{
+  const live = (globalThis.live ??= {});
+  const { words } = live;
+  const { put } = live.verdict;
+
+  const by = id => document.getElementById(id);
+  // What only an operator may use. A viewer may stop a rig.
+  const OPERATED = `.try button, .bar button:not(.emergency), #factor, #quantities input, #fault, #preset, #as-new, #all-as-new,
+    #speed, #speed-number, #friction, #friction-number, #defect-put, #gust-left, #gust-right, #loop-compare, #load-button, #record, #start button`;
+  // The factor to which "Run" returns after a pause.
+  let pace = 1;
+
+  // Sends a message and shows the error of its answer, if any.
+  async function ask(message) {
+    const answer = await live.source.send(message);
+    if (answer.error) note(answer.error);
+    return answer;
+  }
+
+  function note(text) {
+    put("note", text);
+    by("note").hidden = text === "";
+  }
+
+  const act = action => ask({ do: "act", action });
+  const isPaused = () => (live.status?.factor ?? 0) === 0;
+
+  function run(factor) {
+    if (factor > 0) pace = factor;
+    return ask({ do: "run", factor });
+  }
+  const toggle = () => run(isPaused() ? pace : 0);
+  const step = () => ask({ do: "step", ticks: 10 });
+  const stop = () => ask({ do: "stop" });
+
+  function reset() {
+    live.defects = [];
+    live.curves.reset();
+    return ask({ do: "reset" });
+  }
+
+  const compare = () => ask({ do: "compare", on: !live.status?.is_comparing });
+
+  function defect(kind, size) {
+    const known = live.scene.defects.find(defect => defect.kind === kind);
+    const front = Math.max(...live.scene.wheelsets.map(({ x_m }) => x_m));
+    // The drawing shows where it will be: ahead of the leading wheelset.
+    (live.defects ??= []).push({ at_m: live.vehicle.distance() + front + (live.scene.ahead_m ?? 30), label: known.label.split(",")[0] });
+    live.defects = live.defects.slice(-8);
+    return act({ action: "defect", kind, size });
+  }
+
+  // Clearance at which everyone sees what it does.
+  const WORSE_M = 0.015;
+  // The first things to try; each says where to look.
+  const TRIES = {
+    worsen() {
+      const { scene } = live;
+      const yaw = scene.dampers.filter(({ direction }) => direction === "longitudinal");
+      const worsened = yaw.length > 0 ? yaw : scene.dampers;
+      for (const damper of worsened) {
+        const clearance = damper.quantities.find(({ key }) => key === "mount.clearance_m");
+        if (clearance) act({ action: "damper", damper: damper.name, key: clearance.key, value: Math.min(clearance.max, WORSE_M) });
+      }
+      live.dampers.choose(worsened.map(damper => scene.dampers.indexOf(damper)));
+      const noun = yaw.length > 0 ? "yaw dampers" : "dampers";
+      return `The ${noun} now have ${1000 * WORSE_M} mm of clearance. From above: the bogies turn further before the dampers hold them. Curves: the wheelsets swing wider, and Y/Q rises.`;
+    },
+    dip() {
+      const known = live.scene.defects.find(({ kind }) => kind === "dip") ?? live.scene.defects[0];
+      defect(known.kind, known.value);
+      return "A dip comes towards the leading wheelset. Wheel load: each left wheel loses load as it runs in and gains it as it runs out.";
+    },
+    gust() {
+      act({ action: "gust", force_n: 30000, duration_s: 3 });
+      return "The wind pushes the body to the right for 3 s. From behind: the body leans, and the right wheels carry more.";
+    },
+  };
+
+  function tryOut(name) {
+    put("try-look", TRIES[name]());
+    if (isPaused()) run(pace);
+  }
+
+  // Connects a slider with its number: `send` after each change, but not more often than each 150 ms.
+  function pair(range, number, send, { toValue = Number, toPart = Number } = {}) {
+    let timer = 0;
+    const later = value => {
+      clearTimeout(timer);
+      timer = setTimeout(() => send(value), 150);
+    };
+    range.addEventListener("input", () => {
+      const value = toValue(range.value);
+      number.value = Number(value.toPrecision(3));
+      later(Number(number.value));
+    });
+    number.addEventListener("change", () => {
+      const value = Math.min(Number(number.max), Math.max(Number(number.min), Number(number.value)));
+      if (!Number.isFinite(value)) return;
+      number.value = value;
+      range.value = toPart(value);
+      send(value);
+    });
+  }
+
+  function options(select, list) {
+    select.replaceChildren(...list.map(([value, text]) => new Option(text, value)));
+  }
+
+  // Fills what depends on the scene.
+  function scene() {
+    options(by("defect-kind"), live.scene.defects.map(({ kind, label }) => [kind, words.capital(label)]));
+    options(by("wheelset"), live.scene.wheelsets.map(({ name }, n) => [n, `${n + 1}: ${name}`]));
+    by("wheelset").value = live.view.wheelset;
+    defectSize();
+    const hasYaw = live.scene.dampers.some(({ direction }) => direction === "longitudinal");
+    put("try-worsen", hasYaw ? "Worsen the yaw dampers" : "Worsen the dampers");
+    const speed = words.fixed(live.status?.speed_km_h ?? live.setup.choice.speed_km_h ?? 160, 0);
+    const article = /^[aeiou]/i.test(live.scene.vehicle) ? "An" : "A";
+    put("lead", `${article} ${live.scene.vehicle} at ${speed} km/h. Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`);
+    put("case-name", live.scene.case);
+    put("track-name", live.scene.track);
+    const [slowest, fastest] = live.scene.speed_range_km_h ?? [10, 350];
+    for (const id of ["speed", "speed-number"]) Object.assign(by(id), { min: slowest, max: fastest });
+    const isFar = live.scene.source === "machine" || live.scene.source === "target";
+    by("emergency").hidden = !(isFar && live.scene.has_rig);
+  }
+
+  function defectSize() {
+    const known = live.scene.defects.find(({ kind }) => kind === by("defect-kind").value);
+    if (!known) return;
+    Object.assign(by("defect-size"), { min: known.min, max: known.max, value: known.value, step: "any" });
+    put("defect-unit", known.size_unit);
+  }
+
+  function status() {
+    const { factor, speed_km_h, friction_factor, is_comparing, warnings, role, viewers } = live.status;
+    if (factor > 0) pace = factor;
+    put("run-text", factor > 0 ? "Pause" : "Run");
+    by("run").dataset.state = factor > 0 ? "running" : "paused";
+    const select = by("factor");
+    if (document.activeElement !== select) select.value = [...select.options].find(({ value }) => Number(value) === pace)?.value ?? "";
+    for (const [id, value] of [["speed", speed_km_h], ["friction", friction_factor]]) {
+      if ([by(id), by(id + "-number")].includes(document.activeElement)) continue;
+      by(id).value = value;
+      by(id + "-number").value = Number(value.toPrecision(3));
+    }
+    by("compare").setAttribute("aria-pressed", String(Boolean(is_comparing)));
+    for (const place of document.querySelectorAll(".needs-new")) place.hidden = !is_comparing;
+    for (const place of document.querySelectorAll(".lacks-new")) place.hidden = Boolean(is_comparing);
+    put("warnings", (warnings ?? []).join(" "));
+    by("warnings").hidden = !(warnings?.length > 0);
+    const isViewer = (role ?? live.scene?.role) === "viewer";
+    put("role", isViewer ? "You are watching. Another page operates this run." : viewers > 1 ? `${viewers} pages watch this run.` : "");
+    for (const place of document.querySelectorAll(OPERATED)) place.disabled = isViewer;
+  }
+
+  function start() {
+    const on = (id, handle, event = "click") => by(id).addEventListener(event, handle);
+    on("run", toggle);
+    on("step", step);
+    on("reset", reset);
+    on("compare", compare);
+    on("loop-compare", compare);
+    on("emergency", stop);
+    on("factor", () => run(Number(by("factor").value)), "change");
+    on("wheelset", () => live.dampers.chooseWheelset(Number(by("wheelset").value)), "change");
+    on("exaggeration", () => ((live.view.exaggeration = Number(by("exaggeration").value)), live.paint.refresh()), "change");
+    on("defect-kind", defectSize, "change");
+    on("defect-put", () => defect(by("defect-kind").value, Number(by("defect-size").value)));
+    on("gust-left", () => gust(1));
+    on("gust-right", () => gust(-1));
+    for (const name of Object.keys(TRIES)) on(`try-${name}`, () => tryOut(name));
+    pair(by("speed"), by("speed-number"), speed_km_h => act({ action: "speed", speed_km_h }));
+    pair(by("friction"), by("friction-number"), factor => act({ action: "friction", factor }));
+  }
+
+  const gust = sign => act({ action: "gust", force_n: sign * 1000 * Number(by("gust-force").value), duration_s: Number(by("gust-duration").value) });
+
+  Object.assign(live, { controls: { start, scene, status, ask, act, note, run, toggle, step, stop, reset, compare, pair, options } });
+}

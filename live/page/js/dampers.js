@@ -1,0 +1,130 @@
+"use strict";
+// The panel of a damper, or of all dampers of a kind: a slider for each quantity, presets, faults, and as new.
+{
+  const live = (globalThis.live ??= {});
+  const { words } = live;
+
+  const by = id => document.getElementById(id);
+  const KINDS = { longitudinal: "yaw dampers", lateral: "lateral dampers", vertical: "vertical dampers" };
+  // A logarithmic slider that starts at zero has this many decades above zero.
+  const DECADES = 4;
+  let rows = [];
+
+  const chosen = () => live.view.dampers.map(number => live.scene.dampers[number]);
+  const each = action => {
+    for (const { name } of chosen()) live.controls.act({ ...action, damper: name });
+  };
+
+  // Position of a slider from 0 to 1000, and the value there.
+  function scale({ min, max, is_logarithmic: isLogarithmic }) {
+    const low = isLogarithmic && min <= 0 ? max / 10 ** DECADES : min;
+    const toValue = isLogarithmic ? part => (Number(part) === 0 ? min : low * (max / low) ** (part / 1000)) : part => min + (part / 1000) * (max - min);
+    const toPart = isLogarithmic ? value => (value <= low ? 0 : (1000 * Math.log(value / low)) / Math.log(max / low)) : value => (1000 * (value - min)) / (max - min);
+    return { toValue, toPart };
+  }
+
+  function row(quantity) {
+    const { factor, text: unit } = words.unit(quantity.unit);
+    const { toValue, toPart } = scale(quantity);
+    const place = by("quantity").content.firstElementChild.cloneNode(true);
+    const [label, range, number, unitPlace, usual] = [".name", "input[type=range]", "input[type=number]", ".unit", ".usual"].map(name => place.querySelector(name));
+    label.textContent = words.capital(quantity.label);
+    range.setAttribute("aria-label", `${quantity.label}, slider`);
+    number.setAttribute("aria-label", `${quantity.label}${unit ? `, ${unit}` : ""}`);
+    range.dataset.key = quantity.key;
+    Object.assign(number, { min: quantity.min * factor, max: quantity.max * factor, step: "any" });
+    unitPlace.textContent = unit;
+    usual.textContent = `as new ${words.short(quantity.value * factor)}${unit ? ` ${unit}` : ""}`;
+    const send = value => each({ action: "damper", key: quantity.key, value: Number((value / factor).toPrecision(5)) });
+    live.controls.pair(range, number, send, { toValue: part => toValue(part) * factor, toPart: value => toPart(value / factor) });
+    range.addEventListener("input", () => range.setAttribute("aria-valuetext", `${number.value} ${unit}`.trim()));
+    const show = value => {
+      if ([range, number].includes(document.activeElement) && !isForced) return;
+      number.value = Number((value * factor).toPrecision(3));
+      range.value = toPart(value);
+      range.setAttribute("aria-valuetext", `${number.value} ${unit}`.trim());
+      place.classList.toggle("changed", Math.abs(value - quantity.value) > 1e-6 * Math.abs(quantity.max));
+    };
+    let isForced = true;
+    show(quantity.value);
+    isForced = false;
+    return { place, key: quantity.key, show };
+  }
+
+  function build() {
+    const [damper] = chosen();
+    rows = damper.quantities.map(row);
+    by("quantities").replaceChildren(...rows.map(({ place }) => place));
+    live.controls.options(by("preset"), [["", "choose …"], ...(damper.presets ?? []).map(name => [name, name])]);
+    live.controls.options(by("fault"), [["", "choose …"], ...live.scene.faults.map(({ id, label }) => [id, words.capital(label)])]);
+    by("outside").hidden = !damper.outside;
+    const text = live.view.dampers.length > 1 ? `${live.view.dampers.length} dampers change together. The loop shows the first.` : "";
+    live.verdict.put("damper-count", text);
+    live.verdict.put("loop-name", words.capital(damper.name));
+    status();
+  }
+
+  // Follows the values of the source, such as after a fault, a load or another operator.
+  function status() {
+    const number = live.view.dampers[0];
+    const state = live.status?.dampers?.[number];
+    if (!state) return;
+    for (const { key, show } of rows) if (key in state.values) show(state.values[key]);
+    const changed = live.scene.dampers.filter((_, n) => live.vehicle.changed(n)).length;
+    const fault = live.scene.faults.find(({ id }) => id === state.fault);
+    live.verdict.put("damper-state", fault ? `▲ Fault: ${fault.label}.` : state.changed ? "▲ Not as new." : "✓ As new.");
+    live.verdict.put("damper-changed", changed === 0 ? "" : `${changed} of ${live.scene.dampers.length} dampers are not as new.`);
+  }
+
+  function choose(numbers) {
+    live.view.dampers = numbers;
+    const group = [...by("damper").options].find(({ value }) => value === numbers.join(","));
+    by("damper").value = group ? group.value : String(numbers[0]);
+    build();
+    live.paint.refresh();
+  }
+
+  function chooseWheelset(number) {
+    live.view.wheelset = number;
+    by("wheelset").value = number;
+    live.verdict.put("contact-name", `wheelset ${number + 1}`);
+    live.paint.refresh();
+  }
+
+  function scene() {
+    const { dampers } = live.scene;
+    const group = (label, list) => {
+      const place = Object.assign(document.createElement("optgroup"), { label });
+      place.append(...list.map(([numbers, text]) => new Option(text, numbers.join(","))));
+      return place;
+    };
+    const kinds = Object.keys(KINDS).map(kind => [dampers.flatMap(({ direction }, n) => (direction === kind ? [n] : [])), KINDS[kind]]);
+    const together = kinds.filter(([numbers]) => numbers.length > 0).map(([numbers, text]) => [numbers, `All ${numbers.length} ${text}`]);
+    const single = dampers.map(({ name }, n) => [[n], words.capital(name)]);
+    by("damper").replaceChildren(group("Together", together), group("One damper", single));
+    const first = together[0]?.[0] ?? [0];
+    const isKnown = live.view.dampers.length > 0 && live.view.dampers.every(number => dampers[number]);
+    if (dampers.length > 0) choose(isKnown ? live.view.dampers : first);
+    chooseWheelset(Math.min(live.view.wheelset, live.scene.wheelsets.length - 1));
+  }
+
+  function start() {
+    by("damper").addEventListener("change", () => choose(by("damper").value.split(",").map(Number)));
+    by("preset").addEventListener("change", () => {
+      if (by("preset").value) each({ action: "preset", preset: by("preset").value });
+      by("preset").value = "";
+    });
+    by("fault").addEventListener("change", () => {
+      if (by("fault").value) each({ action: "fault", fault: by("fault").value });
+      by("fault").value = "";
+    });
+    by("as-new").addEventListener("click", () => each({ action: "as-new" }));
+    by("all-as-new").addEventListener("click", () => {
+      live.scene.dampers.forEach(({ name }, number) => {
+        if (live.vehicle.changed(number)) live.controls.act({ action: "as-new", damper: name });
+      });
+    });
+  }
+
+  Object.assign(live, { dampers: { start, scene, status, choose, chooseWheelset } });
+}

@@ -1,0 +1,46 @@
+"use strict";
+// Keys of the whole page. Space stops a rig wherever the focus is, except in text fields; without a rig it pauses.
+{
+  const live = (globalThis.live ??= {});
+
+  const isText = ({ target }) => target.matches?.('input:not([type="range"]):not([type="checkbox"]), textarea, [contenteditable]');
+  const hasRig = () => !document.getElementById("emergency").hidden;
+
+  // Without a rig, Space keeps its usual meaning on a button or in a list.
+  const takesSpace = ({ target }) => target.matches?.("button, select, summary, a");
+
+  const KEYS = {
+    k: () => live.controls.toggle(),
+    s: () => live.controls.step(),
+    c: () => live.controls.compare(),
+    l: () => live.panels.follow(),
+  };
+
+  function press(event) {
+    if (event.key === "Escape" && hasRig()) return live.controls.stop();
+    if (event.ctrlKey || event.metaKey || event.altKey || isText(event)) return;
+    if (event.key === " ") {
+      if (hasRig()) {
+        event.preventDefault();
+        event.stopPropagation();
+        live.controls.stop();
+      } else if (!takesSpace(event)) {
+        event.preventDefault();
+        live.controls.toggle();
+      }
+      return;
+    }
+    if (/^[1-9]$/.test(event.key) && live.scene?.wheelsets[Number(event.key) - 1]) live.dampers.chooseWheelset(Number(event.key) - 1);
+    else if (KEYS[event.key] && !event.target.matches?.("select")) KEYS[event.key]();
+  }
+
+  function start() {
+    // First of all handlers. A button reacts to Space when the key is released, which must not press it as well.
+    addEventListener("keydown", press, { capture: true });
+    addEventListener("keyup", event => {
+      if (event.key === " " && hasRig() && !isText(event)) event.preventDefault();
+    }, { capture: true });
+  }
+
+  Object.assign(live, { keys: { start } });
+}

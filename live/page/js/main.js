@@ -1,0 +1,149 @@
+"use strict";
+// Starts the page, passes what the source says to its parts, and draws on each frame of the screen.
+{
+  const live = (globalThis.live ??= {});
+  const by = id => document.getElementById(id);
+
+  // Drawing stops for this frame after so much time; what is left comes first in the next frame.
+  const BUDGET_MS = 3.5;
+  const WRITE_MS = 250;
+  const SUMMARY_MS = 2000;
+
+  live.setup = JSON.parse(by("setup").textContent);
+  live.view = { exaggeration: 20, wheelset: 0, dampers: [], signals: null };
+  live.timing = {
+    frames: 0, mean_ms: 0, greatest_ms: 0, pending_ms: 0,
+    // Time of scripts outside of the drawing counts for the next frame.
+    spend(ms) { this.pending_ms += ms; },
+    count(ms) {
+      const all = ms + this.pending_ms;
+      this.pending_ms = 0;
+      this.frames++;
+      this.mean_ms += (all - this.mean_ms) / this.frames;
+      this.greatest_ms = Math.max(this.greatest_ms, all);
+    },
+    clear() { Object.assign(this, { frames: 0, mean_ms: 0, greatest_ms: 0, pending_ms: 0 }); },
+  };
+
+  function scene(message) {
+    const isSame = JSON.stringify(message.signals) === JSON.stringify(live.scene?.signals);
+    live.scene = message;
+    live.defects = [];
+    live.index = new Map(message.signals.map(({ name }, number) => [name, number]));
+    live.histories = [new live.frames.History(message.signals.length)];
+    for (const view of live.paint.views) view.fit();
+    live.curves.reset();
+    live.controls.scene();
+    live.verdict.restart();
+    // In tasks of their own, so that none is long.
+    setTimeout(() => live.dampers.scene());
+    if (!isSame || live.curves.panels.length === 0) {
+      setTimeout(() => {
+        live.panels.show(live.view.signals ?? live.panels.usual());
+        live.view.signals = null;
+      });
+      setTimeout(() => live.choices.scene());
+    }
+    live.panels.tell();
+    document.body.dataset.source = message.source;
+    by("waiting").hidden = true;
+    by("exaggeration").value = live.view.exaggeration;
+  }
+
+  function status(message) {
+    const wasComparing = live.status?.is_comparing;
+    live.status = message;
+    if (wasComparing && !message.is_comparing) live.histories?.[1]?.clear();
+    if (!live.scene) return;
+    live.controls.status();
+    live.dampers.status();
+    live.files.status();
+    if (live.scene && message.setting?.choice) live.setup.choice = message.setting.choice;
+    live.paint.refresh();
+  }
+
+  const handlers = {
+    frame(buffer) {
+      if (!live.histories) return;
+      const frame = live.frames.decode(buffer);
+      const history = (live.histories[frame.run] ??= new live.frames.History(frame.last.length));
+      const isBack = history.push(frame);
+      if (isBack && frame.run === 0) {
+        live.histories[1]?.clear();
+        live.curves.reset();
+        live.verdict.restart();
+      }
+      isFresh = true;
+    },
+    message(message) {
+      if (message.type === "scene") scene(message);
+      else if (message.type === "status") status(message);
+      else if (message.type === "health") live.verdict.health(message);
+      else if (message.type === "file") live.files.file(message);
+      else if (message.type === "failed") live.controls.note(`The simulation has stopped: ${message.error}`);
+    },
+    link(state, error) {
+      by("link-lost").hidden = state !== "lost";
+      if (state === "failed") live.controls.note(`The simulation cannot start: ${error}`);
+    },
+  };
+
+  let isFresh = false;
+  const written = { at: 0, summary: 0 };
+
+  // The views whose turn it is, most overdue first.
+  function due(now) {
+    const wanted = live.paint.views.filter(view => view.isSeen && (view.isStale || (isChanged && now - view.drawn >= view.period_ms - 2)));
+    return wanted.sort((a, b) => a.drawn + a.period_ms - (b.drawn + b.period_ms));
+  }
+
+  let isChanged = false;
+  function draw(now) {
+    const start = performance.now();
+    if (isFresh) isChanged = true;
+    isFresh = false;
+    if (live.scene && now - written.at > WRITE_MS) {
+      written.at = now;
+      live.verdict.write(now);
+      live.panels.write();
+      if (now - written.summary > SUMMARY_MS) {
+        written.summary = now;
+        live.verdict.summary();
+      }
+    } else {
+      const views = due(now);
+      for (const view of views) {
+        if (performance.now() - start > BUDGET_MS) break;
+        view.paint();
+        view.drawn = now;
+      }
+      // All have seen the newest frame.
+      if (views.every(view => view.drawn === now)) isChanged = due(now).length > 0 || live.paint.views.some(view => view.isSeen && now - view.drawn > 0.5 && view.drawn < now);
+    }
+    live.timing.count(performance.now() - start);
+    requestAnimationFrame(draw);
+  }
+
+  async function start() {
+    for (const part of [live.controls, live.dampers, live.cases, live.setting, live.files, live.keys, live.choices, live.pick]) part.start();
+    live.bars.start();
+    for (const view of [live.drawSide, live.drawAbove, live.drawBehind, live.drawContact, live.drawLoops]) view();
+    requestAnimationFrame(draw);
+    const linked = await live.setting.read();
+    live.setting.look(linked?.view);
+    if (linked?.version && linked.version !== live.setup.version)
+      live.controls.note(`The link was made by version ${linked.version}; this is ${live.setup.version}. The run may differ.`);
+    live.source = live.connect(live.setup.source, handlers);
+    const chosen = linked?.choice ?? live.setup.choice;
+    live.cases.show(chosen);
+    if (live.setup.source === "page") {
+      if (live.paint.isStill()) live.source.send({ do: "run", factor: 0 });
+      const { error } = await live.cases.begin(chosen, linked?.actions ?? []);
+      if (!error && live.paint.isStill()) live.controls.note("Paused, because your system asks for less motion. Press Run to start.");
+    } else if (linked) {
+      await live.cases.begin(chosen, linked.actions ?? []);
+    }
+  }
+
+  start();
+}

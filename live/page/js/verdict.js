@@ -1,0 +1,145 @@
+"use strict";
+// The state in words: a verdict that is spoken when it changes, a summary, health of dampers, and the real-time thread.
+{
+  const live = (globalThis.live ??= {});
+  const { words, bars, frames, vehicle } = live;
+
+  const QUIET_MS = 4000;
+  // Readings that are shown.
+  const ROWS = 12;
+  const by = id => document.getElementById(id);
+  const spoken = { text: "", at: -QUIET_MS };
+  const pace = { at: 0, time_s: 0, reached: NaN };
+
+  const put = (id, text) => {
+    const place = by(id);
+    if (place.textContent !== text) place.textContent = text;
+  };
+
+  const of = ({ number, side }) => `wheelset ${number + 1}${side ? `, ${side} wheel` : ""}`;
+  const SHORT = {
+    climbing: found => `${of(found)}: Y/Q ${words.fixed(found.value, 2)} of ${words.fixed(live.scene.derailment_limit, 2)}`,
+    shifting: found => `${of(found)}: lateral force ${words.fixed(Math.abs(found.value) * 1e-3, 0)} of ${words.quantity(found.set.lateral_limit_n, "N", 0)}`,
+    unloading: found => `${of(found)}: ${found.value <= 0 ? "lifted" : `${Math.round((100 * found.value) / found.set.load_static_n)} % of its load`}`,
+  };
+  const SENTENCES = {
+    climbing: found => `Y/Q is ${words.fixed(found.value, 2)} of at most ${words.fixed(live.scene.derailment_limit, 2)} at ${of(found)}`,
+    shifting: found => `${of(found)} pushes the track with ${words.quantity(Math.abs(found.value), "N")} of at most ${words.quantity(found.set.lateral_limit_n, "N")}`,
+    unloading: found => (found.value <= 0 ? `${of(found)} has lifted` : `${of(found)} keeps ${Math.round((100 * found.value) / found.set.load_static_n)} % of its load`),
+  };
+
+  function verdict() {
+    const found = Object.keys(SENTENCES).map(name => [name, bars.worst(name)]).filter(([, worst]) => worst);
+    for (const [name, worst] of found) {
+      const { sign, word } = words.STATES[worst.state];
+      const place = by(`${name}-word`);
+      place.dataset.state = worst.state;
+      put(`${name}-word`, `${sign} ${name === "unloading" && worst.state === "over" ? "wheel lifted" : word}`);
+    }
+    const flags = live.histories?.[0]?.newest?.flags ?? 0;
+    const rank = { within: 0, near: 1, over: 2 };
+    const [name, worst] = found.sort((a, b) => rank[b[1].state] - rank[a[1].state])[0] ?? [];
+    if (live.status?.ended) return ["over", `Ended: ${live.status.ended}`];
+    if (!worst) return ["within", "Not started"];
+    if (worst.state === "within") return ["within", "All wheels are within their limits"];
+    const sentence = words.capital(SHORT[name](worst));
+    return [worst.state, flags & frames.FLAGS.invalid ? `${sentence}; outside the validity of the model` : sentence];
+  }
+
+  // Tells a screen reader of a change, but not more often than it can be heard.
+  function speak([state, text], now) {
+    const place = by("verdict");
+    place.dataset.state = state;
+    put("verdict-text", `${words.STATES[state].sign} ${text}`);
+    const heard = state === "within" ? text : `${words.STATES[state].word}. ${text}`;
+    const subject = `${state} ${text.replace(/[\d.,]+/g, "")}`;
+    if (subject === spoken.text || now - spoken.at < QUIET_MS) return;
+    Object.assign(spoken, { text: subject, at: now });
+    put("spoken", heard);
+  }
+
+  function summary() {
+    const history = live.histories[0];
+    const swings = live.scene.wheelsets.map(set => {
+      const [least, greatest] = history.range(live.index.get(set.slug + "_lateral_m"), 2);
+      return greatest - least;
+    });
+    const most = swings.reduce((best, swing, n) => (swing > swings[best] ? n : best), 0);
+    const sentences = [
+      `${words.capital(live.scene.vehicle)}, ${words.fixed(vehicle.speed() * 3.6, 0)} km/h, ${vehicle.courseInWords(vehicle.distance())}.`,
+    ];
+    if (Number.isFinite(swings[most]))
+      sentences.push(`In the last 2 s wheelset ${most + 1} swings most from side to side: ${words.quantity(swings[most], "m", 1)}.`);
+    for (const name of Object.keys(SENTENCES)) {
+      const worst = bars.worst(name);
+      if (worst) sentences.push(`${words.capital(SENTENCES[name](worst))}: ${words.STATES[worst.state].word}.`);
+    }
+    const worn = live.scene.dampers.filter((_, number) => vehicle.changed(number));
+    sentences.push(worn.length === 0 ? "All dampers are as new." : `Not as new: ${worn.map(({ name }) => name).join(", ")}.`);
+    put("summary", sentences.join(" "));
+  }
+
+  // Alarms first, then the chosen dampers; all others are good or unknown.
+  function health({ readings }) {
+    const chosen = live.view.dampers.map(number => live.scene.dampers[number]?.name);
+    const isAlarm = ({ alarm, trusted }) => alarm && trusted !== false;
+    const shown = [...readings.filter(isAlarm), ...readings.filter(reading => !isAlarm(reading) && chosen.includes(reading.damper))].slice(0, ROWS);
+    const rows = shown.map(({ damper, label, value, low, high, unit, alarm, trusted }) => {
+      const row = document.createElement("tr");
+      if (alarm && trusted !== false) row.className = "alarm";
+      const { factor, text: written, digits } = words.unit(unit);
+      const [middle, least, most] = [value, low, high].map(number => words.fixed(number * factor, digits));
+      const cells = [words.capital(damper), label, `${middle} ${written}`.trim() + ` (${least} to ${most})`, trusted === false ? "not yet sure" : alarm ? "▲ alarm" : "✓ good"];
+      row.append(...cells.map((text, n) => Object.assign(document.createElement(n === 0 ? "th" : "td"), { textContent: text, ...(n === 0 ? { scope: "row" } : {}) })));
+      return row;
+    });
+    by("health-rows").replaceChildren(...rows);
+    by("health-none").hidden = rows.length > 0;
+    by("health-table").hidden = rows.length === 0;
+    const alarms = readings.filter(isAlarm).length;
+    put("health-word", alarms ? `▲ ${alarms} alarm${alarms > 1 ? "s" : ""}` : "");
+  }
+
+  // Reached factor of real time, from simulated time against the clock.
+  function measurePace(now) {
+    const newest = live.histories?.[0]?.newest;
+    if (!newest) return;
+    if (newest.time_s < pace.time_s) Object.assign(pace, { at: now, time_s: newest.time_s });
+    if (now - pace.at < 900) return;
+    if (pace.at > 0) pace.reached = (1000 * (newest.time_s - pace.time_s)) / (now - pace.at);
+    Object.assign(pace, { at: now, time_s: newest.time_s });
+  }
+
+  function timing(now) {
+    measurePace(now);
+    const newest = live.histories?.[0]?.newest;
+    const wanted = live.status?.factor ?? 0;
+    put("reached", wanted === 0 ? "paused" : Number.isFinite(pace.reached) ? `${words.fixed(pace.reached, 2)} times real time` : "–");
+    put("slower", newest && newest.flags & frames.FLAGS.slow ? "▲ slower than wanted" : "");
+    if (!newest || !(newest.work_us > 0)) return;
+    const tick = 1e6 * live.scene.step_s;
+    put("work-mean", `${words.short(newest.work_us)} µs`);
+    put("work-most", `${words.short(newest.greatest_us)} µs`);
+    put("work-share", `${words.fixed((100 * newest.work_us) / tick, 1)} % of the ${words.short(tick / 1000)} ms of a tick.`);
+    by("work-bar").value = Math.min(1, newest.work_us / tick);
+    const { mean_ms, greatest_ms, frames: count } = live.timing;
+    put("page-timing", `This page: ${words.fixed(mean_ms, 1)} ms of script a frame, at most ${words.fixed(greatest_ms, 1)} ms in ${count} frames.`);
+  }
+
+  function readouts() {
+    const newest = live.histories?.[0]?.newest;
+    put("speed-now", words.fixed(vehicle.speed() * 3.6, 0));
+    put("time-now", newest ? words.duration(newest.time_s) : "0.0 s");
+    put("distance-now", words.distance(vehicle.distance()));
+  }
+
+  // Called a few times a second.
+  function write(now) {
+    bars.measure();
+    speak(verdict(), now);
+    readouts();
+    timing(now);
+  }
+
+  Object.assign(live, { verdict: { write, summary, health, put, restart: () => Object.assign(pace, { at: 0, time_s: 0, reached: NaN }) } });
+}
