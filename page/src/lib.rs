@@ -31,12 +31,18 @@ pub struct Below<'a> {
 
 /// Returns a page that simulates by itself. It begins with a choice; `tables` are the names and contents of files of
 /// contact tables, without which the page computes them in a few seconds.
-pub fn in_browser(choice: &Choice, tables: &[(String, Vec<u8>)], below: Option<Below<'_>>) -> String {
+pub fn in_browser(
+    choice: &Choice,
+    tables: &[(String, Vec<u8>)],
+    below: Option<Below<'_>>,
+) -> String {
     let names = |shipped: &[(&str, &str)]| -> Vec<Value> {
         shipped.iter().map(|(name, _)| json!(name)).collect()
     };
     let cases = CASES.iter().map(|(name, _)| {
-        let title = Choice::of(name).case().map_or_else(|_| (*name).to_owned(), |case| case.name);
+        let title = Choice::of(name)
+            .case()
+            .map_or_else(|_| (*name).to_owned(), |case| case.name);
         json!({"name": name, "title": title})
     });
     let setup = json!({
@@ -55,7 +61,11 @@ pub fn in_browser(choice: &Choice, tables: &[(String, Vec<u8>)], below: Option<B
     ];
     for (name, content) in tables {
         let name = format!("data-tables=\"{name}\"");
-        data.push(data_block("application/octet-stream", &name, &packed(content)));
+        data.push(data_block(
+            "application/octet-stream",
+            &name,
+            &packed(content),
+        ));
     }
     document("; worker-src blob:", " 'wasm-unsafe-eval'", &data, below)
 }
@@ -69,7 +79,11 @@ pub fn of_server(vehicle: &str) -> String {
         "vehicle": vehicle,
         "choice": null, "cases": [], "vehicles": [], "tracks": [],
     });
-    let data = [data_block("application/json", "id=\"setup\"", &setup.to_string())];
+    let data = [data_block(
+        "application/json",
+        "id=\"setup\"",
+        &setup.to_string(),
+    )];
     document("; connect-src 'self'", "", &data, None)
 }
 
@@ -82,11 +96,27 @@ fn data_block(mime: &str, name: &str, content: &str) -> String {
     format!("<script type=\"{mime}\" {name}>{content}</script>\n")
 }
 
-fn document(sources: &str, script_sources: &str, data: &[String], below: Option<Below<'_>>) -> String {
-    let nothing = Below { title: "Dashpot live", styles: &[], body: "", scripts: &[] };
+fn document(
+    sources: &str,
+    script_sources: &str,
+    data: &[String],
+    below: Option<Below<'_>>,
+) -> String {
+    let nothing = Below {
+        title: "Dashpot live",
+        styles: &[],
+        body: "",
+        scripts: &[],
+    };
     let below = below.unwrap_or(nothing);
-    let styles: Vec<&str> = std::iter::once(files::STYLE).chain(below.styles.iter().map(String::as_str)).collect();
-    let scripts: Vec<&str> = files::SCRIPTS.iter().chain(below.scripts).copied().collect();
+    let styles: Vec<&str> = std::iter::once(files::STYLE)
+        .chain(below.styles.iter().map(String::as_str))
+        .collect();
+    let scripts: Vec<&str> = files::SCRIPTS
+        .iter()
+        .chain(below.scripts)
+        .copied()
+        .collect();
     let policy = content_policy(&scripts, &styles);
     let policy = policy.replace("; style-src", &format!("{script_sources}; style-src"));
     let mut page = format!(

@@ -9,7 +9,7 @@ use crate::files::{line_count, rust_files};
 use crate::workspaces::{WORKSPACES, folder_of, packages};
 
 /// Folders of all crates, from the bottom up. A crate may use only those listed before it; tests may use any.
-const ORDER: [&str; 27] = [
+const ORDER: [&str; 30] = [
     "xtask",
     "core",
     "capi",
@@ -27,9 +27,12 @@ const ORDER: [&str; 27] = [
     "testbench",
     "calibration",
     "vehicle-run",
+    "live",
+    "browser",
     "study",
     "tests/physics",
     "report",
+    "page",
     "export",
     "host-link",
     // These two are libraries for other programs, so they use neither the command nor each other.

@@ -6,6 +6,7 @@ mod crates;
 mod files;
 mod fuzz_seeds;
 mod licences;
+mod module_of_the_page;
 mod modules;
 mod observed;
 mod published;

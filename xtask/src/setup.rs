@@ -6,8 +6,8 @@ use crate::processor::{CORTEX_M7, CORTEX_M33, TARGETS};
 use crate::python;
 use crate::run::Outcome;
 use crate::target_toolchain::TargetToolchain;
-use crate::web;
 use crate::tools::{ARM_GCC, ARM_LD, ARM_LIBC, QEMU, TEST_TOOLS, Tool, install, missing};
+use crate::web;
 
 /// Debian packages with a compiler for the Cortex-M processors, for a machine without rustup.
 const TOOLCHAIN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];

@@ -17,7 +17,15 @@ const MODULE: &str = "page/module/dashpot.wasm";
 const COMPILER: &str = "page/module/compiler.txt";
 
 /// Test that knows the digest of the module's sources.
-const SOURCES_TEST: [&str; 7] = ["test", "-p", "dashpot", "--test", "repository", "module_of_the_page", "--quiet"];
+const SOURCES_TEST: [&str; 7] = [
+    "test",
+    "-p",
+    "dashpot",
+    "--test",
+    "repository",
+    "module_of_the_page",
+    "--quiet",
+];
 
 /// Builds the module and commits it to the working tree, with the digest of its sources.
 ///
@@ -30,7 +38,9 @@ pub fn web() -> Outcome {
     let compiler = TargetToolchain::Installed.version()?;
     fs::write(repository().join(COMPILER), compiler + "\n").map_err(failed)?;
     let mut test = Command::new("cargo");
-    test.args(SOURCES_TEST).env("DASHPOT_BLESS", "1").current_dir(repository());
+    test.args(SOURCES_TEST)
+        .env("DASHPOT_BLESS", "1")
+        .current_dir(repository());
     run(test, "the digest of the module's sources")
 }
 
@@ -54,11 +64,14 @@ pub fn check() -> Outcome {
 
 /// Builds the module and returns its path.
 fn build() -> Outcome<PathBuf> {
-    TargetToolchain::installed(TARGET)
-        .ok_or_else(|| format!("the page's engine needs its target: run `rustup target add {TARGET}`"))?;
+    TargetToolchain::installed(TARGET).ok_or_else(|| {
+        format!("the page's engine needs its target: run `rustup target add {TARGET}`")
+    })?;
     // Texts of panics have the places of sources; they must not depend on this machine.
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home.or_else(|| Some(std::env::home_dir()?.join(".cargo"))).unwrap_or_default();
+    let home = home
+        .or_else(|| Some(std::env::home_dir()?.join(".cargo")))
+        .unwrap_or_default();
     let mut rustc = Command::new("rustc");
     rustc.args(["--print", "sysroot"]);
     let sysroot = output_of(rustc, "rustc --print sysroot")?;
@@ -68,12 +81,27 @@ fn build() -> Outcome<PathBuf> {
         format!("--remap-path-prefix={}=rust", sysroot.trim()),
     ];
     // A registry's folder is named after its address.
-    let registries = fs::read_dir(home.join("registry/src")).into_iter().flatten().flatten();
-    flags.extend(registries.map(|folder| format!("--remap-path-prefix={}=registry", folder.path().display())));
+    let registries = fs::read_dir(home.join("registry/src"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    flags.extend(
+        registries
+            .map(|folder| format!("--remap-path-prefix={}=registry", folder.path().display())),
+    );
     let folder = repository().join("target/web");
     let mut cargo = Command::new("cargo");
     cargo
-        .args(["build", "--locked", "--profile", "web", "--target", TARGET, "--package", "dashpot-browser"])
+        .args([
+            "build",
+            "--locked",
+            "--profile",
+            "web",
+            "--target",
+            TARGET,
+            "--package",
+            "dashpot-browser",
+        ])
         .arg("--target-dir")
         .arg(&folder)
         .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"))

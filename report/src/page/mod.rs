@@ -8,8 +8,8 @@ mod series;
 
 pub use crate::plot::sheet::panel;
 pub use figure::Figure;
-pub use policy::content_policy;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+pub use policy::content_policy;
 
 use crate::DrawError;
 
