@@ -49,7 +49,9 @@
     live.controls.options(by("case"), named(setup.cases));
     live.controls.options(by("vehicle"), [["", "that of the case"], ...named(setup.vehicles)]);
     live.controls.options(by("track"), [["", "that of the case"], ...named(setup.tracks)]);
-    show(setup.choice);
+    show(setup.choice ?? {});
+    // A server decides what runs.
+    by("start").closest("details").hidden = setup.cases.length === 0;
     by("start").addEventListener("submit", event => {
       event.preventDefault();
       live.panels.clear();

@@ -140,7 +140,7 @@
     defectSize();
     const hasYaw = live.scene.dampers.some(({ direction }) => direction === "longitudinal");
     put("try-worsen", hasYaw ? "Worsen the yaw dampers" : "Worsen the dampers");
-    const speed = words.fixed(live.status?.speed_km_h ?? live.setup.choice.speed_km_h ?? 160, 0);
+    const speed = words.fixed(live.status?.speed_km_h ?? live.setup.choice?.speed_km_h ?? 160, 0);
     const article = /^[aeiou]/i.test(live.scene.vehicle) ? "An" : "A";
     const advice = `Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`;
     put("lead", `${article} ${live.scene.vehicle} at ${speed} km/h. ${advice}`);

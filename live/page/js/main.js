@@ -155,13 +155,13 @@
       );
     live.source = live.connect(live.setup.source, handlers);
     const chosen = linked?.choice ?? live.setup.choice;
-    live.cases.show(chosen);
+    live.cases.show(chosen ?? {});
     if (live.setup.source === "page") {
       if (live.paint.isStill()) live.source.send({ do: "run", factor: 0 });
       const { error } = await live.cases.begin(chosen, linked?.actions ?? []);
       if (!error && live.paint.isStill())
         live.controls.note("Paused, because your system asks for less motion. Press Run to start.");
-    } else if (linked) {
+    } else if (linked?.choice) {
       await live.cases.begin(chosen, linked.actions ?? []);
     }
   }

@@ -50,7 +50,7 @@
       canvas,
       head: element("ul", { className: "legend" }),
     };
-    panel.place = element("div", { className: "panel" }, panel.head, element("div", { className: "canvas" }, canvas));
+    panel.place = element("div", { className: "curve-panel" }, panel.head, element("div", { className: "canvas" }, canvas));
     place().append(panel.place);
     panel.view = paint.view(canvas.id, {
       height: () => curves.HEIGHT_PX,
@@ -64,7 +64,7 @@
   function legend(panel) {
     panel.head.replaceChildren(
       ...panel.traces.map((trace, index) => {
-        trace.value = element("span", { className: "value" });
+        trace.value = element("span", { className: "reading" });
         const remove = element("button", {
           type: "button",
           className: "remove",
