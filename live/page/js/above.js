@@ -202,6 +202,6 @@
     paint.view("above", {
       height: width => live.side.scale(width).pixels * 2 * HALF_M + COURSE_PX,
       draw,
-      period_ms: 25,
+      period_ms: 32,
     });
 }

@@ -6,7 +6,7 @@
 
   const HOLD_S = 3;
   const ROW_PX = 27;
-  const [LEFT, RIGHT, TOP] = [18, 52, 20];
+  const [LEFT, RIGHT, TOP] = [18, 62, 20];
   const SIDES = ["left", "right"];
 
   // The limits are for forces that are filtered and averaged over 2 m; a source without them gives the forces.
@@ -26,7 +26,7 @@
       most: 1.4,
       signals: set => [filtered(set.slug, "lateral_force_n")],
       share: (value, set) => Math.abs(value) / set.lateral_limit_n,
-      write: value => words.fixed(Math.abs(value) * 1e-3, 1) + " kN",
+      write: value => words.fixed(Math.abs(value) * 1e-3, 0) + " kN",
       worst: ([least, greatest]) => (-least > greatest ? least : greatest),
     },
     unloading: {
@@ -145,7 +145,7 @@
       paint.view(name, {
         height: () => TOP + ROW_PX * (live.scene?.wheelsets.length ?? 6) + 4,
         draw: surface => draw(name, surface),
-        period_ms: 66,
+        period_ms: 96,
       });
   }
 

@@ -100,7 +100,7 @@
     ]) {
       const value = suffix => frames.value(`${set.slug}_${side}${suffix}`);
       const x = sign * RAIL_M * pixels;
-      const load = (value("_load_n") / 130e3) * pixels;
+      const load = (value("_load_n") / 200e3) * pixels;
       // Below the rail, pointing at it: the rail carries the wheel.
       paint.arrow(context, x, 0.04 * pixels + Math.max(0, load) * 0.7, 0, -Math.max(0, load) * 0.7, side, 3);
       paint.arrow(context, x, 0, (-sign * value("_lateral_n") * pixels) / 40e3, 0, side, 3);
@@ -159,6 +159,6 @@
     paint.view("behind", {
       height: width => Math.min(380, (width / (2 * HALF_M)) * (TOP_M + DEPTH_M)),
       draw,
-      period_ms: 25,
+      period_ms: 32,
     });
 }

@@ -158,5 +158,5 @@
     paint.text(context, "middle of the track", width / 2, HEIGHT_PX - FOOT_PX - 6, { align: "center", size: 11 });
   }
 
-  live.drawContact = () => paint.view("contact", { height: () => HEIGHT_PX, draw, period_ms: 32 });
+  live.drawContact = () => paint.view("contact", { height: () => HEIGHT_PX, draw, period_ms: 48 });
 }

@@ -12,11 +12,14 @@
     #loop-compare, #load-button, #record, #start button`;
   // The factor to which "Run" returns after a pause.
   let pace = 1;
+  // The error that is shown, until the next success.
+  let failure = "";
 
   // Sends a message and shows the error of its answer, if any.
   async function ask(message) {
     const answer = await live.source.send(message);
-    if (answer.error) note(answer.error);
+    if (answer.error) note((failure = answer.error));
+    else if (failure !== "" && by("note").textContent === failure) note((failure = ""));
     return answer;
   }
 

@@ -138,13 +138,13 @@
     const [low, high] = fit(panel, first, last);
     const y = axes(context, panel, width, [low, high], begin, shown.window_s);
     const unit = words.unit(panel.unit).text;
-    if (unit) paint.text(context, unit, 2, TOP + 4, { size: 11.5 });
+    if (unit) paint.text(context, unit, LEFT + 5, TOP + 11, { size: 11.5 });
     const pixels = (width - LEFT - RIGHT) / COLUMNS;
     context.save();
     context.beginPath();
     context.rect(LEFT, 0, width - LEFT - RIGHT + 1, HEIGHT_PX);
     context.clip();
-    context.lineJoin = "round";
+    context.lineJoin = "bevel";
     for (const { runs, colour } of panel.traces) {
       for (const trace of [...runs].reverse()) {
         if (trace.run === 1 && !frames.has(1)) continue;

@@ -64,10 +64,24 @@
     return { place, key: quantity.key, show };
   }
 
+  // Quantities of the first chosen damper. A preset may be of another kind, whose quantities the status then lists.
+  function quantities() {
+    const number = live.view.dampers[0];
+    const state = live.status?.dampers?.[number];
+    const list = state?.quantities ?? live.scene.dampers[number].quantities;
+    return list.filter(({ key }) => !state || key in state.values);
+  }
+
+  const keys = list => list.map(({ key }) => key).join();
+
+  function fill() {
+    rows = quantities().map(row);
+    by("quantities").replaceChildren(...rows.map(({ place }) => place));
+  }
+
   function build() {
     const [damper] = chosen();
-    rows = damper.quantities.map(row);
-    by("quantities").replaceChildren(...rows.map(({ place }) => place));
+    fill();
     live.controls.options(by("preset"), [["", "choose …"], ...(damper.presets ?? []).map(name => [name, name])]);
     live.controls.options(by("fault"), [
       ["", "choose …"],
@@ -88,6 +102,7 @@
     const number = live.view.dampers[0];
     const state = live.status?.dampers?.[number];
     if (!state) return;
+    if (keys(rows) !== keys(quantities())) fill();
     for (const { key, show } of rows) if (key in state.values) show(state.values[key]);
     const changed = live.scene.dampers.filter((_, n) => live.vehicle.changed(n)).length;
     const fault = live.scene.faults.find(({ id }) => id === state.fault);

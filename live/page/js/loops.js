@@ -85,5 +85,5 @@
     context.fill();
   }
 
-  live.drawLoops = () => paint.view("loop", { height: () => HEIGHT_PX, draw, period_ms: 40 });
+  live.drawLoops = () => paint.view("loop", { height: () => HEIGHT_PX, draw, period_ms: 64 });
 }

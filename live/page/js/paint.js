@@ -42,7 +42,7 @@
   }
 
   // Lets `draw(surface)` paint a canvas at most once in `period_ms`. `height(width)` is its height in pixels.
-  function view(id, { height, draw, period_ms = 0 }) {
+  function view(id, { height, draw, period_ms = 0, group = null }) {
     const canvas = document.getElementById(id);
     const surface = {
       canvas,
@@ -53,6 +53,7 @@
       isStale: true,
       drawn: 0,
       period_ms,
+      group,
     };
     // The width comes from the observer, because asking the page for it would force a layout.
     surface.fit = (width = surface.width) => {

@@ -50,12 +50,18 @@
       canvas,
       head: element("ul", { className: "legend" }),
     };
-    panel.place = element("div", { className: "curve-panel" }, panel.head, element("div", { className: "canvas" }, canvas));
+    panel.place = element(
+      "div",
+      { className: "curve-panel" },
+      panel.head,
+      element("div", { className: "canvas" }, canvas),
+    );
     place().append(panel.place);
     panel.view = paint.view(canvas.id, {
       height: () => curves.HEIGHT_PX,
       draw: surface => curves.draw(panel, surface),
-      period_ms: 32,
+      period_ms: 48,
+      group: "curves",
     });
     listen(canvas);
     return panel;

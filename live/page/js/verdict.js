@@ -95,21 +95,21 @@
   // Alarms first, then the chosen dampers; all others are good or unknown.
   function health({ readings }) {
     const chosen = live.view.dampers.map(number => live.scene.dampers[number]?.name);
-    const isAlarm = ({ alarm, trusted }) => alarm && trusted !== false;
+    const isAlarm = ({ alarm }) => alarm;
     const shown = [
       ...readings.filter(isAlarm),
       ...readings.filter(reading => !isAlarm(reading) && chosen.includes(reading.damper)),
     ].slice(0, ROWS);
     const rows = shown.map(({ damper, label, value, low, high, unit, alarm, trusted }) => {
       const row = document.createElement("tr");
-      if (alarm && trusted !== false) row.className = "alarm";
+      if (alarm) row.className = "alarm";
       const { factor, text: written, digits } = words.unit(unit);
       const [middle, least, most] = [value, low, high].map(number => words.fixed(number * factor, digits));
       const cells = [
         words.capital(damper),
         label,
         `${middle} ${written}`.trim() + ` (${least} to ${most})`,
-        trusted === false ? "not yet sure" : alarm ? "▲ alarm" : "✓ good",
+        (alarm ? "▲ alarm" : "✓ good") + (trusted === false ? ", value unsure" : ""),
       ];
       row.append(
         ...cells.map((text, n) =>
