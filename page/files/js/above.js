@@ -65,7 +65,8 @@
     for (const { at_m, label } of live.defects ?? []) {
       if (at_m - at < rear || at_m - at > front) continue;
       paint.line(context, sheet.x(at_m - at), y(-1.5), sheet.x(at_m - at), y(1.5), "over", 2, [4, 3]);
-      if (sheet.pixels > 24) paint.text(context, label, sheet.x(at_m - at), y(1.5) + 12, { colour: "over", size: 11.5, align: "center" });
+      if (sheet.pixels > 24)
+        paint.text(context, label, sheet.x(at_m - at), y(1.5) + 12, { colour: "over", size: 11.5, align: "center" });
     }
   }
 
@@ -75,7 +76,9 @@
     const { pixels } = sheet;
     const flat = new Path2D();
     flat.roundRect((x0 - centre) * pixels, -half * pixels, (x1 - x0) * pixels, 2 * half * pixels, radius);
-    const matrix = new DOMMatrix().translate(sheet.x(centre), y(middle + motion.lateral)).rotate(((heading + motion.yaw) * 180) / Math.PI);
+    const matrix = new DOMMatrix()
+      .translate(sheet.x(centre), y(middle + motion.lateral))
+      .rotate(((heading + motion.yaw) * 180) / Math.PI);
     const path = new Path2D();
     path.addPath(flat, matrix);
     return path;
@@ -83,7 +86,8 @@
 
   function wheelset(context, sheet, y, bent, set, number, run) {
     const motion = vehicle.motion(set, run);
-    const of = (box, half, radius) => plate(sheet, y, bent, set.x_m, motion, [set.x_m + box[0], set.x_m + box[1]], half, radius);
+    const of = (box, half, radius) =>
+      plate(sheet, y, bent, set.x_m, motion, [set.x_m + box[0], set.x_m + box[1]], half, radius);
     const [middle, heading] = bent(set.x_m);
     const turn = heading + motion.yaw;
     const isChosen = live.view.wheelset === number;
@@ -91,16 +95,32 @@
     for (const side of [-1, 1]) {
       const flat = new Path2D();
       const { pixels } = sheet;
-      flat.roundRect(-set.radius_m * pixels, (side * RAIL_M - 0.07) * pixels, 2 * set.radius_m * pixels, 0.14 * pixels, 2);
+      flat.roundRect(
+        -set.radius_m * pixels,
+        (side * RAIL_M - 0.07) * pixels,
+        2 * set.radius_m * pixels,
+        0.14 * pixels,
+        2,
+      );
       const path = new Path2D();
-      path.addPath(flat, new DOMMatrix().translate(sheet.x(set.x_m), y(middle + motion.lateral)).rotate((turn * 180) / Math.PI));
+      path.addPath(
+        flat,
+        new DOMMatrix().translate(sheet.x(set.x_m), y(middle + motion.lateral)).rotate((turn * 180) / Math.PI),
+      );
       paint.shape(context, path, run === 1, isChosen ? "accent" : "paper", isChosen ? "accent" : "ink");
     }
     if (run === 1) return;
     live.pick.note(context, [sheet.x(set.x_m), y(middle + motion.lateral)], { wheelset: number });
     // Force of the rails on the wheels across the track.
     const push = frames.value(set.slug + "_right_lateral_n") * -1 + frames.value(set.slug + "_left_lateral_n");
-    paint.arrow(context, sheet.x(set.x_m), y(middle + motion.lateral), 0, (push / live.side.FORCE_PER_M) * 0.5 * sheet.pixels, "ink");
+    paint.arrow(
+      context,
+      sheet.x(set.x_m),
+      y(middle + motion.lateral),
+      0,
+      (push / live.side.FORCE_PER_M) * 0.5 * sheet.pixels,
+      "ink",
+    );
   }
 
   function strip(context, width, top, at) {
@@ -115,7 +135,8 @@
     context.strokeStyle = paint.colours.soft;
     context.lineWidth = 2;
     context.stroke();
-    for (const { at_m } of live.defects ?? []) paint.text(context, "▼", x(at_m), base - 4, { colour: "over", size: 11, align: "center" });
+    for (const { at_m } of live.defects ?? [])
+      paint.text(context, "▼", x(at_m), base - 4, { colour: "over", size: 11, align: "center" });
     const [rear, front] = [x(at - 9), x(at + 9)];
     context.fillStyle = paint.colours.accent;
     context.fillRect(rear, base - 3, front - rear, 6);
@@ -137,7 +158,16 @@
     context.clip();
     track(context, sheet, y, bent, at, width);
     const part = (body, run) =>
-      plate(sheet, y, bent, body.centre_m[0], vehicle.motion(body, run), body.x_m, body.half_width_m, body.kind === "body" ? 0.35 * sheet.pixels : 4);
+      plate(
+        sheet,
+        y,
+        bent,
+        body.centre_m[0],
+        vehicle.motion(body, run),
+        body.x_m,
+        body.half_width_m,
+        body.kind === "body" ? 0.35 * sheet.pixels : 4,
+      );
     for (const body of live.scene.bodies.filter(body => body.kind === "frame")) {
       context.globalAlpha = 0.75;
       paint.shape(context, part(body, 0), false, "ground", "metal");
@@ -156,7 +186,8 @@
         const [middle, heading] = bent(centre);
         return [sheet.x(x), y(lateral + middle + heading * (x - centre))];
       });
-      if (damper.direction === "vertical") live.damperEnd(context, points[0], number, Math.max(2.5, Math.min(5, 0.13 * sheet.pixels)));
+      if (damper.direction === "vertical")
+        live.damperEnd(context, points[0], number, Math.max(2.5, Math.min(5, 0.13 * sheet.pixels)));
       else live.damper(context, ...points, damper, number, sheet.pixels / live.side.FORCE_PER_M);
     });
     if (frames.has(1)) {
@@ -168,5 +199,9 @@
   }
 
   live.drawAbove = () =>
-    paint.view("above", { height: width => live.side.scale(width).pixels * 2 * HALF_M + COURSE_PX, draw, period_ms: 25 });
+    paint.view("above", {
+      height: width => live.side.scale(width).pixels * 2 * HALF_M + COURSE_PX,
+      draw,
+      period_ms: 32,
+    });
 }

@@ -6,11 +6,12 @@
 
   const HOLD_S = 3;
   const ROW_PX = 27;
-  const [LEFT, RIGHT, TOP] = [18, 52, 20];
+  const [LEFT, RIGHT, TOP] = [18, 62, 20];
   const SIDES = ["left", "right"];
 
   // The limits are for forces that are filtered and averaged over 2 m; a source without them gives the forces.
-  const filtered = (start, name) => (live.index.has(`${start}_filtered_${name}`) ? `${start}_filtered_${name}` : `${start}_${name}`);
+  const filtered = (start, name) =>
+    live.index.has(`${start}_filtered_${name}`) ? `${start}_filtered_${name}` : `${start}_${name}`;
 
   // Share of its limit that a value reaches; its word follows from it.
   const KINDS = {
@@ -25,7 +26,7 @@
       most: 1.4,
       signals: set => [filtered(set.slug, "lateral_force_n")],
       share: (value, set) => Math.abs(value) / set.lateral_limit_n,
-      write: value => words.fixed(Math.abs(value) * 1e-3, 1) + " kN",
+      write: value => words.fixed(Math.abs(value) * 1e-3, 0) + " kN",
       worst: ([least, greatest]) => (-least > greatest ? least : greatest),
     },
     unloading: {
@@ -67,7 +68,14 @@
       for (const [side, { value, set }] of sides.entries()) {
         const share = kind.share(value, set);
         if (Number.isFinite(share) && !(found?.share >= share))
-          found = { share, value, set, number, side: sides.length > 1 ? SIDES[side] : null, state: stateOf(name, value, set) };
+          found = {
+            share,
+            value,
+            set,
+            number,
+            side: sides.length > 1 ? SIDES[side] : null,
+            state: stateOf(name, value, set),
+          };
       }
     }
     return found;
@@ -78,13 +86,20 @@
     const kind = KINDS[name];
     const { colours } = paint;
     const length = width - LEFT - RIGHT;
-    const sheet = name === "unloading" ? (value, set) => value / (kind.most * set.load_static_n) : (value, set) => kind.share(value, set) / kind.most;
+    const sheet =
+      name === "unloading"
+        ? (value, set) => value / (kind.most * set.load_static_n)
+        : (value, set) => kind.share(value, set) / kind.most;
     const x = (value, set) => LEFT + length * Math.max(0, Math.min(1, sheet(value, set)));
     const bottom = TOP + ROW_PX * live.scene.wheelsets.length;
     for (const [number, set] of live.scene.wheelsets.entries()) {
       const top = TOP + number * ROW_PX;
       const isChosen = number === live.view.wheelset;
-      paint.text(context, String(number + 1), 4, top + 17, { colour: isChosen ? "accent" : "ink", weight: 600, size: 12.5 });
+      paint.text(context, String(number + 1), 4, top + 17, {
+        colour: isChosen ? "accent" : "ink",
+        weight: 600,
+        size: 12.5,
+      });
       const signals = kind.signals(set);
       const thick = signals.length > 1 ? 8 : 12;
       for (const [side, signal] of signals.entries()) {
@@ -105,11 +120,20 @@
       const value = name === "unloading" ? Math.min(...worse) : kind.worst([Math.min(...worse), Math.max(...worse)]);
       const state = stateOf(name, value, set);
       const sign = state === "within" ? "" : words.STATES[state].sign;
-      paint.text(context, `${sign}${kind.write(value)}`, width, top + 17, { colour: "ink", align: "right", size: 11.5, weight: state === "within" ? 400 : 700 });
+      paint.text(context, `${sign}${kind.write(value)}`, width, top + 17, {
+        colour: "ink",
+        align: "right",
+        size: 11.5,
+        weight: state === "within" ? 400 : 700,
+      });
     }
     const [limit, label] = name === "unloading" ? [LEFT, "lifted"] : [LEFT + length / kind.most, "limit"];
     paint.line(context, limit, TOP - 4, limit, bottom, "over", 2);
-    paint.text(context, label, limit + (name === "unloading" ? -1 : 0), 11, { colour: "over", size: 11.5, align: name === "unloading" ? "left" : "center" });
+    paint.text(context, label, limit + (name === "unloading" ? -1 : 0), 11, {
+      colour: "over",
+      size: 11.5,
+      align: name === "unloading" ? "left" : "center",
+    });
     if (name !== "unloading") return;
     const still = LEFT + length / kind.most;
     paint.line(context, still, TOP - 4, still, bottom, "soft", 1, [3, 3]);
@@ -118,7 +142,11 @@
 
   function start() {
     for (const name of Object.keys(KINDS))
-      paint.view(name, { height: () => TOP + ROW_PX * (live.scene?.wheelsets.length ?? 6) + 4, draw: surface => draw(name, surface), period_ms: 66 });
+      paint.view(name, {
+        height: () => TOP + ROW_PX * (live.scene?.wheelsets.length ?? 6) + 4,
+        draw: surface => draw(name, surface),
+        period_ms: 96,
+      });
   }
 
   Object.assign(live, { bars: { start, measure, worst, KINDS, held } });

@@ -18,18 +18,51 @@
       context.fillStyle = fill;
       context.fill();
     };
-    polygon([[-1.55, 0.24], [1.55, 0.24], [1.95, 0.75], [-1.95, 0.75]], colours.ballast);
-    polygon([[-1.3, 0.18], [1.3, 0.18], [1.3, 0.38], [-1.3, 0.38]], colours.soft);
+    polygon(
+      [
+        [-1.55, 0.24],
+        [1.55, 0.24],
+        [1.95, 0.75],
+        [-1.95, 0.75],
+      ],
+      colours.ballast,
+    );
+    polygon(
+      [
+        [-1.3, 0.18],
+        [1.3, 0.18],
+        [1.3, 0.38],
+        [-1.3, 0.38],
+      ],
+      colours.soft,
+    );
     for (const side of [-RAIL_M, RAIL_M]) {
       const at = (x, y) => [side + x, y];
-      polygon([at(-0.036, 0), at(0.036, 0), at(0.036, 0.04), at(0.01, 0.06), at(0.01, 0.14), at(0.075, 0.165), at(0.075, 0.18),
-        at(-0.075, 0.18), at(-0.075, 0.165), at(-0.01, 0.14), at(-0.01, 0.06), at(-0.036, 0.04)], colours.metal);
+      polygon(
+        [
+          at(-0.036, 0),
+          at(0.036, 0),
+          at(0.036, 0.04),
+          at(0.01, 0.06),
+          at(0.01, 0.14),
+          at(0.075, 0.165),
+          at(0.075, 0.18),
+          at(-0.075, 0.18),
+          at(-0.075, 0.165),
+          at(-0.01, 0.14),
+          at(-0.01, 0.06),
+          at(-0.036, 0.04),
+        ],
+        colours.metal,
+      );
     }
   }
 
   // Moves a path that is drawn about the centre of a part with that part.
   function placed(flat, pixels, height, { lateral, vertical, roll }) {
-    const matrix = new DOMMatrix().translate(lateral * pixels, (vertical - height) * pixels).rotate((roll * 180) / Math.PI);
+    const matrix = new DOMMatrix()
+      .translate(lateral * pixels, (vertical - height) * pixels)
+      .rotate((roll * 180) / Math.PI);
     const path = new Path2D();
     path.addPath(flat, matrix);
     return path;
@@ -42,7 +75,12 @@
     for (const side of [-1, 1]) {
       flat.roundRect((side * RAIL_M - 0.065) * pixels, -radius * pixels, 0.13 * pixels, 2 * radius * pixels, 3);
       // The flange, on the inner side.
-      flat.rect((side * (RAIL_M - 0.05) - 0.016) * pixels, -(radius + 0.028) * pixels, 0.032 * pixels, 2 * (radius + 0.028) * pixels);
+      flat.rect(
+        (side * (RAIL_M - 0.05) - 0.016) * pixels,
+        -(radius + 0.028) * pixels,
+        0.032 * pixels,
+        2 * (radius + 0.028) * pixels,
+      );
     }
     return flat;
   }
@@ -56,10 +94,13 @@
   }
 
   function forces(context, pixels, set) {
-    for (const [side, sign] of [["left", -1], ["right", 1]]) {
+    for (const [side, sign] of [
+      ["left", -1],
+      ["right", 1],
+    ]) {
       const value = suffix => frames.value(`${set.slug}_${side}${suffix}`);
       const x = sign * RAIL_M * pixels;
-      const load = (value("_load_n") / 130e3) * pixels;
+      const load = (value("_load_n") / 200e3) * pixels;
       // Below the rail, pointing at it: the rail carries the wheel.
       paint.arrow(context, x, 0.04 * pixels + Math.max(0, load) * 0.7, 0, -Math.max(0, load) * 0.7, side, 3);
       paint.arrow(context, x, 0, (-sign * value("_lateral_n") * pixels) / 40e3, 0, side, 3);
@@ -79,7 +120,8 @@
     // A curve to the right raises the left rail: the track turns clockwise.
     context.rotate(Math.asin(Math.max(-1, Math.min(1, cant / 1.5))));
     bed(context, pixels);
-    const part = (part, run, radius) => placed(box(part, pixels, radius), pixels, part.centre_m[1], vehicle.motion(part, run));
+    const part = (part, run, radius) =>
+      placed(box(part, pixels, radius), pixels, part.centre_m[1], vehicle.motion(part, run));
     paint.shape(context, part(body, 0, 0.3 * pixels), false, "shell", "metal", 1.5);
     windows(context, pixels, body);
     if (frame) paint.shape(context, part(frame, 0, 5), false, "ground", "metal");
@@ -105,7 +147,8 @@
   function windows(context, pixels, body) {
     const flat = new Path2D();
     const top = (body.centre_m[1] - body.height_m[1]) * pixels;
-    for (const side of [-1, 0.12]) flat.roundRect(side * 0.95 * pixels, top + 0.42 * pixels, 0.83 * pixels, 0.7 * pixels, 4);
+    for (const side of [-1, 0.12])
+      flat.roundRect(side * 0.95 * pixels, top + 0.42 * pixels, 0.83 * pixels, 0.7 * pixels, 4);
     context.globalAlpha = 0.35;
     context.fillStyle = paint.colours.metal;
     context.fill(placed(flat, pixels, body.centre_m[1], vehicle.motion(body, 0)));
@@ -113,5 +156,9 @@
   }
 
   live.drawBehind = () =>
-    paint.view("behind", { height: width => Math.min(380, (width / (2 * HALF_M)) * (TOP_M + DEPTH_M)), draw, period_ms: 25 });
+    paint.view("behind", {
+      height: width => Math.min(380, (width / (2 * HALF_M)) * (TOP_M + DEPTH_M)),
+      draw,
+      period_ms: 32,
+    });
 }

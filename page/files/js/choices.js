@@ -19,11 +19,13 @@
 
   function scene() {
     const select = by("add-curve");
-    const heads = [...groups()].filter(([, list]) => list.length > 0).map(([part, list]) => {
-      const group = Object.assign(document.createElement("optgroup"), { label: live.words.capital(part ?? "other") });
-      group.append(...list.map(([name, label]) => new Option(live.words.capital(label), name)));
-      return group;
-    });
+    const heads = [...groups()]
+      .filter(([, list]) => list.length > 0)
+      .map(([part, list]) => {
+        const group = Object.assign(document.createElement("optgroup"), { label: live.words.capital(part ?? "other") });
+        group.append(...list.map(([name, label]) => new Option(live.words.capital(label), name)));
+        return group;
+      });
     select.replaceChildren(new Option("Add a curve …", ""), ...heads);
   }
 
@@ -31,12 +33,29 @@
   const TOPICS = {
     usual: () => live.panels.usual(),
     swing: () => live.scene.wheelsets.map(({ slug }) => slug + "_lateral_m"),
-    body: () => live.scene.bodies.flatMap(({ slug }) => [slug + "_lateral_acceleration_m_per_s2", slug + "_vertical_acceleration_m_per_s2"]),
+    body: () =>
+      live.scene.bodies.flatMap(({ slug }) => [
+        slug + "_lateral_acceleration_m_per_s2",
+        slug + "_vertical_acceleration_m_per_s2",
+      ]),
     wheelset() {
       const { slug } = live.scene.wheelsets[live.view.wheelset];
-      return ["_lateral_m", "_yaw_rad", "_left_derailment", "_right_derailment", "_left_load_n", "_right_load_n", "_lateral_force_n"].map(name => slug + name);
+      return [
+        "_lateral_m",
+        "_yaw_rad",
+        "_left_derailment",
+        "_right_derailment",
+        "_left_load_n",
+        "_right_load_n",
+        "_lateral_force_n",
+      ].map(name => slug + name);
     },
-    damper: () => live.view.dampers.slice(0, 4).flatMap(number => ["_force_n", "_displacement_m", "_velocity_m_per_s"].map(name => live.scene.dampers[number].slug + name)),
+    damper: () =>
+      live.view.dampers
+        .slice(0, 4)
+        .flatMap(number =>
+          ["_force_n", "_displacement_m", "_velocity_m_per_s"].map(name => live.scene.dampers[number].slug + name),
+        ),
   };
 
   function start() {
@@ -51,8 +70,12 @@
     by("curves-hold").addEventListener("click", () => live.panels.hold(live.curves.from()));
     by("curves-in").addEventListener("click", () => live.panels.zoom(-1));
     by("curves-out").addEventListener("click", () => live.panels.zoom(1));
-    by("curves-back").addEventListener("click", () => live.panels.hold(live.curves.from() - 0.5 * live.curves.shown.window_s));
-    by("curves-on").addEventListener("click", () => live.panels.hold(live.curves.from() + 0.5 * live.curves.shown.window_s));
+    by("curves-back").addEventListener("click", () =>
+      live.panels.hold(live.curves.from() - 0.5 * live.curves.shown.window_s),
+    );
+    by("curves-on").addEventListener("click", () =>
+      live.panels.hold(live.curves.from() + 0.5 * live.curves.shown.window_s),
+    );
   }
 
   Object.assign(live, { choices: { start, scene } });

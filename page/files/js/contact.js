@@ -80,10 +80,22 @@
     context.clip();
     context.translate(box.x + (mirror > 0 ? -INNER_M : OUTER_M) * scale, box.top);
     const [inner, outer] = [wheel_m[0][0], wheel_m[wheel_m.length - 1][0]];
-    const rim = profile(wheel_m, scale, mirror, at, [[outer, -0.2], [inner, -0.2]]);
+    const rim = profile(wheel_m, scale, mirror, at, [
+      [outer, -0.2],
+      [inner, -0.2],
+    ]);
     if (run === 0) {
       const bottom = rail_m[rail_m.length - 1][1];
-      const rail = profile(rail_m, scale, mirror, [0, 0], [[rail_m[rail_m.length - 1][0], bottom + 0.06], [rail_m[0][0], bottom + 0.06]]);
+      const rail = profile(
+        rail_m,
+        scale,
+        mirror,
+        [0, 0],
+        [
+          [rail_m[rail_m.length - 1][0], bottom + 0.06],
+          [rail_m[0][0], bottom + 0.06],
+        ],
+      );
       paint.shape(context, rail, false, "ballast", "metal", 1.5);
       paint.shape(context, rim, false, "shell", "ink", 1.5);
     } else {
@@ -113,9 +125,17 @@
   }
 
   function labels(context, box, { side, load, lateral, ratio, isLifted }) {
-    const rows = [["Q", words.quantity(load, "N", 0)], ["Y", words.quantity(lateral, "N", 1)], ["Y/Q", words.fixed(ratio, 2)]];
+    const rows = [
+      ["Q", words.quantity(load, "N", 0)],
+      ["Y", words.quantity(lateral, "N", 1)],
+      ["Y/Q", words.fixed(ratio, 2)],
+    ];
     const x = box.x + 8;
-    paint.text(context, isLifted ? `${side} wheel: lifted` : `${side} wheel`, x, 17, { colour: isLifted ? "over" : side, weight: 600, size: 13 });
+    paint.text(context, isLifted ? `${side} wheel: lifted` : `${side} wheel`, x, 17, {
+      colour: isLifted ? "over" : side,
+      weight: 600,
+      size: 13,
+    });
     rows.forEach(([name, number], index) => {
       const at = x + index * Math.min(92, box.width / 2.9);
       paint.text(context, name, at, HEIGHT_PX - 24, { size: 11.5 });
@@ -125,14 +145,18 @@
 
   function draw({ context, width }) {
     if (!live.scene?.profiles) return;
-    if (table?.of !== live.scene.profiles) table = Object.assign(touching(fromDatum(live.scene.profiles)), { of: live.scene.profiles });
+    if (table?.of !== live.scene.profiles)
+      table = Object.assign(touching(fromDatum(live.scene.profiles)), { of: live.scene.profiles });
     const set = live.scene.wheelsets[live.view.wheelset] ?? live.scene.wheelsets[0];
     const half = (width - 16) / 2;
-    for (const [side, x] of [["left", 0], ["right", half + 16]])
+    for (const [side, x] of [
+      ["left", 0],
+      ["right", half + 16],
+    ])
       for (const run of live.frames.has(1) ? [0, 1] : [0]) wheel(context, side, { x, width: half, top: 150 }, set, run);
     paint.line(context, width / 2, HEAD_PX, width / 2, HEIGHT_PX - FOOT_PX - 18, "line", 1, [2, 4]);
     paint.text(context, "middle of the track", width / 2, HEIGHT_PX - FOOT_PX - 6, { align: "center", size: 11 });
   }
 
-  live.drawContact = () => paint.view("contact", { height: () => HEIGHT_PX, draw, period_ms: 32 });
+  live.drawContact = () => paint.view("contact", { height: () => HEIGHT_PX, draw, period_ms: 48 });
 }

@@ -7,15 +7,19 @@
 
   const by = id => document.getElementById(id);
   // What only an operator may use. A viewer may stop a rig.
-  const OPERATED = `.try button, .bar button:not(.emergency), #factor, #quantities input, #fault, #preset, #as-new, #all-as-new,
-    #speed, #speed-number, #friction, #friction-number, #defect-put, #gust-left, #gust-right, #loop-compare, #load-button, #record, #start button`;
+  const OPERATED = `.try button, .bar button:not(.emergency), #factor, #quantities input, #fault, #preset, #as-new,
+    #all-as-new, #speed, #speed-number, #friction, #friction-number, #defect-put, #gust-left, #gust-right,
+    #loop-compare, #load-button, #record, #start button`;
   // The factor to which "Run" returns after a pause.
   let pace = 1;
+  // The error that is shown, until the next success.
+  let failure = "";
 
   // Sends a message and shows the error of its answer, if any.
   async function ask(message) {
     const answer = await live.source.send(message);
-    if (answer.error) note(answer.error);
+    if (answer.error) note((failure = answer.error));
+    else if (failure !== "" && by("note").textContent === failure) note((failure = ""));
     return answer;
   }
 
@@ -47,13 +51,27 @@
     const known = live.scene.defects.find(defect => defect.kind === kind);
     const front = Math.max(...live.scene.wheelsets.map(({ x_m }) => x_m));
     // The drawing shows where it will be: ahead of the leading wheelset.
-    (live.defects ??= []).push({ at_m: live.vehicle.distance() + front + (live.scene.ahead_m ?? 30), label: known.label.split(",")[0] });
+    (live.defects ??= []).push({
+      at_m: live.vehicle.distance() + front + (live.scene.ahead_m ?? 30),
+      label: known.label.split(",")[0],
+    });
     live.defects = live.defects.slice(-8);
     return act({ action: "defect", kind, size });
   }
 
   // Clearance at which everyone sees what it does.
   const WORSE_M = 0.015;
+  const LOOK = {
+    worsen:
+      "From above: the bogies turn further before the dampers hold them. " +
+      "Curves: the wheelsets swing wider, and Y/Q rises.",
+    dip:
+      "A dip comes towards the leading wheelset. " +
+      "Curves, wheel load: the left wheel loses load as it runs in and gains load as it runs out.",
+    gust:
+      "The wind pushes the body to the right for 3 s. " +
+      "From behind: the body leans, and the right wheels carry more.",
+  };
   // The first things to try; each says where to look.
   const TRIES = {
     worsen() {
@@ -62,25 +80,27 @@
       const worsened = yaw.length > 0 ? yaw : scene.dampers;
       for (const damper of worsened) {
         const clearance = damper.quantities.find(({ key }) => key === "mount.clearance_m");
-        if (clearance) act({ action: "damper", damper: damper.name, key: clearance.key, value: Math.min(clearance.max, WORSE_M) });
+        if (clearance)
+          act({ action: "damper", damper: damper.name, key: clearance.key, value: Math.min(clearance.max, WORSE_M) });
       }
       live.dampers.choose(worsened.map(damper => scene.dampers.indexOf(damper)));
       const noun = yaw.length > 0 ? "yaw dampers" : "dampers";
-      return `The ${noun} now have ${1000 * WORSE_M} mm of clearance. From above: the bogies turn further before the dampers hold them. Curves: the wheelsets swing wider, and Y/Q rises.`;
+      return `The ${noun} now have ${1000 * WORSE_M} mm of clearance. ${LOOK.worsen}`;
     },
     dip() {
       const known = live.scene.defects.find(({ kind }) => kind === "dip") ?? live.scene.defects[0];
       defect(known.kind, known.value);
-      return "A dip comes towards the leading wheelset. Wheel load: each left wheel loses load as it runs in and gains it as it runs out.";
+      return LOOK.dip;
     },
     gust() {
       act({ action: "gust", force_n: 30000, duration_s: 3 });
-      return "The wind pushes the body to the right for 3 s. From behind: the body leans, and the right wheels carry more.";
+      return LOOK.gust;
     },
   };
 
   function tryOut(name) {
     put("try-look", TRIES[name]());
+    by("try-look").classList.remove("fresh");
     if (isPaused()) run(pace);
   }
 
@@ -111,15 +131,22 @@
 
   // Fills what depends on the scene.
   function scene() {
-    options(by("defect-kind"), live.scene.defects.map(({ kind, label }) => [kind, words.capital(label)]));
-    options(by("wheelset"), live.scene.wheelsets.map(({ name }, n) => [n, `${n + 1}: ${name}`]));
+    options(
+      by("defect-kind"),
+      live.scene.defects.map(({ kind, label }) => [kind, words.capital(label)]),
+    );
+    options(
+      by("wheelset"),
+      live.scene.wheelsets.map(({ name }, n) => [n, `${n + 1}: ${name}`]),
+    );
     by("wheelset").value = live.view.wheelset;
     defectSize();
     const hasYaw = live.scene.dampers.some(({ direction }) => direction === "longitudinal");
     put("try-worsen", hasYaw ? "Worsen the yaw dampers" : "Worsen the dampers");
-    const speed = words.fixed(live.status?.speed_km_h ?? live.setup.choice.speed_km_h ?? 160, 0);
+    const speed = words.fixed(live.status?.speed_km_h ?? live.setup.choice?.speed_km_h ?? 160, 0);
     const article = /^[aeiou]/i.test(live.scene.vehicle) ? "An" : "A";
-    put("lead", `${article} ${live.scene.vehicle} at ${speed} km/h. Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`);
+    const advice = `Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`;
+    put("lead", `${article} ${live.scene.vehicle} at ${speed} km/h. ${advice}`);
     put("case-name", live.scene.case);
     put("track-name", live.scene.track);
     const [slowest, fastest] = live.scene.speed_range_km_h ?? [10, 350];
@@ -141,8 +168,12 @@
     put("run-text", factor > 0 ? "Pause" : "Run");
     by("run").dataset.state = factor > 0 ? "running" : "paused";
     const select = by("factor");
-    if (document.activeElement !== select) select.value = [...select.options].find(({ value }) => Number(value) === pace)?.value ?? "";
-    for (const [id, value] of [["speed", speed_km_h], ["friction", friction_factor]]) {
+    if (document.activeElement !== select)
+      select.value = [...select.options].find(({ value }) => Number(value) === pace)?.value ?? "";
+    for (const [id, value] of [
+      ["speed", speed_km_h],
+      ["friction", friction_factor],
+    ]) {
       if ([by(id), by(id + "-number")].includes(document.activeElement)) continue;
       by(id).value = value;
       by(id + "-number").value = Number(value.toPrecision(3));
@@ -153,11 +184,25 @@
     put("warnings", (warnings ?? []).join(" "));
     by("warnings").hidden = !(warnings?.length > 0);
     const isViewer = (role ?? live.scene?.role) === "viewer";
-    put("role", isViewer ? "You are watching. Another page operates this run." : viewers > 1 ? `${viewers} pages watch this run.` : "");
-    for (const place of document.querySelectorAll(OPERATED)) place.disabled = isViewer;
+    put(
+      "role",
+      isViewer
+        ? "You are watching. Another page operates this run."
+        : viewers > 1
+          ? `${viewers} pages watch this run.`
+          : "",
+    );
+    permit(!isViewer);
+  }
+
+  function permit(isAllowed) {
+    for (const place of document.querySelectorAll(OPERATED)) place.disabled = !isAllowed;
   }
 
   function start() {
+    // Nothing to operate before the first status; another case may be started at any time.
+    permit(false);
+    by("start").querySelector("button").disabled = false;
     const on = (id, handle, event = "click") => by(id).addEventListener(event, handle);
     on("run", toggle);
     on("step", step);
@@ -167,7 +212,11 @@
     on("emergency", stop);
     on("factor", () => run(Number(by("factor").value)), "change");
     on("wheelset", () => live.dampers.chooseWheelset(Number(by("wheelset").value)), "change");
-    on("exaggeration", () => ((live.view.exaggeration = Number(by("exaggeration").value)), live.paint.refresh()), "change");
+    on(
+      "exaggeration",
+      () => ((live.view.exaggeration = Number(by("exaggeration").value)), live.paint.refresh()),
+      "change",
+    );
     on("defect-kind", defectSize, "change");
     on("defect-put", () => defect(by("defect-kind").value, Number(by("defect-size").value)));
     on("gust-left", () => gust(1));
@@ -177,7 +226,14 @@
     pair(by("friction"), by("friction-number"), factor => act({ action: "friction", factor }));
   }
 
-  const gust = sign => act({ action: "gust", force_n: sign * 1000 * Number(by("gust-force").value), duration_s: Number(by("gust-duration").value) });
+  const gust = sign =>
+    act({
+      action: "gust",
+      force_n: sign * 1000 * Number(by("gust-force").value),
+      duration_s: Number(by("gust-duration").value),
+    });
 
-  Object.assign(live, { controls: { start, scene, status, ask, act, note, run, toggle, step, stop, reset, compare, pair, options } });
+  Object.assign(live, {
+    controls: { start, scene, status, ask, act, note, run, toggle, step, stop, reset, compare, pair, options },
+  });
 }

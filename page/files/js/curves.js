@@ -19,7 +19,14 @@
   // Least and greatest of a signal in columns of time. Column n covers [n, n + 1) times the width of a column.
   class Trace {
     constructor(name, run) {
-      Object.assign(this, { name, signal: live.index.get(name), run, least: new Float32Array(COLUMNS + 2), greatest: new Float32Array(COLUMNS + 2), keys: new Int32Array(COLUMNS + 2) });
+      Object.assign(this, {
+        name,
+        signal: live.index.get(name),
+        run,
+        least: new Float32Array(COLUMNS + 2),
+        greatest: new Float32Array(COLUMNS + 2),
+        keys: new Int32Array(COLUMNS + 2),
+      });
       this.reset();
     }
 
@@ -43,7 +50,10 @@
         if (time > end) break;
         const key = Math.floor(time / width_s);
         const slot = ((key % size) + size) % size;
-        const [low, high] = [history.least[this.signal * frames.ROWS + at], history.greatest[this.signal * frames.ROWS + at]];
+        const [low, high] = [
+          history.least[this.signal * frames.ROWS + at],
+          history.greatest[this.signal * frames.ROWS + at],
+        ];
         if (this.keys[slot] === key) {
           if (low < this.least[slot]) this.least[slot] = low;
           if (high > this.greatest[slot]) this.greatest[slot] = high;
@@ -95,7 +105,8 @@
     const y = value => TOP + ((high - value) / (high - low)) * height;
     const step = nice((high - low) * panel.factor * 0.28);
     // As many decimals as the step needs.
-    const digits = [0, 1, 2, 3, 4, 5].find(digits => Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) < 1e-6) ?? 6;
+    const digits =
+      [0, 1, 2, 3, 4, 5].find(digits => Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) < 1e-6) ?? 6;
     for (let n = Math.ceil((low * panel.factor) / step - 1e-9); n * step <= high * panel.factor + 1e-9; n++) {
       const at = y((n * step) / panel.factor);
       paint.line(context, LEFT, at, width - RIGHT, at, n === 0 ? "soft" : "line");
@@ -106,7 +117,10 @@
       const x = LEFT + ((n * seconds - begin) / span) * (width - LEFT - RIGHT);
       paint.line(context, x, TOP, x, TOP + height, "line");
       if (x > LEFT + 12 && x < width - RIGHT - 16)
-        paint.text(context, `${words.fixed(n * seconds, seconds < 1 ? 2 : seconds % 1 ? 1 : 0)} s`, x, HEIGHT_PX - 5, { size: 11.5, align: "center" });
+        paint.text(context, `${words.fixed(n * seconds, seconds < 1 ? 2 : seconds % 1 ? 1 : 0)} s`, x, HEIGHT_PX - 5, {
+          size: 11.5,
+          align: "center",
+        });
     }
     for (const limit of panel.limits) {
       if (limit < low || limit > high) continue;
@@ -124,13 +138,13 @@
     const [low, high] = fit(panel, first, last);
     const y = axes(context, panel, width, [low, high], begin, shown.window_s);
     const unit = words.unit(panel.unit).text;
-    if (unit) paint.text(context, unit, 2, TOP + 4, { size: 11.5 });
+    if (unit) paint.text(context, unit, LEFT + 5, TOP + 11, { size: 11.5 });
     const pixels = (width - LEFT - RIGHT) / COLUMNS;
     context.save();
     context.beginPath();
     context.rect(LEFT, 0, width - LEFT - RIGHT + 1, HEIGHT_PX);
     context.clip();
-    context.lineJoin = "round";
+    context.lineJoin = "bevel";
     for (const { runs, colour } of panel.traces) {
       for (const trace of [...runs].reverse()) {
         if (trace.run === 1 && !frames.has(1)) continue;
@@ -190,11 +204,15 @@
     const first = Math.floor(from() / width_s);
     const key = first + Math.round((shown.cursor ?? 1) * COLUMNS);
     let slot = shown.cursor === null ? endSlot(trace, key) : -1;
-    for (let near = 0; slot < 0 && near < 4; near++) slot = Math.max(trace.column(key - near), trace.column(key + near));
+    for (let near = 0; slot < 0 && near < 4; near++)
+      slot = Math.max(trace.column(key - near), trace.column(key + near));
     if (slot < 0) return "–";
     const digits = words.unit(panel.unit).digits;
-    if (shown.cursor === null && shown.from === null) return words.fixed(live.frames.value(trace.name, trace.run) * panel.factor, digits);
-    const [low, high] = [trace.least[slot], trace.greatest[slot]].map(value => words.fixed(value * panel.factor, digits));
+    if (shown.cursor === null && shown.from === null)
+      return words.fixed(live.frames.value(trace.name, trace.run) * panel.factor, digits);
+    const [low, high] = [trace.least[slot], trace.greatest[slot]].map(value =>
+      words.fixed(value * panel.factor, digits),
+    );
     return low === high ? low : `${low} to ${high}`;
   }
 
@@ -203,5 +221,7 @@
     shown.from = null;
   }
 
-  Object.assign(live, { curves: { panels, shown, Trace, draw, read, reset, from, newest, LETTERS, HEIGHT_PX, LEFT, RIGHT, COLUMNS } });
+  Object.assign(live, {
+    curves: { panels, shown, Trace, draw, read, reset, from, newest, LETTERS, HEIGHT_PX, LEFT, RIGHT, COLUMNS },
+  });
 }

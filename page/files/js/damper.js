@@ -33,7 +33,8 @@
       context.arc(x, y, 0.3 * thick, 0, 7);
       context.fill();
     }
-    if (isChanged && thick > 6) paint.text(context, "!", ...middle(at(0.36)), { colour: "ink", size: 9, weight: 700, align: "center" });
+    if (isChanged && thick > 6)
+      paint.text(context, "!", ...middle(at(0.36)), { colour: "ink", size: 9, weight: 700, align: "center" });
     // Beside the damper, so that the arrows do not hide it.
     const [ox, oy] = [-uy * (thick + 1), ux * (thick + 1)];
     const force = vehicle.force(damper) * pixelsPerNewton;

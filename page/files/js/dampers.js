@@ -18,8 +18,12 @@
   // Position of a slider from 0 to 1000, and the value there.
   function scale({ min, max, is_logarithmic: isLogarithmic }) {
     const low = isLogarithmic && min <= 0 ? max / 10 ** DECADES : min;
-    const toValue = isLogarithmic ? part => (Number(part) === 0 ? min : low * (max / low) ** (part / 1000)) : part => min + (part / 1000) * (max - min);
-    const toPart = isLogarithmic ? value => (value <= low ? 0 : (1000 * Math.log(value / low)) / Math.log(max / low)) : value => (1000 * (value - min)) / (max - min);
+    const toValue = isLogarithmic
+      ? part => (Number(part) === 0 ? min : low * (max / low) ** (part / 1000))
+      : part => min + (part / 1000) * (max - min);
+    const toPart = isLogarithmic
+      ? value => (value <= low ? 0 : (1000 * Math.log(value / low)) / Math.log(max / low))
+      : value => (1000 * (value - min)) / (max - min);
     return { toValue, toPart };
   }
 
@@ -27,7 +31,13 @@
     const { factor, text: unit } = words.unit(quantity.unit);
     const { toValue, toPart } = scale(quantity);
     const place = by("quantity").content.firstElementChild.cloneNode(true);
-    const [label, range, number, unitPlace, usual] = [".name", "input[type=range]", "input[type=number]", ".unit", ".usual"].map(name => place.querySelector(name));
+    const [label, range, number, unitPlace, usual] = [
+      ".name",
+      "input[type=range]",
+      "input[type=number]",
+      ".unit",
+      ".usual",
+    ].map(name => place.querySelector(name));
     label.textContent = words.capital(quantity.label);
     range.setAttribute("aria-label", `${quantity.label}, slider`);
     number.setAttribute("aria-label", `${quantity.label}${unit ? `, ${unit}` : ""}`);
@@ -36,7 +46,10 @@
     unitPlace.textContent = unit;
     usual.textContent = `as new ${words.short(quantity.value * factor)}${unit ? ` ${unit}` : ""}`;
     const send = value => each({ action: "damper", key: quantity.key, value: Number((value / factor).toPrecision(5)) });
-    live.controls.pair(range, number, send, { toValue: part => toValue(part) * factor, toPart: value => toPart(value / factor) });
+    live.controls.pair(range, number, send, {
+      toValue: part => toValue(part) * factor,
+      toPart: value => toPart(value / factor),
+    });
     range.addEventListener("input", () => range.setAttribute("aria-valuetext", `${number.value} ${unit}`.trim()));
     const show = value => {
       if ([range, number].includes(document.activeElement) && !isForced) return;
@@ -51,14 +64,34 @@
     return { place, key: quantity.key, show };
   }
 
+  // Quantities of the first chosen damper. A preset may be of another kind, whose quantities the status then lists.
+  function quantities() {
+    const number = live.view.dampers[0];
+    const state = live.status?.dampers?.[number];
+    const list = state?.quantities ?? live.scene.dampers[number].quantities;
+    return list.filter(({ key }) => !state || key in state.values);
+  }
+
+  const keys = list => list.map(({ key }) => key).join();
+
+  function fill() {
+    rows = quantities().map(row);
+    by("quantities").replaceChildren(...rows.map(({ place }) => place));
+  }
+
   function build() {
     const [damper] = chosen();
-    rows = damper.quantities.map(row);
-    by("quantities").replaceChildren(...rows.map(({ place }) => place));
+    fill();
     live.controls.options(by("preset"), [["", "choose …"], ...(damper.presets ?? []).map(name => [name, name])]);
-    live.controls.options(by("fault"), [["", "choose …"], ...live.scene.faults.map(({ id, label }) => [id, words.capital(label)])]);
+    live.controls.options(by("fault"), [
+      ["", "choose …"],
+      ...live.scene.faults.map(({ id, label }) => [id, words.capital(label)]),
+    ]);
     by("outside").hidden = !damper.outside;
-    const text = live.view.dampers.length > 1 ? `${live.view.dampers.length} dampers change together. The loop shows the first.` : "";
+    const text =
+      live.view.dampers.length > 1
+        ? `${live.view.dampers.length} dampers change together. The loop shows the first.`
+        : "";
     live.verdict.put("damper-count", text);
     live.verdict.put("loop-name", words.capital(damper.name));
     status();
@@ -69,11 +102,18 @@
     const number = live.view.dampers[0];
     const state = live.status?.dampers?.[number];
     if (!state) return;
+    if (keys(rows) !== keys(quantities())) fill();
     for (const { key, show } of rows) if (key in state.values) show(state.values[key]);
     const changed = live.scene.dampers.filter((_, n) => live.vehicle.changed(n)).length;
     const fault = live.scene.faults.find(({ id }) => id === state.fault);
-    live.verdict.put("damper-state", fault ? `▲ Fault: ${fault.label}.` : state.changed ? "▲ Not as new." : "✓ As new.");
-    live.verdict.put("damper-changed", changed === 0 ? "" : `${changed} of ${live.scene.dampers.length} dampers are not as new.`);
+    live.verdict.put(
+      "damper-state",
+      fault ? `▲ Fault: ${fault.label}.` : state.changed ? "▲ Not as new." : "✓ As new.",
+    );
+    live.verdict.put(
+      "damper-changed",
+      changed === 0 ? "" : `${changed} of ${live.scene.dampers.length} dampers are not as new.`,
+    );
   }
 
   function choose(numbers) {
@@ -98,8 +138,13 @@
       place.append(...list.map(([numbers, text]) => new Option(text, numbers.join(","))));
       return place;
     };
-    const kinds = Object.keys(KINDS).map(kind => [dampers.flatMap(({ direction }, n) => (direction === kind ? [n] : [])), KINDS[kind]]);
-    const together = kinds.filter(([numbers]) => numbers.length > 0).map(([numbers, text]) => [numbers, `All ${numbers.length} ${text}`]);
+    const kinds = Object.keys(KINDS).map(kind => [
+      dampers.flatMap(({ direction }, n) => (direction === kind ? [n] : [])),
+      KINDS[kind],
+    ]);
+    const together = kinds
+      .filter(([numbers]) => numbers.length > 0)
+      .map(([numbers, text]) => [numbers, `All ${numbers.length} ${text}`]);
     const single = dampers.map(({ name }, n) => [[n], words.capital(name)]);
     by("damper").replaceChildren(group("Together", together), group("One damper", single));
     const first = together[0]?.[0] ?? [0];

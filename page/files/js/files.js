@@ -32,7 +32,8 @@
     try {
       const { kind, setting, state } = JSON.parse(await chosen.text());
       if (kind !== "dashpot live state") throw new Error("this is no saved state of this page");
-      if (setting && JSON.stringify(setting.choice) !== JSON.stringify(live.status?.setting?.choice)) await live.controls.ask({ do: "start", choice: setting.choice });
+      if (setting && JSON.stringify(setting.choice) !== JSON.stringify(live.status?.setting?.choice))
+        await live.controls.ask({ do: "start", choice: setting.choice });
       const { error } = await live.controls.ask({ do: "load", state });
       if (!error) tell(`Loaded ${chosen.name}.`);
     } catch (error) {
@@ -54,7 +55,9 @@
     context.fillStyle = colours.paper;
     context.fillRect(0, 0, width, height);
     text(context, `${live.scene.vehicle}, ${live.scene.case}`, gap, 30, { colour: "ink", size: 17, weight: 600 });
-    text(context, `${by("speed-now").textContent} km/h, ${by("time-now").textContent}. ${by("verdict-text").textContent}. Displacements times ${live.view.exaggeration}.`, gap, 50);
+    const now = `${by("speed-now").textContent} km/h, ${by("time-now").textContent}`;
+    const state = `${by("verdict-text").textContent}. Displacements times ${live.view.exaggeration}.`;
+    text(context, `${now}. ${state}`, gap, 50);
     let y = head;
     for (const surface of shown) {
       const label = surface.canvas.getAttribute("aria-label")?.split(".")[0] ?? "";
@@ -76,7 +79,11 @@
     live.verdict.put("digest-note", "The reference run takes some seconds …");
     const { digest, error } = await live.controls.ask({ do: "digest" });
     const wanted = live.scene.native_digest || live.setup.native_digest;
-    const text = error ? `✕ ${error}` : digest === wanted ? "✓ The same bits as the native program." : "✕ Not the bits of the native program.";
+    const text = error
+      ? `✕ ${error}`
+      : digest === wanted
+        ? "✓ The same bits as the native program."
+        : "✕ Not the bits of the native program.";
     live.verdict.put("digest-note", `${text} ${error ? "" : digest.slice(0, 12)}`.trim());
   }
 

@@ -3,7 +3,8 @@
 {
   const live = (globalThis.live ??= {});
 
-  const isText = ({ target }) => target.matches?.('input:not([type="range"]):not([type="checkbox"]), textarea, [contenteditable]');
+  const isText = ({ target }) =>
+    target.matches?.('input:not([type="range"]):not([type="checkbox"]), textarea, [contenteditable]');
   const hasRig = () => !document.getElementById("emergency").hidden;
 
   // Without a rig, Space keeps its usual meaning on a button or in a list.
@@ -17,6 +18,7 @@
   };
 
   function press(event) {
+    if (!live.scene) return;
     if (event.key === "Escape" && hasRig()) return live.controls.stop();
     if (event.ctrlKey || event.metaKey || event.altKey || isText(event)) return;
     if (event.key === " ") {
@@ -30,16 +32,21 @@
       }
       return;
     }
-    if (/^[1-9]$/.test(event.key) && live.scene?.wheelsets[Number(event.key) - 1]) live.dampers.chooseWheelset(Number(event.key) - 1);
+    if (/^[1-9]$/.test(event.key) && live.scene.wheelsets[Number(event.key) - 1])
+      live.dampers.chooseWheelset(Number(event.key) - 1);
     else if (KEYS[event.key] && !event.target.matches?.("select")) KEYS[event.key]();
   }
 
   function start() {
     // First of all handlers. A button reacts to Space when the key is released, which must not press it as well.
     addEventListener("keydown", press, { capture: true });
-    addEventListener("keyup", event => {
-      if (event.key === " " && hasRig() && !isText(event)) event.preventDefault();
-    }, { capture: true });
+    addEventListener(
+      "keyup",
+      event => {
+        if (event.key === " " && hasRig() && !isText(event)) event.preventDefault();
+      },
+      { capture: true },
+    );
   }
 
   Object.assign(live, { keys: { start } });

@@ -21,7 +21,8 @@
     if (x === undefined || y === undefined) return;
     if (range.of !== damper) Object.assign(range, { of: damper, x: 0, y: 0 });
     const runs = [1, 0].filter(run => frames.has(run));
-    const largest = signal => Math.max(...runs.map(run => Math.max(...live.histories[run].range(signal, SECONDS).map(Math.abs))));
+    const largest = signal =>
+      Math.max(...runs.map(run => Math.max(...live.histories[run].range(signal, SECONDS).map(Math.abs))));
     // The axes grow at once and shrink slowly.
     const wanted = [nice(Math.max(2e-4, largest(x) || 0)), nice(Math.max(200, largest(y) || 0))];
     ["x", "y"].forEach((axis, n) => {
@@ -40,8 +41,14 @@
       paint.line(context, at, TOP, at, TOP + h, part === 0 ? "soft" : "line");
       paint.line(context, LEFT, up, LEFT + w, up, part === 0 ? "soft" : "line");
       const digits = size => (size >= 10 ? 0 : size >= 1 ? 1 : 2);
-      paint.text(context, words.fixed(part * range.x * 1e3, digits(range.x * 1e3)), at, TOP + h + 14, { size: 11.5, align: "center" });
-      paint.text(context, words.fixed(part * range.y * 1e-3, digits(range.y * 1e-3)), LEFT - 6, up + 4, { size: 11.5, align: "right" });
+      paint.text(context, words.fixed(part * range.x * 1e3, digits(range.x * 1e3)), at, TOP + h + 14, {
+        size: 11.5,
+        align: "center",
+      });
+      paint.text(context, words.fixed(part * range.y * 1e-3, digits(range.y * 1e-3)), LEFT - 6, up + 4, {
+        size: 11.5,
+        align: "right",
+      });
     }
     paint.text(context, "displacement, mm", LEFT + w / 2, HEIGHT_PX - 4, { size: 11.5, align: "center" });
     paint.text(context, "force, kN", LEFT + 6, TOP + 12, { size: 11.5 });
@@ -58,7 +65,11 @@
     context.setLineDash(run === 1 ? [5, 4] : []);
     for (let part = 0; part < 4; part++) {
       context.beginPath();
-      for (let i = begin + Math.floor((part * count) / 4); i <= Math.min(history.end - 1, begin + Math.ceil(((part + 1) * count) / 4)); i += stride)
+      for (
+        let i = begin + Math.floor((part * count) / 4);
+        i <= Math.min(history.end - 1, begin + Math.ceil(((part + 1) * count) / 4));
+        i += stride
+      )
         context.lineTo(px(history.last[x * ROWS + (i % ROWS)]), py(history.last[y * ROWS + (i % ROWS)]));
       context.globalAlpha = 0.25 + 0.25 * part;
       context.lineWidth = run === 1 ? 1.25 : 2;
@@ -74,5 +85,5 @@
     context.fill();
   }
 
-  live.drawLoops = () => paint.view("loop", { height: () => HEIGHT_PX, draw, period_ms: 40 });
+  live.drawLoops = () => paint.view("loop", { height: () => HEIGHT_PX, draw, period_ms: 64 });
 }

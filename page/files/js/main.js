@@ -6,15 +6,22 @@
 
   // Drawing stops for this frame after so much time; what is left comes first in the next frame.
   const BUDGET_MS = 3.5;
+  // So many drawings at most for a frame: without a graphics processor, the browser fills their areas after the script.
+  const VIEWS = 4;
   const WRITE_MS = 250;
   const SUMMARY_MS = 2000;
 
   live.setup = JSON.parse(by("setup").textContent);
   live.view = { exaggeration: 20, wheelset: 0, dampers: [], signals: null };
   live.timing = {
-    frames: 0, mean_ms: 0, greatest_ms: 0, pending_ms: 0,
+    frames: 0,
+    mean_ms: 0,
+    greatest_ms: 0,
+    pending_ms: 0,
     // Time of scripts outside of the drawing counts for the next frame.
-    spend(ms) { this.pending_ms += ms; },
+    spend(ms) {
+      this.pending_ms += ms;
+    },
     count(ms) {
       const all = ms + this.pending_ms;
       this.pending_ms = 0;
@@ -22,7 +29,9 @@
       this.mean_ms += (all - this.mean_ms) / this.frames;
       this.greatest_ms = Math.max(this.greatest_ms, all);
     },
-    clear() { Object.assign(this, { frames: 0, mean_ms: 0, greatest_ms: 0, pending_ms: 0 }); },
+    clear() {
+      Object.assign(this, { frames: 0, mean_ms: 0, greatest_ms: 0, pending_ms: 0 });
+    },
   };
 
   function scene(message) {
@@ -73,7 +82,7 @@
         live.curves.reset();
         live.verdict.restart();
       }
-      isFresh = true;
+      received++;
     },
     message(message) {
       if (message.type === "scene") scene(message);
@@ -88,59 +97,82 @@
     },
   };
 
-  let isFresh = false;
+  // Number of frames so far.
+  let received = 0;
   const written = { at: 0, summary: 0 };
 
   // The views whose turn it is, most overdue first.
   function due(now) {
-    const wanted = live.paint.views.filter(view => view.isSeen && (view.isStale || (isChanged && now - view.drawn >= view.period_ms - 2)));
-    return wanted.sort((a, b) => a.drawn + a.period_ms - (b.drawn + b.period_ms));
+    const isDue = view =>
+      view.isSeen && (view.isStale || (view.frame !== received && now - view.drawn >= view.period_ms - 2));
+    return live.paint.views.filter(isDue).sort((a, b) => a.drawn + a.period_ms - (b.drawn + b.period_ms));
   }
 
-  let isChanged = false;
+  function paint(now, start) {
+    const turn = view => {
+      view.paint();
+      Object.assign(view, { drawn: now, frame: received });
+    };
+    for (const view of due(now).slice(0, VIEWS)) {
+      if (performance.now() - start > BUDGET_MS) break;
+      if (view.drawn === now) continue;
+      turn(view);
+      // Views with a common time have their turn together, so that their times agree.
+      if (view.group)
+        live.paint.views
+          .filter(({ group, drawn, isSeen }) => group === view.group && drawn !== now && isSeen)
+          .forEach(turn);
+    }
+  }
+
+  function write(now) {
+    written.at = now;
+    live.verdict.write(now);
+    live.panels.write();
+    if (now - written.summary < SUMMARY_MS) return;
+    written.summary = now;
+    live.verdict.summary();
+  }
+
+  // Texts have a frame of the screen for themselves.
   function draw(now) {
     const start = performance.now();
-    if (isFresh) isChanged = true;
-    isFresh = false;
-    if (live.scene && now - written.at > WRITE_MS) {
-      written.at = now;
-      live.verdict.write(now);
-      live.panels.write();
-      if (now - written.summary > SUMMARY_MS) {
-        written.summary = now;
-        live.verdict.summary();
-      }
-    } else {
-      const views = due(now);
-      for (const view of views) {
-        if (performance.now() - start > BUDGET_MS) break;
-        view.paint();
-        view.drawn = now;
-      }
-      // All have seen the newest frame.
-      if (views.every(view => view.drawn === now)) isChanged = due(now).length > 0 || live.paint.views.some(view => view.isSeen && now - view.drawn > 0.5 && view.drawn < now);
-    }
+    if (live.scene && now - written.at > WRITE_MS) write(now);
+    else paint(now, start);
     live.timing.count(performance.now() - start);
     requestAnimationFrame(draw);
   }
 
   async function start() {
-    for (const part of [live.controls, live.dampers, live.cases, live.setting, live.files, live.keys, live.choices, live.pick]) part.start();
+    for (const part of [
+      live.controls,
+      live.dampers,
+      live.cases,
+      live.setting,
+      live.files,
+      live.keys,
+      live.choices,
+      live.pick,
+    ])
+      part.start();
     live.bars.start();
     for (const view of [live.drawSide, live.drawAbove, live.drawBehind, live.drawContact, live.drawLoops]) view();
     requestAnimationFrame(draw);
     const linked = await live.setting.read();
     live.setting.look(linked?.view);
     if (linked?.version && linked.version !== live.setup.version)
-      live.controls.note(`The link was made by version ${linked.version}; this is ${live.setup.version}. The run may differ.`);
+      live.controls.note(
+        `The link was made by version ${linked.version}; this is ${live.setup.version}. The run may differ.`,
+      );
     live.source = live.connect(live.setup.source, handlers);
     const chosen = linked?.choice ?? live.setup.choice;
-    live.cases.show(chosen);
+    live.cases.show(chosen ?? {});
     if (live.setup.source === "page") {
       if (live.paint.isStill()) live.source.send({ do: "run", factor: 0 });
       const { error } = await live.cases.begin(chosen, linked?.actions ?? []);
-      if (!error && live.paint.isStill()) live.controls.note("Paused, because your system asks for less motion. Press Run to start.");
-    } else if (linked) {
+      if (!error && live.paint.isStill())
+        live.controls.note("Paused, because your system asks for less motion. Press Run to start.");
+    } else if (linked?.choice) {
       await live.cases.begin(chosen, linked.actions ?? []);
     }
   }

@@ -5,8 +5,31 @@
 
   const DARK = matchMedia("(prefers-color-scheme: dark)");
   const STILL = matchMedia("(prefers-reduced-motion: reduce)");
-  const NAMES = ["paper", "ground", "ink", "soft", "line", "accent", "left", "right", "force", "ghost", "metal", "shell",
-    "ballast", "within", "near", "over", "worn", "series-1", "series-2", "series-3", "series-4", "series-5", "series-6"];
+  const NAMES = [
+    "paper",
+    "ground",
+    "ink",
+    "soft",
+    "line",
+    "accent",
+    "left",
+    "right",
+    "force",
+    "ghost",
+    "metal",
+    "shell",
+    "ballast",
+    "within",
+    "near",
+    "over",
+    "worn",
+    "series-1",
+    "series-2",
+    "series-3",
+    "series-4",
+    "series-5",
+    "series-6",
+  ];
   const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif';
 
   const colours = {};
@@ -19,9 +42,19 @@
   }
 
   // Lets `draw(surface)` paint a canvas at most once in `period_ms`. `height(width)` is its height in pixels.
-  function view(id, { height, draw, period_ms = 0 }) {
+  function view(id, { height, draw, period_ms = 0, group = null }) {
     const canvas = document.getElementById(id);
-    const surface = { canvas, context: canvas.getContext("2d"), width: 0, height: 0, isSeen: true, isStale: true, drawn: 0, period_ms };
+    const surface = {
+      canvas,
+      context: canvas.getContext("2d"),
+      width: 0,
+      height: 0,
+      isSeen: true,
+      isStale: true,
+      drawn: 0,
+      period_ms,
+      group,
+    };
     // The width comes from the observer, because asking the page for it would force a layout.
     surface.fit = (width = surface.width) => {
       if (width === 0) return;
@@ -40,7 +73,9 @@
       surface.isStale = false;
     };
     new ResizeObserver(([{ contentRect }]) => surface.fit(Math.round(contentRect.width))).observe(canvas.parentElement);
-    new IntersectionObserver(([entry]) => (surface.isSeen = entry.isIntersecting), { rootMargin: "80px" }).observe(canvas);
+    new IntersectionObserver(([entry]) => (surface.isSeen = entry.isIntersecting), { rootMargin: "80px" }).observe(
+      canvas,
+    );
     views.push(surface);
     return surface;
   }

@@ -17,7 +17,9 @@
   function limits(name) {
     const { scene } = live;
     if (name.endsWith("_derailment")) return [scene.derailment_limit];
-    const set = scene.wheelsets.find(({ slug }) => [slug + "_lateral_force_n", slug + "_filtered_lateral_force_n"].includes(name));
+    const set = scene.wheelsets.find(({ slug }) =>
+      [slug + "_lateral_force_n", slug + "_filtered_lateral_force_n"].includes(name),
+    );
     return set ? [set.lateral_limit_n, -set.lateral_limit_n] : [];
   }
 
@@ -25,7 +27,8 @@
     const number = live.index.get(name);
     if (number === undefined || panels.some(panel => panel.traces.some(trace => trace.name === name))) return;
     const signal = live.scene.signals[number];
-    const kind = signal.unit + (name.match(/_(acceleration|derailment|load_n|contact_m|lateral_force_n|force_n)/)?.[1] ?? "");
+    const kind =
+      signal.unit + (name.match(/_(acceleration|derailment|load_n|contact_m|lateral_force_n|force_n)/)?.[1] ?? "");
     let panel = panels.find(panel => panel.kind === kind && panel.traces.length < curves.LETTERS.length);
     if (!panel) panels.push((panel = make(kind, signal.unit)));
     const taken = panel.traces.map(({ colour }) => colour);
@@ -37,11 +40,29 @@
 
   function make(kind, unit) {
     const canvas = element("canvas", { id: `curve-${panels.length}-${Date.now() % 1e6}`, tabIndex: 0 });
-    canvas.setAttribute("role", "img");
-    const panel = { kind, unit, factor: words.unit(unit).factor, traces: [], limits: [], canvas, head: element("ul", { className: "legend" }) };
-    panel.place = element("div", { className: "panel" }, panel.head, element("div", { className: "canvas" }, canvas));
+    canvas.setAttribute("role", "application");
+    const panel = {
+      kind,
+      unit,
+      factor: words.unit(unit).factor,
+      traces: [],
+      limits: [],
+      canvas,
+      head: element("ul", { className: "legend" }),
+    };
+    panel.place = element(
+      "div",
+      { className: "curve-panel" },
+      panel.head,
+      element("div", { className: "canvas" }, canvas),
+    );
     place().append(panel.place);
-    panel.view = paint.view(canvas.id, { height: () => curves.HEIGHT_PX, draw: surface => curves.draw(panel, surface), period_ms: 32 });
+    panel.view = paint.view(canvas.id, {
+      height: () => curves.HEIGHT_PX,
+      draw: surface => curves.draw(panel, surface),
+      period_ms: 48,
+      group: "curves",
+    });
     listen(canvas);
     return panel;
   }
@@ -49,15 +70,23 @@
   function legend(panel) {
     panel.head.replaceChildren(
       ...panel.traces.map((trace, index) => {
-        trace.value = element("span", { className: "value" });
-        const remove = element("button", { type: "button", className: "remove", textContent: "×", onclick: () => drop(panel, trace) });
+        trace.value = element("span", { className: "reading" });
+        const remove = element("button", {
+          type: "button",
+          className: "remove",
+          textContent: "×",
+          onclick: () => drop(panel, trace),
+        });
         remove.setAttribute("aria-label", `Remove ${trace.label}`);
         const letter = element("b", { className: "letter", textContent: curves.LETTERS[index] });
         letter.style.color = `var(--${trace.colour})`;
         return element("li", {}, letter, ` ${words.capital(trace.label)} `, trace.value, remove);
       }),
     );
-    panel.canvas.setAttribute("aria-label", `Curves of ${panel.traces.map(({ label }) => label).join("; ")}. Arrow keys move the cursor.`);
+    panel.canvas.setAttribute(
+      "aria-label",
+      `Curves of ${panel.traces.map(({ label }) => label).join("; ")}. Arrow keys move the cursor.`,
+    );
     panel.view.isStale = true;
   }
 
@@ -88,8 +117,14 @@
   function usual() {
     const [set, last] = [live.scene.wheelsets[0], live.scene.wheelsets[live.scene.wheelsets.length - 1]];
     const yaw = live.scene.dampers.find(({ direction }) => direction === "longitudinal") ?? live.scene.dampers[0];
-    const list = [set.slug + "_lateral_m", last.slug + "_lateral_m", set.slug + "_left_derailment", set.slug + "_right_derailment",
-      set.slug + "_left_load_n", set.slug + "_right_load_n"];
+    const list = [
+      set.slug + "_lateral_m",
+      last.slug + "_lateral_m",
+      set.slug + "_left_derailment",
+      set.slug + "_right_derailment",
+      set.slug + "_left_load_n",
+      set.slug + "_right_load_n",
+    ];
     return yaw ? [...list, yaw.slug + "_force_n"] : list;
   }
 
@@ -141,20 +176,31 @@
     canvas.addEventListener("pointermove", event => {
       cursor(part(event));
       if (drag && Math.abs(event.offsetX - drag.x) > 4)
-        hold(drag.from - ((event.offsetX - drag.x) / (canvas.clientWidth - curves.LEFT - curves.RIGHT)) * shown.window_s);
+        hold(
+          drag.from - ((event.offsetX - drag.x) / (canvas.clientWidth - curves.LEFT - curves.RIGHT)) * shown.window_s,
+        );
     });
     for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => (drag = null));
     canvas.addEventListener("pointerleave", () => cursor(null));
     canvas.addEventListener("dblclick", follow);
-    canvas.addEventListener("wheel", event => {
-      if (!event.ctrlKey && !event.shiftKey) return;
-      event.preventDefault();
-      zoom(Math.sign(event.deltaY || event.deltaX));
-    }, { passive: false });
+    canvas.addEventListener(
+      "wheel",
+      event => {
+        if (!event.ctrlKey && !event.shiftKey) return;
+        event.preventDefault();
+        zoom(Math.sign(event.deltaY || event.deltaX));
+      },
+      { passive: false },
+    );
     const keys = {
-      ArrowLeft: () => cursor((shown.cursor ?? 1) - 0.01), ArrowRight: () => cursor((shown.cursor ?? 1) + 0.01),
-      PageUp: () => hold(curves.from() - 0.5 * shown.window_s), PageDown: () => hold(curves.from() + 0.5 * shown.window_s),
-      Home: () => hold(0), End: () => (cursor(null), follow()), "+": () => zoom(-1), "-": () => zoom(1),
+      ArrowLeft: () => cursor((shown.cursor ?? 1) - 0.01),
+      ArrowRight: () => cursor((shown.cursor ?? 1) + 0.01),
+      PageUp: () => hold(curves.from() - 0.5 * shown.window_s),
+      PageDown: () => hold(curves.from() + 0.5 * shown.window_s),
+      Home: () => hold(0),
+      End: () => (cursor(null), follow()),
+      "+": () => zoom(-1),
+      "-": () => zoom(1),
     };
     canvas.addEventListener("keydown", event => {
       if (!keys[event.key] || event.ctrlKey || event.metaKey) return;

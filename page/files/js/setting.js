@@ -3,10 +3,14 @@
 {
   const live = (globalThis.live ??= {});
 
-  const through = async (bytes, stream) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+  const through = async (bytes, stream) =>
+    new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 
   async function pack(setting) {
-    const bytes = await through(new TextEncoder().encode(JSON.stringify(setting)), new CompressionStream("deflate-raw"));
+    const bytes = await through(
+      new TextEncoder().encode(JSON.stringify(setting)),
+      new CompressionStream("deflate-raw"),
+    );
     let letters = "";
     for (const byte of bytes) letters += String.fromCharCode(byte);
     return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
@@ -67,7 +71,12 @@
     place.select();
     let isCopied = true;
     await navigator.clipboard.writeText(place.value).catch(() => (isCopied = false));
-    live.verdict.put("files-note", isCopied ? "The link is copied. It reproduces this run from its start." : "Copy the link from the field. It reproduces this run from its start.");
+    live.verdict.put(
+      "files-note",
+      isCopied
+        ? "The link is copied. It reproduces this run from its start."
+        : "Copy the link from the field. It reproduces this run from its start.",
+    );
   }
 
   const start = () => document.getElementById("share").addEventListener("click", share);

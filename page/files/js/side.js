@@ -30,7 +30,8 @@
     context.fillRect(0, y(-0.17), width, 0.36 * pixels);
     const still = paint.isStill() ? 0 : at;
     const marks = (spacing, draw) => {
-      for (let n = Math.ceil((still + rear) / spacing); n * spacing < still + front; n++) draw(n * spacing - still, n * spacing);
+      for (let n = Math.ceil((still + rear) / spacing); n * spacing < still + front; n++)
+        draw(n * spacing - still, n * spacing);
     };
     context.globalAlpha = 0.7 * paint.sharpness(0.6, speed);
     context.fillStyle = colours.soft;
@@ -41,7 +42,8 @@
     paint.line(context, 0, y(0), width, y(0), "ink", 1);
     marks(5, (x, place) => {
       paint.line(context, sheet.x(x), y(-0.53), sheet.x(x), y(-1.25) + 2, "line");
-      if (!paint.isStill()) paint.text(context, `${Math.round(place)} m`, sheet.x(x), y(-1.25) + 14, { align: "center", size: 11 });
+      if (!paint.isStill())
+        paint.text(context, `${Math.round(place)} m`, sheet.x(x), y(-1.25) + 14, { align: "center", size: 11 });
     });
     for (const { at_m, label } of live.defects ?? []) {
       if (at_m - at < rear || at_m - at > front) continue;
@@ -65,7 +67,15 @@
       const angle = paint.isStill() ? 0 : vehicle.distance() / wheelset.radius_m;
       for (let spoke = 0; spoke < 3; spoke++) {
         const [sin, cos] = [Math.sin(angle + (spoke * Math.PI) / 3), Math.cos(angle + (spoke * Math.PI) / 3)];
-        paint.line(context, cx - cos * radius * 0.8, cy - sin * radius * 0.8, cx + cos * radius * 0.8, cy + sin * radius * 0.8, "line", 2);
+        paint.line(
+          context,
+          cx - cos * radius * 0.8,
+          cy - sin * radius * 0.8,
+          cx + cos * radius * 0.8,
+          cy + sin * radius * 0.8,
+          "line",
+          2,
+        );
       }
     }
     context.globalAlpha = 1;
@@ -74,7 +84,12 @@
     context.beginPath();
     context.arc(cx, cy, Math.min(10, 0.5 * radius), 0, 7);
     context.fill();
-    paint.text(context, String(number + 1), cx, cy + 4, { colour: isChosen ? "paper" : "ink", size: Math.min(12, radius), weight: 600, align: "center" });
+    paint.text(context, String(number + 1), cx, cy + 4, {
+      colour: isChosen ? "paper" : "ink",
+      size: Math.min(12, radius),
+      weight: 600,
+      align: "center",
+    });
     const load = frames.value(wheelset.slug + "_right_load_n") * (sheet.pixels / LOAD_PER_M);
     paint.arrow(context, cx, y(-0.42) + load * 0.62, 0, -load * 0.62, "right", Math.min(2.5, 0.1 * sheet.pixels));
   }
@@ -113,7 +128,10 @@
   function trim(context, { matrix, box: [x0, y0, x1, y1] }, pixels) {
     const path = new Path2D();
     const height = y1 - y0;
-    for (const [edge, inwards] of [[x0, 1], [x1, -1]]) {
+    for (const [edge, inwards] of [
+      [x0, 1],
+      [x1, -1],
+    ]) {
       path.moveTo(edge + inwards * 0.28 * pixels, y0 + 0.16 * height);
       path.lineTo(edge + inwards * 1.05 * pixels, y0 + 0.16 * height);
       path.lineTo(edge + inwards * 1.05 * pixels, y0 + 0.4 * height);
@@ -171,5 +189,6 @@
   }
 
   live.side = { scale, FORCE_PER_M };
-  live.drawSide = () => paint.view("side", { height: width => KEY_PX + FOOT_PX + scale(width).pixels * (SKY_M + DEPTH_M), draw });
+  live.drawSide = () =>
+    paint.view("side", { height: width => KEY_PX + FOOT_PX + scale(width).pixels * (SKY_M + DEPTH_M), draw });
 }

@@ -13,8 +13,11 @@
     const of = suffix => factor * value(part.slug + suffix, run);
     return {
       // The place of a rigid vehicle in a curve is no displacement, so it is not exaggerated.
-      lateral: of("_lateral_m") - (factor - 1) * chord(part), vertical: of("_vertical_m"), roll: of("_roll_rad"),
-      pitch: of("_pitch_rad"), yaw: of("_yaw_rad"),
+      lateral: of("_lateral_m") - (factor - 1) * chord(part),
+      vertical: of("_vertical_m"),
+      roll: of("_roll_rad"),
+      pitch: of("_pitch_rad"),
+      yaw: of("_yaw_rad"),
     };
   }
 
@@ -22,7 +25,8 @@
   const supports = new WeakMap();
   function support(part) {
     if (!supports.has(part)) {
-      const all = part.kind === "body" ? frames().map(frame => frame.centre_m[0]) : live.scene.wheelsets.map(set => set.x_m);
+      const all =
+        part.kind === "body" ? frames().map(frame => frame.centre_m[0]) : live.scene.wheelsets.map(set => set.x_m);
       const near = all.filter(x => x >= part.x_m[0] && x <= part.x_m[1]).map(x => (x - part.centre_m[0]) ** 2);
       supports.set(part, near.length === 0 ? 0 : near.reduce((sum, square) => sum + square, 0) / near.length);
     }
@@ -39,14 +43,19 @@
   const frameAt = x => frames().find(body => carries(body, x));
   const bodyAt = x => live.scene.bodies.find(body => body.kind === "body" && carries(body, x)) ?? live.scene.bodies[0];
 
-  // Ends of a damper in the drawing [x, y, height, middle of the body that carries it], moved with the parts that carry them. Ends at one point are drawn
+  // Ends of a damper in the drawing [x, y, height, middle of the body], moved with their bodies. Ends at one point are
   // apart along the direction of the damper.
   const APART = { vertical: [0, 0, 0.62], lateral: [0, 0.55, 0], longitudinal: [0.72, 0, 0] };
   function ends(damper, run = 0) {
     const [first, second] = damper.ends_m;
     const gap = Math.hypot(...first.map((at, axis) => second[axis] - at));
     const away = APART[damper.direction] ?? APART.vertical;
-    const side = damper.direction === "lateral" ? -Math.sign(first[1] || 1) : damper.direction === "longitudinal" ? inwards(first[0]) : 1;
+    const side =
+      damper.direction === "lateral"
+        ? -Math.sign(first[1] || 1)
+        : damper.direction === "longitudinal"
+          ? inwards(first[0])
+          : 1;
     const other = gap > 0.25 ? second : first.map((at, axis) => at + side * away[axis]);
     const [lower, upper] = carriers(damper);
     return [moved(first, lower, run), moved(other, upper, run)];
@@ -67,7 +76,12 @@
   function moved([x, y, height], part, run) {
     const { lateral, vertical, roll, pitch, yaw } = motion(part, run);
     const [dx, dz] = [x - part.centre_m[0], part.centre_m[1] - height];
-    return [x - yaw * y, y + lateral - roll * dz + yaw * dx, height - vertical - roll * y + pitch * dx, part.centre_m[0]];
+    return [
+      x - yaw * y,
+      y + lateral - roll * dz + yaw * dx,
+      height - vertical - roll * y + pitch * dx,
+      part.centre_m[0],
+    ];
   }
 
   const changed = number => Boolean(live.status?.dampers?.[number]?.changed || live.status?.dampers?.[number]?.fault);
@@ -93,7 +107,8 @@
     if (Math.abs(curvature) < 1e-5) return "straight track";
     const radius = Math.round(1 / Math.abs(curvature) / 10) * 10;
     const tilt = Math.abs(cant) < 5e-4 ? "" : `, cant ${Math.round(1000 * Math.abs(cant))} mm`;
-    return `curve to the ${curvature > 0 ? "right" : "left"}, radius ${radius > 20000 ? "over 20 km" : radius + " m"}${tilt}`;
+    const way = curvature > 0 ? "right" : "left";
+    return `curve to the ${way}, radius ${radius > 20000 ? "over 20 km" : `${radius} m`}${tilt}`;
   }
 
   const distance = () => live.histories?.[0]?.newest?.distance_m ?? live.scene?.start_m ?? 0;
@@ -108,5 +123,7 @@
     return (live.status?.speed_km_h ?? 0) / 3.6;
   }
 
-  Object.assign(live, { vehicle: { motion, frames, frameAt, bodyAt, ends, changed, force, course, courseInWords, distance, speed } });
+  Object.assign(live, {
+    vehicle: { motion, frames, frameAt, bodyAt, ends, changed, force, course, courseInWords, distance, speed },
+  });
 }

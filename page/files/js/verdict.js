@@ -17,19 +17,27 @@
   };
 
   const of = ({ number, side }) => `wheelset ${number + 1}${side ? `, ${side} wheel` : ""}`;
+  // Of a wheel or wheelset: the value, the value and its limit, the share of the load.
+  const ratio = ({ value }) => `${words.fixed(value, 2)} of ${words.fixed(live.scene.derailment_limit, 2)}`;
+  const push = ({ value, set }) =>
+    `${words.fixed(Math.abs(value) * 1e-3, 0)} of ${words.quantity(set.lateral_limit_n, "N", 0)}`;
+  const load = ({ value, set }) =>
+    value <= 0 ? "lifted" : `${words.fixed((100 * value) / set.load_static_n, 0)} % of its load`;
   const SHORT = {
-    climbing: found => `${of(found)}: Y/Q ${words.fixed(found.value, 2)} of ${words.fixed(live.scene.derailment_limit, 2)}`,
-    shifting: found => `${of(found)}: lateral force ${words.fixed(Math.abs(found.value) * 1e-3, 0)} of ${words.quantity(found.set.lateral_limit_n, "N", 0)}`,
-    unloading: found => `${of(found)}: ${found.value <= 0 ? "lifted" : `${Math.round((100 * found.value) / found.set.load_static_n)} % of its load`}`,
+    climbing: found => `${of(found)}: Y/Q ${ratio(found)}`,
+    shifting: found => `${of(found)}: lateral force ${push(found)}`,
+    unloading: found => `${of(found)}: ${load(found)}`,
   };
-  const SENTENCES = {
-    climbing: found => `Y/Q is ${words.fixed(found.value, 2)} of at most ${words.fixed(live.scene.derailment_limit, 2)} at ${of(found)}`,
-    shifting: found => `${of(found)} pushes the track with ${words.quantity(Math.abs(found.value), "N")} of at most ${words.quantity(found.set.lateral_limit_n, "N")}`,
-    unloading: found => (found.value <= 0 ? `${of(found)} has lifted` : `${of(found)} keeps ${Math.round((100 * found.value) / found.set.load_static_n)} % of its load`),
+  const LONG = {
+    climbing: found => `The highest Y/Q is ${ratio(found)}, at ${of(found)}`,
+    shifting: found => `The highest lateral force is ${push(found)}, at ${of(found)}`,
+    unloading: found => `The least loaded wheel is ${of(found)}, ${found.value <= 0 ? "" : "with "}${load(found)}`,
   };
 
   function verdict() {
-    const found = Object.keys(SENTENCES).map(name => [name, bars.worst(name)]).filter(([, worst]) => worst);
+    const found = Object.keys(LONG)
+      .map(name => [name, bars.worst(name)])
+      .filter(([, worst]) => worst);
     for (const [name, worst] of found) {
       const { sign, word } = words.STATES[worst.state];
       const place = by(`${name}-word`);
@@ -66,31 +74,51 @@
     });
     const most = swings.reduce((best, swing, n) => (swing > swings[best] ? n : best), 0);
     const sentences = [
-      `${words.capital(live.scene.vehicle)}, ${words.fixed(vehicle.speed() * 3.6, 0)} km/h, ${vehicle.courseInWords(vehicle.distance())}.`,
+      `${words.capital(live.scene.vehicle)}, ${words.fixed(vehicle.speed() * 3.6, 0)} km/h.`,
+      `${words.capital(vehicle.courseInWords(vehicle.distance()))}.`,
     ];
     if (Number.isFinite(swings[most]))
-      sentences.push(`In the last 2 s wheelset ${most + 1} swings most from side to side: ${words.quantity(swings[most], "m", 1)}.`);
-    for (const name of Object.keys(SENTENCES)) {
+      sentences.push(
+        `In the last 2 s wheelset ${most + 1} swings most from side to side: ${words.quantity(swings[most], "m", 1)}.`,
+      );
+    for (const name of Object.keys(LONG)) {
       const worst = bars.worst(name);
-      if (worst) sentences.push(`${words.capital(SENTENCES[name](worst))}: ${words.STATES[worst.state].word}.`);
+      if (worst) sentences.push(`${words.capital(LONG[name](worst))}: ${words.STATES[worst.state].word}.`);
     }
     const worn = live.scene.dampers.filter((_, number) => vehicle.changed(number));
-    sentences.push(worn.length === 0 ? "All dampers are as new." : `Not as new: ${worn.map(({ name }) => name).join(", ")}.`);
+    sentences.push(
+      worn.length === 0 ? "All dampers are as new." : `Not as new: ${worn.map(({ name }) => name).join(", ")}.`,
+    );
     put("summary", sentences.join(" "));
   }
 
   // Alarms first, then the chosen dampers; all others are good or unknown.
   function health({ readings }) {
     const chosen = live.view.dampers.map(number => live.scene.dampers[number]?.name);
-    const isAlarm = ({ alarm, trusted }) => alarm && trusted !== false;
-    const shown = [...readings.filter(isAlarm), ...readings.filter(reading => !isAlarm(reading) && chosen.includes(reading.damper))].slice(0, ROWS);
+    const isAlarm = ({ alarm }) => alarm;
+    const shown = [
+      ...readings.filter(isAlarm),
+      ...readings.filter(reading => !isAlarm(reading) && chosen.includes(reading.damper)),
+    ].slice(0, ROWS);
     const rows = shown.map(({ damper, label, value, low, high, unit, alarm, trusted }) => {
       const row = document.createElement("tr");
-      if (alarm && trusted !== false) row.className = "alarm";
+      if (alarm) row.className = "alarm";
       const { factor, text: written, digits } = words.unit(unit);
       const [middle, least, most] = [value, low, high].map(number => words.fixed(number * factor, digits));
-      const cells = [words.capital(damper), label, `${middle} ${written}`.trim() + ` (${least} to ${most})`, trusted === false ? "not yet sure" : alarm ? "▲ alarm" : "✓ good"];
-      row.append(...cells.map((text, n) => Object.assign(document.createElement(n === 0 ? "th" : "td"), { textContent: text, ...(n === 0 ? { scope: "row" } : {}) })));
+      const cells = [
+        words.capital(damper),
+        label,
+        `${middle} ${written}`.trim() + ` (${least} to ${most})`,
+        (alarm ? "▲ alarm" : "✓ good") + (trusted === false ? ", value unsure" : ""),
+      ];
+      row.append(
+        ...cells.map((text, n) =>
+          Object.assign(document.createElement(n === 0 ? "th" : "td"), {
+            textContent: text,
+            ...(n === 0 ? { scope: "row" } : {}),
+          }),
+        ),
+      );
       return row;
     });
     by("health-rows").replaceChildren(...rows);
@@ -114,16 +142,21 @@
     measurePace(now);
     const newest = live.histories?.[0]?.newest;
     const wanted = live.status?.factor ?? 0;
-    put("reached", wanted === 0 ? "paused" : Number.isFinite(pace.reached) ? `${words.fixed(pace.reached, 2)} times real time` : "–");
+    const reached = Number.isFinite(pace.reached) ? `${words.fixed(pace.reached, 2)} times real time` : "–";
+    put("reached", wanted === 0 ? "paused" : reached);
     put("slower", newest && newest.flags & frames.FLAGS.slow ? "▲ slower than wanted" : "");
     if (!newest || !(newest.work_us > 0)) return;
     const tick = 1e6 * live.scene.step_s;
     put("work-mean", `${words.short(newest.work_us)} µs`);
     put("work-most", `${words.short(newest.greatest_us)} µs`);
-    put("work-share", `${words.fixed((100 * newest.work_us) / tick, 1)} % of the ${words.short(tick / 1000)} ms of a tick.`);
+    put(
+      "work-share",
+      `${words.fixed((100 * newest.work_us) / tick, 1)} % of the ${words.short(tick / 1000)} ms of a tick.`,
+    );
     by("work-bar").value = Math.min(1, newest.work_us / tick);
     const { mean_ms, greatest_ms, frames: count } = live.timing;
-    put("page-timing", `This page: ${words.fixed(mean_ms, 1)} ms of script a frame, at most ${words.fixed(greatest_ms, 1)} ms in ${count} frames.`);
+    const page = `${words.fixed(mean_ms, 1)} ms of script a frame, at most ${words.fixed(greatest_ms, 1)} ms`;
+    put("page-timing", `This page: ${page} in ${count} frames.`);
   }
 
   function readouts() {
@@ -141,5 +174,7 @@
     timing(now);
   }
 
-  Object.assign(live, { verdict: { write, summary, health, put, restart: () => Object.assign(pace, { at: 0, time_s: 0, reached: NaN }) } });
+  Object.assign(live, {
+    verdict: { write, summary, health, put, restart: () => Object.assign(pace, { at: 0, time_s: 0, reached: NaN }) },
+  });
 }
