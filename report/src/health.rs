@@ -4,10 +4,10 @@ use dashpot_core::health::{Estimate, HealthReading};
 use maud::{Markup, html};
 
 use super::DrawError;
-use super::page::{Figure, document, figure, footer, panel, tiles};
+use super::page::{Figure, document, figure, footer, judged, panel, tiles};
 use super::plot::curves::Curve;
 use super::plot::sheet::Panel;
-use super::plot::style::{AMBER_LINE, BLUE_LINE, PALE};
+use super::plot::style::{COMPARED, LIMIT, RESULT};
 use dashpot_testbench::health::{
     History, alarm_in_words, doubts_in_words, in_words, stiffness_in_words,
 };
@@ -52,8 +52,8 @@ pub fn page(title: &str, history: &History) -> Result<String, DrawError> {
         cursor_group: Some("time"),
     };
     let caption = html! {
-        "Blue: estimate with a band of two standard deviations. Dashed: baseline. Amber: alarm limits. An alarm is \
-         raised when an estimate exceeds a limit by " (history.model.limits().deviations) " standard deviations."
+        "The band around an estimate is two standard deviations. An alarm is raised when an estimate exceeds a limit \
+         by " (history.model.limits().deviations) " standard deviations."
     };
     let body = html! {
         h1 { "Health of a damper" }
@@ -175,16 +175,16 @@ fn plot(history: &History, parameter: &Parameter) -> Panel {
             .collect()
     };
     let mut curves = vec![
-        Curve::band("", BLUE_LINE, band),
-        Curve::new(parameter.label, BLUE_LINE, line),
+        Curve::band("", RESULT, band),
+        Curve::new("estimate", RESULT, line),
     ];
     let baseline = parameter
         .baseline
-        .map(|value| Curve::new("baseline", PALE, level(value)).dashed());
+        .map(|value| Curve::new("baseline", COMPARED, level(value)).dashed());
     curves.extend(baseline);
     let limits = parameter.limits.into_iter();
-    let limits = limits.flat_map(|limits| [limits.low, limits.high]);
-    curves.extend(limits.map(|value| Curve::new("", AMBER_LINE, level(value))));
+    let limits = limits.flat_map(|limits| [("", limits.low), ("alarm limits", limits.high)]);
+    curves.extend(limits.map(|(name, value)| Curve::new(name, LIMIT, level(value)).dashed()));
     let mut panel = panel("time, s", &label(parameter), curves);
     panel.keeps_to_values = true;
     panel
@@ -219,12 +219,12 @@ fn headline(history: &History, parameters: &[Parameter]) -> Markup {
 fn alarms(history: &History) -> Markup {
     html! {
         @if history.alarms.is_empty() {
-            p { "No alarm." }
+            p { (judged(true, "No alarm.")) }
         } @else {
             ul {
                 @for (alarm, time_s) in &history.alarms {
                     @if let Some(last) = history.last() {
-                        li { "Alarm: " (alarm_in_words(*alarm, last)) ", since " (format!("{time_s:.2}")) " s." }
+                        li { (judged(false, "Alarm")) ": " (alarm_in_words(*alarm, last)) ", since " (format!("{time_s:.2}")) " s." }
                     }
                 }
             }

@@ -147,7 +147,8 @@ fn a_case_writes_histories_indices_and_a_page() {
         "Spectra",
         "Nadal's limit is 1.34",
         "<svg",
-        "aria-label=\"Q left, kN over time, s\"",
+        "aria-label=\"wheelset 1: Q, kN over time, s. Curves: left, right, standstill\"",
+        "<a href=\"#track-under-the-vehicle\">Track under the vehicle</a>",
     ] {
         assert!(page.contains(part), "{part}");
     }

@@ -142,15 +142,14 @@ fn the_page_shows_each_slot_and_the_results() {
         .iter()
         .enumerate()
     {
-        assert!(page.contains(&format!("<h3>Slot {place}: {damper}</h3>")));
+        assert!(page.contains(&format!("</svg>slot {place}: {damper}</button>")));
+        let row = format!("<td>{place}</td><td class=\"text\">{damper}</td>");
+        assert!(page.contains(&row), "{row}");
     }
-    // Forces of three slots, clock ticks as a histogram and over time, and round trip times.
-    assert_eq!(page.matches("class=\"plot\"").count(), 6);
-    assert_eq!(
-        page.matches("Every force is bit-identical to that of the host.")
-            .count(),
-        3
-    );
+    // Forces, round trip times, and clock ticks as a histogram and over time.
+    assert_eq!(page.matches("class=\"plot\"").count(), 4);
+    let identical = "<span class=\"within\">✓ bit-identical to the host</span>";
+    assert_eq!(page.matches(identical).count(), 3);
     assert!(!page.contains("Marks on the time axes"));
 }
 
@@ -201,8 +200,13 @@ fn a_force_that_differs_fails_the_command_and_is_shown() {
     assert_eq!(differing[0][0], "42");
     assert_ne!(differing[0][7], differing[0][8]);
     let page = std::fs::read_to_string(folder.path().join("run.html")).unwrap();
+    // Only the slot that differs has its own figure.
     assert_eq!(
-        page.matches("Red, on separate axes: target minus host.")
+        page.matches("target minus host, and both forces.").count(),
+        1
+    );
+    assert_eq!(
+        page.matches("<span class=\"above\">✗ differ</span>")
             .count(),
         1
     );

@@ -1,12 +1,13 @@
 //! Headless Chromium showing a page, driven through WebDriver.
 
 use std::io::{BufRead, BufReader};
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use fantoccini::actions::{InputSource, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
 use fantoccini::wd::WebDriverCompatibleCommand;
-use fantoccini::{Client, ClientBuilder};
+use fantoccini::{Client, ClientBuilder, Locator};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -142,6 +143,34 @@ impl Browser {
     /// Double-clicks in the middle of a plot.
     pub fn double_click(&self, plot: usize) {
         self.act(plot, &[[0.5, 0.5]], true);
+    }
+
+    /// Gives an element the focus and presses keys.
+    pub fn press(&self, selector: &str, keys: &str) {
+        let pressed = async {
+            let element = self.client().find(Locator::Css(selector)).await?;
+            element.send_keys(keys).await
+        };
+        self.runtime.block_on(pressed).unwrap();
+    }
+
+    /// Clicks an element.
+    pub fn click(&self, selector: &str) {
+        let clicked = async {
+            let element = self.client().find(Locator::Css(selector)).await?;
+            element.click().await
+        };
+        self.runtime.block_on(clicked).unwrap();
+    }
+
+    /// Returns the folder into which the browser saves files.
+    pub fn saving(&self) -> PathBuf {
+        let folder = self.folder.path().join("saved");
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.to_str().unwrap();
+        let allowed = json!({ "behavior": "allow", "downloadPath": path });
+        self.tell("Browser.setDownloadBehavior", allowed);
+        folder
     }
 
     /// Moves the mouse to the corner of the window, outside all plots.

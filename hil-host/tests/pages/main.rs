@@ -3,9 +3,14 @@
 mod browser;
 #[path = "../common/mod.rs"]
 mod common;
+mod contents;
 mod curves;
+mod data;
+mod keys;
 mod layout;
+mod legend;
 mod loops;
+mod panels;
 #[path = "../link/pil_common/mod.rs"]
 mod pil_common;
 mod policy;

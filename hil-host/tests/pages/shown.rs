@@ -16,6 +16,16 @@ pub static VEHICLE: LazyLock<String> = LazyLock::new(|| {
     made(&arguments, "run/report.html")
 });
 
+/// Page and indices of a locomotive that enters a curve.
+pub static CURVE: LazyLock<[String; 2]> = LazyLock::new(|| {
+    let folder = tempfile::tempdir().unwrap();
+    let case = ["vehicle", "--case", "curve-r300", "--duration-s", "5"];
+    let line = [&case[..], &["--output", "run"]].concat();
+    dashpot(&line, folder.path()).success();
+    let files = ["run/report.html", "run/indices.json"];
+    files.map(|file| fs::read_to_string(folder.path().join(file)).unwrap())
+});
+
 /// Page of a damper on a target simulated in this process: a histogram, a logarithmic scale, dashed lines.
 pub static BANK: LazyLock<String> = LazyLock::new(|| {
     let link = format!("tcp:{}", serve_tcp(|| Box::new(desk())));
@@ -84,9 +94,9 @@ fn made(arguments: &[&str], page: &str) -> String {
 pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
     [
         ("demonstration", &DEMONSTRATION, 13, "time, s"),
-        ("vehicle", &VEHICLE, 41, "time, s"),
-        ("bank", &BANK, 6, "time, s"),
-        ("study", &STUDY, 9, "time, s"),
+        ("vehicle", &VEHICLE, 73, "time, s"),
+        ("bank", &BANK, 4, "time, s"),
+        ("study", &STUDY, 10, "time, s"),
         ("sheet", &SHEET, 6, "peak velocity, m/s"),
         ("response", &RESPONSE, 3, "frequency, Hz"),
         // Three profiles, and two loops and the residual for each of four tests.

@@ -2,20 +2,29 @@
 //! the plots from numbers in the page, with zoom and a shared cursor.
 
 mod colour;
+mod contents;
 mod figure;
+mod heat;
 mod policy;
 mod series;
+mod verdict;
 
 pub use crate::plot::sheet::panel;
 pub use figure::Figure;
+pub use heat::{HeatAxis, HeatMap};
+pub use verdict::{judged, share_cell, verdict};
+
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 pub use policy::content_policy;
 
 use crate::DrawError;
 
-/// Scripts of a page: the plotting library (uplot/README.md), then the code that uses it.
-const SCRIPTS: [&str; 2] = [
+/// Scripts of a page: the plotting library (uplot/README.md), the controls of a plot, then the code that uses both.
+const SCRIPTS: [&str; 5] = [
     include_str!("uplot/uPlot.iife.min.js"),
+    include_str!("legend.js"),
+    include_str!("data.js"),
+    include_str!("keys.js"),
     include_str!("plots.js"),
 ];
 /// Licence of the plotting library, which must accompany it.
@@ -26,7 +35,7 @@ const STYLES: [&str; 2] = [
     include_str!("page.css"),
 ];
 
-/// Returns the text of a page with `title` and `body`.
+/// Returns the text of a page with `title` and `body`. Its second-level headings become its contents.
 pub fn document(title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
@@ -46,7 +55,7 @@ pub fn document(title: &str, body: &Markup) -> String {
                              complete."
                         }
                     }
-                    (body)
+                    (PreEscaped(contents::with_contents(&body.0)))
                 }
                 (PreEscaped(format!("<!-- uPlot\n{LICENCE}-->\n")))
                 @for script in SCRIPTS { script { (PreEscaped(script)) } }
@@ -75,10 +84,14 @@ pub fn figure(figure: &Figure, caption: &Markup) -> Result<Markup, DrawError> {
     figure.html(caption)
 }
 
-/// Returns the footer, with program version, platform and `text`.
+/// Returns the footer, with the use of the plots, program version, platform and `text`.
 pub fn footer(text: &Markup) -> Markup {
     html! {
         footer {
+            p.on-screen {
+                "Plots: drag to zoom, double-click to reset. A name in a legend hides its curve, and “data” saves the "
+                "numbers. Keys: the arrows, Home and End move the cursor, + and − zoom, Escape resets."
+            }
             "dashpot " (env!("CARGO_PKG_VERSION")) " on " (std::env::consts::ARCH) " "
             (std::env::consts::OS) (built()) ". " (text)
         }

@@ -1,5 +1,6 @@
 "use strict";
 // Draws the plots of a page with uPlot from the JSON in the page (figure.rs, series.rs); plots share cursor and zoom.
+// legend.js, data.js and keys.js add their controls.
 {
   const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif';
   const DARK = matchMedia("(prefers-color-scheme: dark)");
@@ -53,7 +54,7 @@
     const y = value => u.valToPos(value, "y", true);
     const stroke = new Path2D();
     const fill = new Path2D();
-    const last = xs.length - 1;
+    const last = curve.isHidden ? -1 : xs.length - 1;
     const bottom = u.bbox.top + u.bbox.height;
     if (curve.stroke === "points") {
       for (let i = 0; i <= last; i++) {
@@ -75,7 +76,7 @@
         if (!Number.isNaN(lows[i])) stroke[isDown ? "lineTo" : "moveTo"](x(i), y(lows[i]));
         isDown = !Number.isNaN(lows[i]);
       }
-      if (curve.stroke === "filled") {
+      if (curve.stroke === "filled" && last >= 0) {
         fill.addPath(stroke);
         for (const end of [last, 0]) fill.lineTo(x(end), y(0));
       }
@@ -127,7 +128,8 @@
   // Finds the fraction of a loop at which the curve is nearest to the mouse.
   function along(panel, left, top) {
     let [least, part] = [Infinity, 0];
-    for (const { columns: [xs, ys] } of panel.curves) {
+    for (const { isHidden, columns: [xs, ys] } of panel.curves) {
+      if (isHidden) continue;
       for (let i = 0; i < xs.length; i++) {
         const distance = Math.hypot(panel.u.valToPos(xs[i], "x") - left, panel.u.valToPos(ys[i], "y") - top);
         if (distance < least) [least, part] = [distance, i / Math.max(1, xs.length - 1)];
@@ -139,8 +141,8 @@
   // The cursor of histories is an abscissa. The cursor of loops is a fraction of the loop, the same for every loop.
   function point(panel, cursor) {
     panel.cursor = cursor;
-    panel.shown = panel.curves.map(({ columns, stroke }) => {
-      if (!cursor || stroke === "marks" || columns[0].length === 0) return null;
+    panel.shown = panel.curves.map(({ columns, stroke, isHidden }) => {
+      if (!cursor || isHidden || stroke === "marks" || columns[0].length === 0) return null;
       return panel.isLoop ? Math.round(cursor.part * (columns[0].length - 1)) : nearest(columns, cursor.x);
     });
   }
@@ -154,7 +156,7 @@
       item.querySelector(".value").textContent = index == null ? "" : text();
     }
     const [quantity, unit] = x.label.split(/, (?=[^,]*$)/);
-    head.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}`.trim() : "";
+    head.parentElement.querySelector(".at").textContent = cursor && !isLoop ? `${quantity} ${number(u, "x", cursor.x)} ${unit ?? ""}`.trim() : "";
   }
 
   // Returns the other panels that share the cursor: loops of the group, or histories over the same quantity.
@@ -172,6 +174,14 @@
     }
   }
 
+  // Shows a cursor that a key has set.
+  function show(panel, cursor) {
+    point(panel, cursor);
+    const left = !cursor ? -10 : panel.isLoop ? 0 : panel.u.valToPos(cursor.x, "x");
+    panel.u.setCursor({ left, top: cursor ? 0 : -10 });
+    shareCursor(panel);
+  }
+
   // Histories zoom to the same range, where they have data.
   function shareZoom(panel) {
     if (panel.isLoop) return;
@@ -185,14 +195,20 @@
     }
   }
 
-  function options(panel, plot) {
+  // A plot on paper is lower than on a screen, so that two figures fit on a page.
+  function size(panel) {
+    const width = panel.plot.clientWidth;
+    const height = NARROW.matches ? Math.min(230, panel.height) : panel.height;
+    return { width, height: printing ? Math.round(Math.min(height, 250, (panel.isLoop ? 0.8 : 0.62) * width)) : height };
+  }
+
+  function options(panel) {
     // Share only changes made by the mouse, not changes received from another panel.
     const moved = (u, over, handle) => event => { panel.isMoved = true; handle(event); panel.isMoved = false; };
     const whole = u => () => ["x", "y"].forEach(name => u.setScale(name, { min: null, max: null }));
     return {
-      width: plot.clientWidth,
-      height: NARROW.matches ? Math.min(230, panel.height) : panel.height,
-      mode: 2, padding: [8, 12, 0, 0], legend: { show: false },
+      ...size(panel),
+      mode: 2, padding: [8, 16, 0, 0], legend: { show: false },
       scales: { x: scale(panel.x), y: scale(panel.y) },
       axes: [axis("x", panel.x), axis("y", panel.y)],
       series: [null, ...panel.curves.map(series)],
@@ -217,7 +233,7 @@
 
   function paint() {
     for (const { u, curves, head } of [...groups.values()].flat()) {
-      for (const key of head.querySelectorAll(".key")) key.style.color = colour(curves[key.parentElement.dataset.curve]);
+      for (const key of head.querySelectorAll(".key")) key.style.color = colour(curves[key.closest("li").dataset.curve]);
       u.redraw();
     }
   }
@@ -230,12 +246,16 @@
     const name = figure.dataset.cursorGroup ?? figure;
     panel.group = groups.get(name) ?? [];
     groups.set(name, panel.group);
+    panel.plot = plot;
     panel.head = plot.previousElementSibling;
     panel.isLoop = panel.curves.some(curve => !curve.rises);
     point(panel, null);
-    panel.u = new uPlot(options(panel, plot), [null, ...panel.curves.map(curve => curve.columns)], plot);
+    panel.u = new uPlot(options(panel), [null, ...panel.curves.map(curve => curve.columns)], plot);
     panel.group.push(panel);
-    new ResizeObserver(() => panel.u.setSize({ width: plot.clientWidth, height: options(panel, plot).height })).observe(plot);
+    connectLegend(panel);
+    offerNumbers(panel);
+    listenToKeys(panel, cursor => show(panel, cursor));
+    new ResizeObserver(() => panel.u.setSize(size(panel))).observe(plot);
   }
 
   document.querySelectorAll(".plot").forEach(draw);
@@ -245,6 +265,7 @@
     addEventListener(event, () => {
       printing = event === "beforeprint";
       document.documentElement.classList.toggle("print", printing);
+      for (const panel of [...groups.values()].flat()) panel.u.setSize(size(panel));
       paint();
     });
 }

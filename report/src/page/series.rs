@@ -12,6 +12,7 @@ use crate::plot::style::FINE;
 /// Curve as JSON.
 #[derive(Serialize)]
 pub(super) struct Series {
+    name: String,
     stroke: &'static str,
     /// Line width (pixels).
     width: f64,
@@ -51,6 +52,7 @@ impl Series {
             indices.push(columns.index_of(points.iter().map(|point| point.high)));
         }
         Self {
+            name: curve.name.clone(),
             stroke: match curve.stroke {
                 Stroke::Line => "line",
                 Stroke::Filled => "filled",

@@ -38,7 +38,8 @@ pub struct Point {
 
 /// Curve of a panel.
 pub struct Curve {
-    /// Name in the legend; empty to leave it out.
+    /// Name in the legend; empty to leave it out. On a page, curves without a name belong to the next curve with one:
+    /// they disappear with it.
     pub name: String,
     /// Colour.
     pub colour: RGBColor,

@@ -18,6 +18,7 @@ pub fn panels(displacement: Vec<Curve>, velocity: Vec<Curve>) -> Vec<Panel> {
         x_scale: Scale::Linear,
         scale: Scale::Linear,
         keeps_to_values: false,
+        y_range: None,
         curves,
     };
     vec![

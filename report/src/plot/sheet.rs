@@ -39,6 +39,8 @@ pub struct Panel {
     /// True if a linear vertical axis covers only the range of its values; false to start it at zero if no value is
     /// negative.
     pub keeps_to_values: bool,
+    /// Range of the vertical axis; `None` to find it from the curves.
+    pub y_range: Option<Range<f64>>,
     /// Curves, from back to front.
     pub curves: Vec<Curve>,
 }
@@ -54,6 +56,7 @@ pub fn panel(x: &str, y: &str, curves: Vec<Curve>) -> Panel {
         x_scale: Scale::Linear,
         scale: Scale::Linear,
         keeps_to_values: false,
+        y_range: None,
         curves,
     }
 }
@@ -71,8 +74,9 @@ impl Panel {
             (Scale::Decades, false) => span(abscissas),
         };
         let ordinates = || self.curves.iter().flat_map(Curve::ordinates);
-        let y = match self.scale {
-            Scale::Linear => {
+        let y = match (&self.y_range, self.scale) {
+            (Some(range), _) => range.clone(),
+            (None, Scale::Linear) => {
                 let mut y = extent(ordinates());
                 // If no value is below zero, apart from rounding, the axis starts at zero.
                 let rounding = 1e-9 * y.end;
@@ -81,10 +85,23 @@ impl Panel {
                 }
                 y
             }
-            Scale::Decades => widened(span(ordinates().filter(on(self.scale)))),
+            (None, Scale::Decades) => widened(span(ordinates().filter(on(self.scale)))),
         };
         [non_empty(x, self.x_scale), non_empty(y, self.scale)]
     }
+}
+
+/// Gives all panels the same vertical axis, so that they can be compared.
+pub fn with_one_scale(mut panels: Vec<Panel>) -> Vec<Panel> {
+    let own = panels.iter().map(|panel| {
+        let [_, y] = panel.ranges();
+        y
+    });
+    let all = own.reduce(|all, one| all.start.min(one.start)..all.end.max(one.end));
+    for panel in &mut panels {
+        panel.y_range.clone_from(&all);
+    }
+    panels
 }
 
 /// Arrangement of panels on a sheet.
@@ -213,6 +230,7 @@ mod tests {
             x_scale: scale,
             scale,
             keeps_to_values: false,
+            y_range: None,
             curves: vec![Curve::new("", INK, points.iter().copied())],
         };
         panel.ranges()
@@ -223,6 +241,17 @@ mod tests {
         let [x, y] = ranges(Scale::Decades, &[(0.0, 3.0), (2.0, -1.0), (50.0, 40.0)]);
         assert_eq!(x, 2.0..50.0);
         assert!(y.start > 1.0 && y.start < 3.0 && y.end > 40.0);
+    }
+
+    #[test]
+    fn panels_with_one_scale_show_the_values_of_all() {
+        let flat = |y: f64| panel("", "", vec![Curve::new("", INK, [(0.0, -y), (1.0, y)])]);
+        let panels = with_one_scale(vec![flat(1.0), flat(3.0), flat(2.0)]);
+        for panel in &panels {
+            let [_, y] = panel.ranges();
+            assert!(y.start < -3.0 && y.end > 3.0 && y.end < 3.5, "{y:?}");
+        }
+        assert!(with_one_scale(Vec::new()).is_empty());
     }
 
     #[test]

@@ -20,10 +20,34 @@ pub const BLUE_LINE: RGBColor = RGBColor(21, 101, 192);
 pub const RED_LINE: RGBColor = RGBColor(198, 40, 40);
 /// Colour of green curves.
 pub const GREEN_LINE: RGBColor = RGBColor(46, 125, 50);
-/// Colour of amber curves and of limits.
+/// Colour of amber curves.
 pub const AMBER_LINE: RGBColor = RGBColor(239, 138, 0);
 /// Colour of grey curves in the background.
 pub const PALE: RGBColor = RGBColor(160, 168, 176);
+
+// Colours by meaning. Colours that share a panel differ in lightness, so that a grey print tells them apart; limits are
+// dashed.
+
+/// What is on the left.
+pub const LEFT: RGBColor = RGBColor(11, 61, 145);
+/// What is on the right.
+pub const RIGHT: RGBColor = RGBColor(224, 123, 0);
+/// The first of two curves of the same kind.
+pub const FIRST: RGBColor = LEFT;
+/// The second of two curves of the same kind.
+pub const SECOND: RGBColor = RIGHT;
+/// Up to four curves of the same kind.
+pub const SEVERAL: [RGBColor; 4] = [FIRST, RED_LINE, SECOND, RGBColor(90, 190, 190)];
+/// What a page is about: a computed force, an estimate, the answer of a target.
+pub const RESULT: RGBColor = BLUE_LINE;
+/// What a result is compared with: a measurement, a reference solution, the desired motion.
+pub const COMPARED: RGBColor = PALE;
+/// As before a change or as new, next to a result.
+pub const BEFORE: RGBColor = AMBER_LINE;
+/// Difference of two curves.
+pub const DIFFERENCE: RGBColor = RGBColor(123, 31, 162);
+/// Limit of a curve.
+pub const LIMIT: RGBColor = RED_LINE;
 /// Usual line width, in drawing units.
 pub const LINE: u32 = 2 * FINE;
 
@@ -142,4 +166,56 @@ pub fn extent(values: impl Iterator<Item = f64>) -> Range<f64> {
     let Range { start, end } = span(values);
     let margin = 0.05 * (end - start).max(1e-6);
     start - margin..end + margin
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance, from 0 for black to 1 for white (WCAG 2).
+    fn luminance(RGBColor(red, green, blue): RGBColor) -> f64 {
+        let linear = |part: u8| match f64::from(part) / 255.0 {
+            part if part <= 0.04045 => part / 12.92,
+            part => ((part + 0.055) / 1.055).powf(2.4),
+        };
+        0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue)
+    }
+
+    fn contrast(a: RGBColor, b: RGBColor) -> f64 {
+        let [a, b] = [a, b].map(luminance);
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn colours_of_one_panel_differ_in_lightness() {
+        for (name, a, b) in [
+            ("left and right", LEFT, RIGHT),
+            ("first and second", FIRST, SECOND),
+            ("several", SEVERAL[0], SEVERAL[1]),
+            ("result and what it is compared with", RESULT, COMPARED),
+            ("result and before", RESULT, BEFORE),
+        ] {
+            let found = contrast(a, b);
+            assert!(found > 1.8, "{name}: {found:.2}");
+        }
+    }
+
+    #[test]
+    fn each_of_several_colours_is_lighter_than_the_one_before() {
+        for pair in SEVERAL.windows(2) {
+            let found = contrast(pair[0], pair[1]);
+            assert!(
+                luminance(pair[0]) < luminance(pair[1]) && found > 1.3,
+                "{pair:?}: {found:.2}"
+            );
+        }
+    }
+
+    #[test]
+    fn colours_of_curves_are_visible_on_paper() {
+        for colour in [LEFT, RIGHT, RESULT, COMPARED, DIFFERENCE, LIMIT] {
+            let found = contrast(colour, WHITE);
+            assert!(found > 2.3, "{colour:?}: {found:.2}");
+        }
+    }
 }

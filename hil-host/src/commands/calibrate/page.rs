@@ -9,7 +9,7 @@ use dashpot_report::DrawError;
 use dashpot_report::page::{Figure, document, figure, footer, panel, tiles};
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::loops;
-use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, FINE, PALE, RED_LINE};
+use dashpot_report::plot::style::{BEFORE, COMPARED, DIFFERENCE, FINE, LIMIT, RESULT};
 
 /// Height of a panel (pixels).
 const HEIGHT: u32 = 300;
@@ -141,9 +141,9 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
             label,
             "rise of chi-square",
             vec![
-                Curve::new("", BLUE_LINE, first.rev().chain(last).collect::<Vec<_>>()),
-                Curve::new("", BLUE_LINE, points).dotted(),
-                Curve::new("95 %", PALE, limit).dashed(),
+                Curve::new("95 %", LIMIT, limit).dashed(),
+                Curve::new("", RESULT, first.rev().chain(last).collect::<Vec<_>>()),
+                Curve::new("", RESULT, points).dotted(),
             ],
         );
         panel.title.clone_from(&number.key);
@@ -240,9 +240,9 @@ fn loop_figures(
     };
     let curves = |abscissas: &[f64], scale| {
         vec![
-            over("measured", PALE, abscissas, scale, measured).dotted(),
-            over("before", AMBER_LINE, abscissas, scale, &fit.before_n).wide(FINE),
-            over("found", BLUE_LINE, abscissas, scale, &fit.after_n),
+            over("measured", COMPARED, abscissas, scale, measured).dotted(),
+            over("before", BEFORE, abscissas, scale, &fit.before_n).wide(FINE),
+            over("found", RESULT, abscissas, scale, &fit.after_n),
         ]
     };
     let loops = Figure {
@@ -257,7 +257,7 @@ fn loop_figures(
         panels: vec![panel(
             "time, s",
             "found minus measured, N",
-            vec![Curve::new("", RED_LINE, missed).wide(FINE)],
+            vec![Curve::new("", DIFFERENCE, missed).wide(FINE)],
         )],
         height: 200,
         cursor_group: None,

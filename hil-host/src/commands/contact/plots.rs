@@ -7,7 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use dashpot_report::DrawError;
 use dashpot_report::plot::style::{
-    BLUE_LINE, FINE, INK, LINE, RED_LINE, axes, draw, extent, failed, letters,
+    FINE, FIRST, INK, LEFT, LINE, RIGHT, SECOND, axes, draw, extent, failed, letters,
 };
 
 /// Draws the wheel over the rail with lines between the contact points for each lateral shift in `contacts`.
@@ -67,9 +67,9 @@ pub fn contact_points(
             let side = &contact.sides[side];
             let relative_shift = contact.lateral_m / max_shift;
             let colour = if relative_shift < -1e-9 {
-                BLUE_LINE
+                LEFT
             } else if relative_shift > 1e-9 {
-                RED_LINE
+                RIGHT
             } else {
                 INK
             };
@@ -126,8 +126,8 @@ pub fn contact_points(
         for (row, (note, colour)) in [
             ("lines connect the points in contact,", &INK),
             ("numbers: lateral shift of the wheelset, mm", &INK),
-            ("shifted to the right (+)", &RED_LINE),
-            ("shifted to the left (-)", &BLUE_LINE),
+            ("shifted to the right (+)", &RIGHT),
+            ("shifted to the left (-)", &LEFT),
         ]
         .into_iter()
         .enumerate()
@@ -167,7 +167,7 @@ pub fn rolling_radius(profiles: &str, contacts: &[RigidContact]) -> Result<Strin
         chart
             .draw_series(LineSeries::new(
                 contacts.iter().map(|c| (shift(c), difference(c))),
-                BLUE_LINE.stroke_width(LINE),
+                FIRST.stroke_width(LINE),
             ))
             .map_err(failed)?;
         let angle = |c: &RigidContact, side: usize| -c.sides[side].slope.atan().to_degrees();
@@ -181,7 +181,7 @@ pub fn rolling_radius(profiles: &str, contacts: &[RigidContact]) -> Result<Strin
             "angle, degrees",
             (0, 0)
         );
-        for (side, name, colour) in [(1, "right wheel", RED_LINE), (0, "left wheel", BLUE_LINE)] {
+        for (side, name, colour) in [(1, "right wheel", RIGHT), (0, "left wheel", LEFT)] {
             chart
                 .draw_series(LineSeries::new(
                     contacts.iter().map(|c| (shift(c), angle(c, side))),
@@ -234,8 +234,8 @@ pub fn conicity(
                 .collect()
         };
         let curves: Vec<_> = [
-            (Some(rigid), "rigid", &BLUE_LINE),
-            (elastic, "elastic", &RED_LINE),
+            (Some(rigid), "rigid", &FIRST),
+            (elastic, "elastic", &SECOND),
         ]
         .into_iter()
         .filter_map(|(rolling, name, colour)| {

@@ -4,7 +4,7 @@ use super::results::{Bench, LOOP_AMPLITUDES_M, Ride};
 use dashpot_report::page::{Figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::loops;
-use dashpot_report::plot::style::{BLUE_LINE, PALE, RED_LINE};
+use dashpot_report::plot::style::{COMPARED, DIFFERENCE, RESULT};
 
 /// Window of the ride shown in detail (s).
 pub(super) const WINDOW_S: (f64, f64) = (1.0, 2.0);
@@ -44,8 +44,8 @@ pub(super) fn force(ride: &Ride) -> Figure {
             .collect()
     };
     let curves = vec![
-        Curve::new("reference", PALE, shown(&ride.reference_n)).wide(22),
-        Curve::new("fixed step", BLUE_LINE, shown(&ride.fixed_step_n)).wide(6),
+        Curve::new("reference", COMPARED, shown(&ride.reference_n)).wide(22),
+        Curve::new("fixed step", RESULT, shown(&ride.fixed_step_n)).wide(6),
     ];
     single("time, s", "computed force, kN", 340, curves)
 }
@@ -55,7 +55,7 @@ pub(super) fn error(ride: &Ride) -> Figure {
     let errors = over_time(ride, &ride.fixed_step_n)
         .zip(&ride.reference_n)
         .map(|((time, force), reference)| (time, force - reference));
-    let curve = Curve::new("", RED_LINE, errors).wide(4);
+    let curve = Curve::new("", DIFFERENCE, errors).wide(4);
     single("time, s", "error, N", 240, vec![curve])
 }
 
@@ -68,7 +68,7 @@ pub(super) fn ride_loops(ride: &Ride) -> Figure {
         .windows(2)
         .map(|pair| (pair[1] - pair[0]) / ride.step_s)
         .zip(forces.skip(1));
-    let thin = |points: Vec<(f64, f64)>| vec![Curve::new("", BLUE_LINE, points).wide(3)];
+    let thin = |points: Vec<(f64, f64)>| vec![Curve::new("", RESULT, points).wide(3)];
     loop_figure(thin(displacement.collect()), thin(velocity.collect()))
 }
 
@@ -88,7 +88,7 @@ pub(super) fn bench_loops(bench: &Bench) -> Figure {
 pub(super) fn characteristics(benches: &[Bench]) -> Figure {
     let curves = benches
         .iter()
-        .zip([PALE, BLUE_LINE])
+        .zip([COMPARED, RESULT])
         .map(|(bench, colour)| {
             let points = (-300..=300).map(|i| {
                 let velocity = 0.5e-3 * f64::from(i);

@@ -144,7 +144,11 @@ fn accuracy_table(rows: &[Accuracy]) -> Markup {
                         td { (row.damper) }
                         td { (rate_khz(row.step_s)) }
                         td { (row.scalar) }
-                        td { (power_of_ten(row.nrmse)) }
+                        @if row.over_limit() {
+                            td.above { (power_of_ten(row.nrmse)) " ✗" }
+                        } @else {
+                            td { (power_of_ten(row.nrmse)) }
+                        }
                         td { @if let Some(limit) = row.nrmse_limit { (power_of_ten(limit)) } }
                         td { (power_of_ten(row.largest_error_over_peak)) }
                         td { (format!("{:.0}", row.median_ns_per_step)) }
@@ -153,7 +157,7 @@ fn accuracy_table(rows: &[Accuracy]) -> Markup {
             }
         }
         @if rows.iter().any(Accuracy::over_limit) {
-            p { "Rows in amber exceed the project's limit." }
+            p { "Rows with ✗ exceed the project's limit." }
         }
     }
 }

@@ -7,7 +7,9 @@ use dashpot_report::page::{Figure, panel};
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::envelope::Envelope;
 use dashpot_report::plot::sheet::{Panel, Scale};
-use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
+use dashpot_report::plot::style::{
+    AMBER_LINE, COMPARED, DIFFERENCE, LIMIT, RED_LINE, RESULT, SEVERAL,
+};
 
 /// Maximum number of bars in a histogram.
 const MAX_BARS: u64 = 40;
@@ -29,15 +31,16 @@ fn curve(
 /// Returns marks at injected faults and recoveries; empty if there were none.
 fn marks(history: &History) -> Vec<Curve> {
     let kinds = [
-        (AMBER_LINE, &history.faults_made),
-        (RED_LINE, &history.recoveries),
+        ("injected fault", AMBER_LINE, &history.faults_made),
+        ("recovery", RED_LINE, &history.recoveries),
     ];
     let times = |envelope: &Envelope| -> Vec<f64> {
         envelope.ticks().map(|tick| history.time_s(tick)).collect()
     };
-    let marks = kinds
-        .into_iter()
-        .map(|(colour, envelope)| Curve::marks(colour, times(envelope)));
+    let marks = kinds.into_iter().map(|(name, colour, envelope)| Curve {
+        name: name.into(),
+        ..Curve::marks(colour, times(envelope))
+    });
     marks
         .filter(|curve| curve.abscissas().next().is_some())
         .collect()
@@ -52,19 +55,39 @@ fn over_time(history: &History, y: &str, scale: Scale, mut curves: Vec<Curve>) -
     }
 }
 
-/// Draws the forces of target and host for one slot and, if any differ, target minus host.
-pub(super) fn forces(history: &History, slot: &Forces) -> Figure {
-    let curves = vec![
-        curve(history, "host", PALE, &slot.host_n, 1e-3).wide(22),
-        curve(history, "target", BLUE_LINE, &slot.target_n, 1e-3).wide(6),
-    ];
-    let mut panels = vec![over_time(history, "force, kN", Scale::Linear, curves)];
-    if slot.differ {
-        let error = curve(history, "", RED_LINE, &slot.difference_n, 1.0);
-        panels.push(panel(TIME, "target minus host, N", vec![error.wide(6)]));
-    }
+/// Draws the forces of slots on the target, with the names of their dampers.
+pub(super) fn forces(history: &History, slots: &[(usize, &str)]) -> Figure {
+    let curves = slots.iter().zip(SEVERAL).map(|((slot, damper), colour)| {
+        let name = format!("slot {slot}: {damper}");
+        curve(
+            history,
+            &name,
+            colour,
+            &history.places[*slot].target_n,
+            1e-3,
+        )
+        .wide(6)
+    });
+    let panel = over_time(history, "force, kN", Scale::Linear, curves.collect());
     Figure {
-        panels,
+        panels: vec![panel],
+        height: 280,
+        cursor_group: Some(TIME),
+    }
+}
+
+/// Draws target minus host for a slot whose forces differ, next to the forces.
+pub(super) fn difference(history: &History, slot: &Forces) -> Figure {
+    let error = curve(history, "", DIFFERENCE, &slot.difference_n, 1.0);
+    let forces = vec![
+        curve(history, "host", COMPARED, &slot.host_n, 1e-3).wide(22),
+        curve(history, "target", RESULT, &slot.target_n, 1e-3).wide(6),
+    ];
+    Figure {
+        panels: vec![
+            panel(TIME, "target minus host, N", vec![error.wide(6)]),
+            over_time(history, "force, kN", Scale::Linear, forces),
+        ],
         height: 280,
         cursor_group: Some(TIME),
     }
@@ -72,7 +95,7 @@ pub(super) fn forces(history: &History, slot: &Forces) -> Figure {
 
 /// Draws the clock ticks per tick of the bank: histogram and course over time.
 pub(super) fn clock_ticks(history: &History) -> Figure {
-    let over = curve(history, "", BLUE_LINE, &history.clock_ticks, 1.0).wide(5);
+    let over = curve(history, "", RESULT, &history.clock_ticks, 1.0).wide(5);
     Figure {
         panels: vec![
             Panel {
@@ -100,25 +123,19 @@ fn bars(history: &History) -> Curve {
         let (left, right) = (from as f64 - 0.5, (from + width) as f64 - 0.5);
         points.extend([(left, 0.0), (left, count), (right, count), (right, 0.0)]);
     }
-    Curve::new("", BLUE_LINE, points).filled().wide(4)
+    Curve::new("", RESULT, points).filled().wide(4)
 }
 
 /// Draws round-trip times over time, with a line at one step if the ticks were `paced`.
 pub(super) fn round_trip(history: &History, paced: bool) -> Figure {
-    let trips = curve(
-        history,
-        "round trip",
-        BLUE_LINE,
-        &history.round_trip_ns,
-        1e-6,
-    );
+    let trips = curve(history, "round trip", RESULT, &history.round_trip_ns, 1e-6);
     let mut curves = vec![trips.wide(5)];
     if paced {
         let ends: Vec<f64> = curves[0].abscissas().collect();
         let step_ms = history.step_s() * 1e3;
         let step = [ends.first(), ends.last()].into_iter().flatten();
         let step = step.map(|time_s| (*time_s, step_ms));
-        curves.push(Curve::new("one step", PALE, step).dashed());
+        curves.push(Curve::new("one step", LIMIT, step).dashed());
     }
     Figure {
         panels: vec![over_time(history, "round trip, ms", Scale::Decades, curves)],

@@ -16,6 +16,16 @@ pub(super) struct Forces {
     pub(super) differ: bool,
 }
 
+impl Forces {
+    /// Largest force of the target and largest difference, in magnitude (N).
+    pub(super) fn largest_n(&self) -> [f64; 2] {
+        [&self.target_n, &self.difference_n].map(|envelope| {
+            let values = envelope.samples().map(|(_, value)| value.abs());
+            values.fold(0.0, f64::max)
+        })
+    }
+}
+
 /// History of a run over its ticks.
 pub(super) struct History {
     start_s: f64,

@@ -3,11 +3,11 @@
 use maud::{Markup, html};
 
 use super::figures;
-use super::history::{Forces, History};
+use super::history::History;
 use super::report::Found;
 use dashpot_realtime::timing::{optional_span, span};
 use dashpot_report::DrawError;
-use dashpot_report::page::{document, figure, footer, tiles};
+use dashpot_report::page::{document, figure, footer, judged, tiles};
 
 /// Returns the run as HTML.
 ///
@@ -34,14 +34,20 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
             "Displacement and force are positive in extension; slot i runs i ticks behind slot 0."
         }
         (legend_of_marks(found))
-        @for (slot, forces) in history.places.iter().enumerate() {
+        (slots(found, history))
+        (figure(&figures::forces(history, &distinct(found, history)), &html! {
+            "Forces on the target, one slot of each damper."
+        })?)
+        @for (slot, forces) in history.places.iter().enumerate().filter(|(_, forces)| forces.differ) {
             h3 { "Slot " (slot) ": " (found.damper(slot)) }
-            (figure(&figures::forces(history, forces), &forces_caption(forces))?)
+            (figure(&figures::difference(history, forces), &html! {
+                "Some forces differ from those of the host: target minus host, and both forces."
+            })?)
         }
-        h2 { "Cost on the target" }
-        (figure(&figures::clock_ticks(history), &clock_ticks)?)
         h2 { "Round trip" }
         (figure(&figures::round_trip(history, is_paced), &round_trip)?)
+        h2 { "Cost on the target" }
+        (figure(&figures::clock_ticks(history), &clock_ticks)?)
         (footer(&html! {
             "For a long run, curves show the minimum and maximum of each group of ticks, so every peak is visible. \
              Injected faults and recoveries are marked on the time axes."
@@ -50,24 +56,52 @@ pub(super) fn write(found: &Found, history: &History) -> Result<String, DrawErro
     Ok(document("Dashpot: processor in the loop", &body))
 }
 
-fn forces_caption(forces: &Forces) -> Markup {
+/// Tabulates the slots with their largest force and their largest difference from the host.
+fn slots(found: &Found, history: &History) -> Markup {
     html! {
-        @if forces.differ {
-            "Some forces differ from those of the host. Red, on separate axes: target minus host."
-        } @else {
-            "Every force is bit-identical to that of the host."
+        div.wide { table {
+            thead {
+                tr {
+                    th { "slot" } th.text { "damper" } th { "largest force, kN" }
+                    th { "target minus host, at most, N" } th.text { "forces" }
+                }
+            }
+            @for (slot, forces) in history.places.iter().enumerate() {
+                @let [force_n, difference_n] = forces.largest_n();
+                tr {
+                    td { (slot) }
+                    td.text { (found.damper(slot)) }
+                    td { (format!("{:.2}", 1e-3 * force_n)) }
+                    td { @if difference_n == 0.0 { "0" } @else { (format!("{difference_n:.2e}")) } }
+                    td.text {
+                        (judged(!forces.differ, if forces.differ { "differ" } else { "bit-identical to the host" }))
+                    }
+                }
+            }
+        } }
+    }
+}
+
+/// Returns the first slot of each damper, with the name of the damper.
+fn distinct<'a>(found: &'a Found, history: &History) -> Vec<(usize, &'a str)> {
+    let mut slots: Vec<(usize, &str)> = Vec::new();
+    for slot in 0..history.places.len() {
+        let damper = found.damper(slot);
+        if slots.iter().all(|(_, known)| *known != damper) {
+            slots.push((slot, damper));
         }
     }
+    slots
 }
 
 /// Explains the marks on the time axes, if there are any.
 fn legend_of_marks(found: &Found) -> Markup {
     let has_faults = found.injected_faults.unwrap_or_default() != Default::default();
     let kinds = [
-        (has_faults, "amber for an injected fault"),
+        (has_faults, "injected faults"),
         (
             found.report.recoveries > 0,
-            "red for a recovery, in which dampers and states were restored on the target",
+            "recoveries, in which dampers and states were restored on the target",
         ),
     ];
     let kinds: Vec<&str> = kinds

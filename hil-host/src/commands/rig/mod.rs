@@ -16,7 +16,7 @@ use dashpot_files::output::write_folder;
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::loops;
 use dashpot_report::plot::sheet::{Layout, sheet as drawn_on_a_sheet};
-use dashpot_report::plot::style::{BLUE_LINE, RED_LINE};
+use dashpot_report::plot::style::{COMPARED, RESULT};
 use dashpot_testbench::bench_test::{self, Cycle, Indices};
 use dashpot_testbench::published::{
     NominalCharacteristic, NominalIndex, nominal_characteristic, nominal_indices,
@@ -138,7 +138,7 @@ fn draw(
 ) -> Outcome<Vec<String>> {
     let motion = &cycle.motion;
     let computed = format!("{name}, computed");
-    let (displacement, velocity) = loops::of_cycle(&computed, BLUE_LINE, cycle);
+    let (displacement, velocity) = loops::of_cycle(&computed, RESULT, cycle);
     let (mut displacement, mut velocity) = (vec![displacement], vec![velocity]);
     if let Some(NominalCharacteristic { test, .. }) = published {
         let (x, v) = (motion.amplitude_m * 1e3, motion.peak_velocity_m_per_s());
@@ -151,7 +151,7 @@ fn draw(
         ] {
             for (curves, reach) in [(&mut displacement, x), (&mut velocity, v)] {
                 let points = [-reach, reach].map(|at| (at, force_n * 1e-3));
-                curves.push(Curve::new(name, RED_LINE, points).dashed());
+                curves.push(Curve::new(name, COMPARED, points).dashed());
             }
         }
     }

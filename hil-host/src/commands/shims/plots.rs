@@ -95,6 +95,7 @@ fn lift(location: &ValveLocation, report: &ValveReport, tables_end_pa: f64) -> P
         x_scale: Scale::Linear,
         scale: Scale::Decades,
         keeps_to_values: false,
+        y_range: None,
         curves,
     }
 }
@@ -144,6 +145,7 @@ fn deflection(
         x_scale: Scale::Linear,
         scale: Scale::Linear,
         keeps_to_values: false,
+        y_range: None,
         curves: curves.collect(),
     }))
 }
@@ -169,6 +171,7 @@ fn flow(
         x_scale: Scale::Linear,
         scale: Scale::Linear,
         keeps_to_values: false,
+        y_range: None,
         curves: vec![Curve::new(name, GREEN_LINE, points).wide(11)],
     }
 }

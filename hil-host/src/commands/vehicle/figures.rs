@@ -4,10 +4,10 @@ use plotters::style::RGBColor;
 
 use super::history::History;
 use dashpot_report::page::{Figure, panel};
-use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::envelope::thinned;
 use dashpot_report::plot::sheet::{Panel, Scale};
-use dashpot_report::plot::style::{BLUE_LINE, PALE, RED_LINE};
+use dashpot_report::plot::style::{COMPARED, DIFFERENCE, FIRST, RESULT, SECOND};
 use dashpot_study::verification::Forces;
 use dashpot_vehicle_run::signals::slug;
 
@@ -27,121 +27,16 @@ pub(super) fn accelerations(history: &History, body: &str) -> Figure {
         panel("time, s", &format!("{direction}, m/s²"), vec![curve])
     };
     Figure {
-        panels: vec![one("lateral", BLUE_LINE), one("vertical", RED_LINE)],
+        panels: vec![one("lateral", FIRST), one("vertical", SECOND)],
         height: HEIGHT,
         cursor_group: Some(TIME),
     }
-}
-
-/// One signal of every wheelset; the leading wheelset is darkest.
-fn of_wheelsets(
-    history: &History,
-    wheelsets: &[String],
-    what: &str,
-    factor: f64,
-    y: &str,
-) -> Panel {
-    let mut colours = ramp(wheelsets.len());
-    colours.reverse();
-    // Draw the leading wheelset on top.
-    let curves = wheelsets.iter().zip(colours).rev().map(|(name, colour)| {
-        over_time(
-            history,
-            &format!("{}_{what}", slug(name)),
-            factor,
-            name,
-            colour,
-        )
-    });
-    panel("time, s", y, curves.collect())
-}
-
-/// Two signals of every wheelset, each with its factor and axis label.
-fn of_both(history: &History, names: &[String], signals: [(&str, f64, &str); 2]) -> Figure {
-    let panels = signals.map(|(what, factor, y)| of_wheelsets(history, names, what, factor, y));
-    Figure {
-        panels: panels.into(),
-        height: HEIGHT,
-        cursor_group: Some(TIME),
-    }
-}
-
-/// Lateral displacement and yaw of the wheelsets.
-pub(super) fn wheelsets(history: &History, names: &[String]) -> Figure {
-    let lateral = ("lateral_m", 1e3, "lateral, mm");
-    of_both(history, names, [lateral, ("yaw_rad", 1e3, "yaw, mrad")])
-}
-
-/// Vertical forces of the left and right wheels.
-pub(super) fn loads(history: &History, names: &[String]) -> Figure {
-    let left = ("left_load_n", 1e-3, "Q left, kN");
-    of_both(
-        history,
-        names,
-        [left, ("right_load_n", 1e-3, "Q right, kN")],
-    )
-}
-
-/// Vertical forces of the left and right wheels, filtered.
-pub(super) fn filtered_loads(history: &History, names: &[String]) -> Figure {
-    let left = ("left_filtered_load_n", 1e-3, "Q left, kN");
-    of_both(
-        history,
-        names,
-        [left, ("right_filtered_load_n", 1e-3, "Q right, kN")],
-    )
-}
-
-/// Lateral forces of the wheelsets, filtered and averaged.
-pub(super) fn lateral_forces(history: &History, names: &[String]) -> Figure {
-    let what = "filtered_lateral_force_n";
-    Figure {
-        panels: vec![of_wheelsets(
-            history,
-            names,
-            what,
-            1e-3,
-            "lateral force, kN",
-        )],
-        height: HEIGHT,
-        cursor_group: Some(TIME),
-    }
-}
-
-/// Contact positions on the left and right wheels.
-pub(super) fn contact_positions(history: &History, names: &[String]) -> Figure {
-    let left = ("left_contact_m", 1e3, "contact left, mm");
-    of_both(
-        history,
-        names,
-        [left, ("right_contact_m", 1e3, "contact right, mm")],
-    )
-}
-
-/// `Y/Q` of the left and right wheels, filtered and averaged.
-pub(super) fn filtered_derailment(history: &History, names: &[String]) -> Figure {
-    let left = ("left_filtered_derailment", 1.0, "Y/Q left");
-    of_both(
-        history,
-        names,
-        [left, ("right_filtered_derailment", 1.0, "Y/Q right")],
-    )
-}
-
-/// `Y/Q` of the left and right wheels.
-pub(super) fn derailment(history: &History, names: &[String]) -> Figure {
-    let left = ("left_derailment", 1.0, "Y/Q left");
-    of_both(
-        history,
-        names,
-        [left, ("right_derailment", 1.0, "Y/Q right")],
-    )
 }
 
 /// Force of friction elements over time, two elements per panel.
 pub(super) fn friction(history: &History, elements: &[&str]) -> Figure {
     let panels = elements.chunks(2).map(|pair| {
-        let curves = pair.iter().zip([BLUE_LINE, RED_LINE]);
+        let curves = pair.iter().zip([FIRST, SECOND]);
         let curves = curves.map(|(name, colour)| {
             let signal = format!("{}_force_n", slug(name));
             over_time(history, &signal, 1e-3, name, colour)
@@ -169,18 +64,18 @@ pub(super) fn outside(forces: &Forces, step_s: f64) -> Figure {
         over_time(
             &mut inside_n.iter().map(|force| force * 1e-3),
             "internal",
-            PALE,
+            COMPARED,
         )
         .wide(16),
         over_time(
             &mut outside_n.iter().map(|force| force * 1e-3),
             "external",
-            BLUE_LINE,
+            RESULT,
         )
         .wide(5),
     ];
     let mut difference = outside_n.iter().zip(inside_n).map(|(a, b)| a - b);
-    let difference = over_time(&mut difference, "", RED_LINE).wide(5);
+    let difference = over_time(&mut difference, "", DIFFERENCE).wide(5);
     Figure {
         panels: vec![
             panel("time, s", "force, kN", both),
@@ -211,7 +106,7 @@ fn of_dampers(
     dampers: &[&str],
     (over, factor, label): (&str, f64, &str),
 ) -> Figure {
-    let colours = [BLUE_LINE, RED_LINE];
+    let colours = [FIRST, SECOND];
     let panels = dampers.chunks(2).map(|pair| {
         let curves = pair.iter().zip(colours).map(|(name, colour)| {
             let name_of = |what: &str| format!("{}_{what}", slug(name));
@@ -227,6 +122,7 @@ fn of_dampers(
             x_scale: Scale::Linear,
             scale: Scale::Linear,
             keeps_to_values: false,
+            y_range: None,
             curves: curves.collect(),
         }
     });

@@ -40,6 +40,11 @@ impl History {
         self.seen += 1;
     }
 
+    /// Returns the times of the first and the last tick (s).
+    pub(super) fn ends_s(&self) -> [f64; 2] {
+        [0, self.seen.saturating_sub(1)].map(|tick| time_s(tick, self.step_s))
+    }
+
     fn number(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
     }

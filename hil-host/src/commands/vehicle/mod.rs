@@ -11,7 +11,10 @@ pub mod outside;
 mod page;
 mod report;
 mod spectra;
+mod tables;
+mod track;
 mod wear;
+mod wheelsets;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

@@ -3,15 +3,17 @@
 use maud::{Markup, html};
 
 use super::outside::{Traces, rig};
-use super::report::{Limits, Report, counted_windows, nadal_limits, of_damping, percent, verdict};
-use super::{drawing, figures, spectra, wear};
+use super::report::{Report, of_damping, verdict};
+use super::tables::tables;
+use super::wheelsets::Wheelsets;
+use super::{drawing, figures, spectra, track, wear};
 use crate::commands::vehicle::history::History;
 use dashpot_files::case::Case;
 use dashpot_realtime::timing::span;
 use dashpot_report::DrawError;
-use dashpot_report::page::{document, figure, footer, tiles};
+use dashpot_report::page::{self, document, figure, footer, judged, tiles};
 use dashpot_vehicle_run::spectra::Spectrum;
-use dashpot_vehicle_run::{Ending, Indices, RideIndices, Run};
+use dashpot_vehicle_run::{Ending, Indices, Run};
 
 /// Number of dampers whose loops share a figure.
 const LOOPS: usize = 4;
@@ -31,6 +33,11 @@ pub(super) fn write(
     let vehicle = run.vehicle();
     let names = vehicle.names();
     let (bodies, wheelsets) = names.split_at(names.len() - vehicle.wheelsets());
+    let wheelsets = Wheelsets {
+        history,
+        names: wheelsets,
+        indices: report.indices.as_ref(),
+    };
     let dampers: Vec<&str> = vehicle.damper_names().collect();
     let frictions: Vec<&str> = vehicle.friction_names().collect();
     let body = html! {
@@ -57,7 +64,7 @@ pub(super) fn write(
             }
         }
         @if let Some(indices) = &report.indices {
-            @for sentence in verdict(indices) { p { (sentence) } }
+            (verdicts(indices))
         }
         @if let Some(found) = &report.damping { p { (of_damping(found)) "." } }
         (headline(report))
@@ -65,6 +72,7 @@ pub(super) fn write(
             div.wide { (drawing::vehicle(&case.vehicle)) }
             figcaption { "The leading wheelset has number 1." }
         }
+        (track::section(history, run.track().layout())?)
         @if let Some(body) = bodies.first() {
             h2 { "Accelerations of the " (body) }
             (figure(&figures::accelerations(history, body), &html! {
@@ -73,26 +81,29 @@ pub(super) fn write(
             })?)
         }
         h2 { "Wheelsets" }
-        (figure(&figures::wheelsets(history, wheelsets), &html! {
-            "Relative to the nominal track; positive to the right and for yaw to the right."
+        (figure(&wheelsets.displacements(), &html! {
+            "Lateral displacement (mm) and yaw (mrad) relative to the nominal track; positive to the right and for yaw "
+            "to the right."
         })?)
         h2 { "Wheel loads" }
-        (figure(&figures::loads(history, wheelsets), &html! { "Vertical force Q of each wheel on the rail." })?)
-        (figure(&figures::filtered_loads(history, wheelsets), &html! {
-            "The same, filtered at 20 Hz as acceptance tests do."
+        (figure(&wheelsets.loads(), &html! {
+            "Vertical force Q of each wheel on the rail. At zero the wheel is lifted."
+        })?)
+        (figure(&wheelsets.filtered_loads(), &html! {
+            "The same, filtered at 20 Hz as acceptance tests do, with the limit of EN 14363 for the speed."
         })?)
         h2 { "Lateral forces" }
-        (figure(&figures::lateral_forces(history, wheelsets), &html! {
+        (figure(&wheelsets.lateral_forces(), &html! {
             "Force of the rails on each wheelset, positive to the right, filtered at 20 Hz and averaged over 2 m."
         })?)
-        (figure(&figures::contact_positions(history, wheelsets), &html! {
+        (figure(&wheelsets.contact_positions(), &html! {
             "Position of the patch with the greatest load on each wheel, from the tread datum, field side positive."
         })?)
         h2 { "Derailment coefficient" }
-        (figure(&figures::derailment(history, wheelsets), &html! {
+        (figure(&wheelsets.derailment(), &html! {
             "Lateral force divided by vertical force, positive if the rail pushes the wheel towards the track centre."
         })?)
-        (figure(&figures::filtered_derailment(history, wheelsets), &html! {
+        (figure(&wheelsets.filtered_derailment(), &html! {
             "The same, filtered at 20 Hz and averaged over 2 m."
         })?)
         (spectra::section(densities)?)
@@ -134,10 +145,28 @@ pub(super) fn write(
         (tables(report))
         (footer(&html! {
             "Curves over time show the minimum and maximum of each group of ticks, so every peak is visible; "
-            "history.csv has every tick. Drag to zoom, double-click to reset."
+            "history.csv has every tick."
         }))
     };
     Ok(document(&format!("Dashpot: {}", case.name), &body))
+}
+
+/// States whether every limit is kept, with a sign for each.
+fn verdicts(indices: &Indices) -> Markup {
+    let mut sentences = verdict(indices).into_iter();
+    let all_kept = indices.limits.iter().all(|limit| limit.is_kept());
+    html! {
+        @if let Some(first) = sentences.next() {
+            p { (judged(all_kept, &first)) }
+            ul.verdicts {
+                @for (sentence, limit) in sentences.zip(&indices.limits) {
+                    li {
+                        (page::verdict(limit.is_kept())) ": " (sentence.trim_start())
+                    }
+                }
+            }
+        }
+    }
 }
 
 fn headline(report: &Report) -> Markup {
@@ -186,123 +215,4 @@ fn headline(report: &Report) -> Markup {
         ),
     ));
     tiles(&facts)
-}
-
-fn tables(report: &Report) -> Markup {
-    html! {
-        @match &report.indices {
-            Some(indices) => {
-                div.wide { table {
-                    tr { th { "m/s²" } th { "lateral rms" } th { "max" } th { "vertical rms" } th { "max" } }
-                    @for body in &indices.bodies {
-                        tr {
-                            td.text { (body.body) }
-                            td { (format!("{:.3}", body.lateral_rms_m_per_s2)) }
-                            td { (format!("{:.2}", body.lateral_greatest_m_per_s2)) }
-                            td { (format!("{:.3}", body.vertical_rms_m_per_s2)) }
-                            td { (format!("{:.2}", body.vertical_greatest_m_per_s2)) }
-                        }
-                    }
-                    tr {
-                        td.text { "unbalanced, from the layout" }
-                        td { (format!("{:.3}", indices.unbalanced.rms_m_per_s2)) }
-                        td { (format!("{:.2}", indices.unbalanced.greatest_m_per_s2)) }
-                        td {} td {}
-                    }
-                } }
-                @if indices.ride.iter().any(|ride| ride.windows > 0) {
-                    div.wide { table {
-                        tr {
-                            th { "Ride" } th { "height, m" } th { "Sperling lateral" } th { "Sperling vertical" }
-                            th { "N_MV" }
-                        }
-                        @for ride in &indices.ride {
-                            tr {
-                                td.text { (ride.point) }
-                                td { (format!("{:.2}", ride.at_m[2])) }
-                                @for index in [ride.sperling_lateral, ride.sperling_vertical, ride.mean_comfort] {
-                                    td { (index.map_or_else(|| "-".into(), |index| format!("{index:.3}"))) }
-                                }
-                            }
-                        }
-                    } }
-                    @if let Some(ride) = indices.ride.first() {
-                        p { (ride_note(ride)) }
-                    }
-                }
-                div.wide { table {
-                    tr {
-                        th { "wheelset" } th { "Q left, kN" } th { "Q right, kN" } th { "Y/Q left" } th { "Y/Q right" }
-                        th { "lateral force, kN" } th { "wear number, N" }
-                    }
-                    @for wheelset in &indices.wheelsets {
-                        tr {
-                            td.text { (wheelset.wheelset) }
-                            @for wheel in &wheelset.wheels {
-                                td {
-                                    (format!("{:.0} to {:.0}", 1e-3 * wheel.load_least_n, 1e-3 * wheel.load_greatest_n))
-                                }
-                            }
-                            @for wheel in &wheelset.wheels {
-                                td { (format!("{:.2}", wheel.derailment_greatest)) }
-                            }
-                            td { (format!("{:.1}", 1e-3 * wheelset.lateral_force_greatest_n)) }
-                            td { (format!("{:.0}", wheelset.wear_number_n)) }
-                        }
-                    }
-                } }
-                p {
-                    "Q: range within all steps. Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over "
-                    "2 m. Wear number: mean creep power over the speed."
-                }
-                (limits(indices))
-            }
-            None => { p { "A run that did not complete has no indices." } }
-        }
-    }
-}
-
-/// Caption explaining which windows the ride indices cover.
-fn ride_note(ride: &RideIndices) -> String {
-    let ([from, to], [low, high]) = (ride.sperling_band_hz, ride.comfort_band_hz);
-    format!(
-        "From {}. Sperling's index: {from} to {to} Hz, mean of the windows. N_MV, mean comfort of EN 12299: {low} to \
-         {high} Hz, 95th percentile of the windows, without longitudinal acceleration; the standard uses five minutes.",
-        counted_windows(ride)
-    )
-}
-
-/// Forces of wheels and wheelsets against their limits.
-fn limits(indices: &Indices) -> Markup {
-    html! {
-        div.wide { table {
-            tr {
-                th { "worse wheel" } th { "unloading, %" } th { "mean, %" } th { "lifted, %" } th { "Q limit, %" }
-                th { "Nadal, %" }
-                th { "beyond, m" } th { "Prud'homme, %" } th { "wear rms, N" } th { "max" }
-            }
-            @for wheelset in &indices.wheelsets {
-                @let worse = Limits::of(wheelset);
-                tr {
-                    td.text { (wheelset.wheelset) }
-                    td { (percent(worse.unloading)) }
-                    td { (percent(worse.unloading_of_mean)) }
-                    td { (format!("{:.1}", 1e2 * worse.lifted_share)) }
-                    td { (percent(worse.load_over_limit)) }
-                    td { (format!("{:.0}", 1e2 * worse.over_nadal)) }
-                    td { (format!("{:.2}", worse.longest_over_nadal_m)) }
-                    td { (percent(wheelset.lateral_force_over_limit)) }
-                    td { (format!("{:.0}", wheelset.wear_number_rms_n)) }
-                    td { (format!("{:.0}", wheelset.wear_number_greatest_n)) }
-                }
-            }
-        } }
-        p {
-            "Unloading relative to the static load: instantaneous, and of the mean over 2 m. Q, filtered at 20 Hz, as "
-            "% of the limit of EN 14363 for the speed. Y/Q, filtered at 20 Hz, as % of Nadal's "
-            "limit, mean over 2 m, and the longest distance beyond it. Lateral force as % of Prud'homme's limit, mean "
-            "over 2 m. Nadal's limit is " (nadal_limits(indices))
-            ". Prud'homme's limit is 10 kN plus a third of the static axle load."
-        }
-    }
 }

@@ -12,6 +12,8 @@ use dashpot_report::DrawError;
 use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::sheet::{Panel, Scale};
+use dashpot_report::plot::style::{LEFT, RIGHT};
+use dashpot_vehicle_run::signals::SIDES;
 use dashpot_vehicle_run::spectra::{SHOWN_HZ, Spectrum, WINDOW_S, signals};
 
 /// Creates empty spectra for a case.
@@ -106,13 +108,27 @@ fn accelerations(spectra: &[Spectrum]) -> Figure {
     panels(vec![one("lateral"), one("vertical")])
 }
 
-/// Densities of `Y/Q` of the left and right leading wheels.
+/// Densities of `Y/Q` of the leading wheels, a panel for each wheelset.
 fn derailment(spectra: &[Spectrum]) -> Figure {
-    let one = |side: &str| {
-        let what = format!("_{side}_derailment");
-        curves(spectra, &what, 1e3, &format!("Y/Q {side}, 10⁻³/Hz"))
+    let ending = |side: &str| format!("_{side}_derailment");
+    let [left, right] = SIDES.map(ending);
+    let names = spectra.iter();
+    let names = names.filter_map(|spectrum| spectrum.signal().strip_suffix(&*left));
+    let of_wheelset = |name: &str| {
+        let sides = [(SIDES[0], &left, LEFT), (SIDES[1], &right, RIGHT)];
+        let curves = sides.into_iter().filter_map(|(side, ending, colour)| {
+            let signal = format!("{name}{ending}");
+            let spectrum = spectra
+                .iter()
+                .find(|spectrum| spectrum.signal() == signal)?;
+            Some(Curve::new(side, colour, shown(spectrum, 1e3)).wide(6))
+        });
+        Panel {
+            title: name.replace('_', " "),
+            ..panel_of("Y/Q, 10⁻³/Hz", curves.collect())
+        }
     };
-    panels(vec![one("left"), one("right")])
+    panels(names.map(of_wheelset).collect())
 }
 
 fn panels(panels: Vec<Panel>) -> Figure {
@@ -134,17 +150,25 @@ fn curves(spectra: &[Spectrum], ending: &str, factor: f64, y: &str) -> Panel {
         .iter()
         .zip(colours)
         .map(|((spectrum, name), colour)| {
-            let density = spectrum.density().into_iter();
-            // Skip the mean, which is removed, and zeros, which a logarithmic scale cannot show.
-            let shown: Vec<_> = density
-                .filter(|[f, density]| *f > 0.0 && *f <= SHOWN_HZ && *density > 0.0)
-                .map(|[f, density]| (f, factor * density))
-                .collect();
-            Curve::new(name.replace('_', " "), colour, shown).wide(5)
+            Curve::new(name.replace('_', " "), colour, shown(spectrum, factor)).wide(5)
         });
+    panel_of(y, curves.collect())
+}
+
+/// Density of a spectrum, multiplied by `factor`, without the mean, which is removed, and without zeros, which a
+/// logarithmic scale cannot show.
+fn shown(spectrum: &Spectrum, factor: f64) -> Vec<(f64, f64)> {
+    let density = spectrum.density().into_iter();
+    density
+        .filter(|[f, density]| *f > 0.0 && *f <= SHOWN_HZ && *density > 0.0)
+        .map(|[f, density]| (f, factor * density))
+        .collect()
+}
+
+fn panel_of(y: &str, curves: Vec<Curve>) -> Panel {
     Panel {
         x_scale: Scale::Decades,
         scale: Scale::Decades,
-        ..panel("frequency, Hz", y, curves.collect())
+        ..panel("frequency, Hz", y, curves)
     }
 }

@@ -9,7 +9,10 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::output::{cannot_write_rows, write_whole};
 use dashpot_report::DrawError;
 use dashpot_report::page::{Figure, figure, panel};
-use dashpot_report::plot::curves::{Curve, ramp};
+use dashpot_report::plot::curves::Curve;
+use dashpot_report::plot::sheet::{Panel, with_one_scale};
+use dashpot_report::plot::style::{LEFT, RIGHT};
+use dashpot_vehicle_run::signals::SIDES;
 use dashpot_vehicle_run::wear::{CellWear, PER_DISTANCE_M, WearLaw};
 use dashpot_vehicle_run::{WearIndices, WheelWear};
 
@@ -77,33 +80,14 @@ fn um_per_1000km(wear: &WearIndices, depth_m: f64) -> f64 {
 /// # Errors
 /// The figure cannot be drawn.
 pub(super) fn section(wear: &WearIndices) -> Result<Markup, DrawError> {
-    let panels = ["left", "right"].map(|side| {
-        let wheels: Vec<&WheelWear> = wear
-            .wheels
-            .iter()
-            .filter(|wheel| wheel.side == side)
-            .collect();
-        let mut colours = ramp(wheels.len());
-        colours.reverse();
-        // The leading wheelset is darkest and drawn on top.
-        let curves = wheels.iter().zip(colours).rev().map(|(wheel, colour)| {
-            let points = touched(wear, wheel);
-            Curve::new(wheel.wheelset.clone(), colour, points).wide(5)
-        });
-        panel(
-            &format!("position on the {side} wheel, mm"),
-            "depth per 1000 km, µm",
-            curves.collect(),
-        )
-    });
-    let figure_of_both = Figure {
-        panels: panels.into(),
-        height: 300,
+    let figure_of_all = Figure {
+        panels: with_one_scale(of_wheelsets(wear)),
+        height: 210,
         cursor_group: None,
     };
     Ok(html! {
         h2 { "Wear of the wheels" }
-        (figure(&figure_of_both, &html! {
+        (figure(&figure_of_all, &html! {
             "Depth lost along the normal of the profile if the vehicle ran like this for 1000 km; the flange is at "
             "negative positions, the tread datum at 0. " strong { "An estimate" } " by " (wear.law) " (" (wear.source)
             "). " (wear.note)
@@ -124,6 +108,27 @@ pub(super) fn section(wear: &WearIndices) -> Result<Markup, DrawError> {
             }
         } }
     })
+}
+
+/// Draws the left and the right wheel of each wheelset.
+fn of_wheelsets(wear: &WearIndices) -> Vec<Panel> {
+    let mut panels: Vec<Panel> = Vec::new();
+    for wheel in &wear.wheels {
+        let colour = if wheel.side == SIDES[0] { LEFT } else { RIGHT };
+        let curve = Curve::new(wheel.side, colour, touched(wear, wheel)).wide(6);
+        match panels.last_mut() {
+            Some(panel) if panel.title == wheel.wheelset => panel.curves.push(curve),
+            _ => panels.push(Panel {
+                title: wheel.wheelset.clone(),
+                ..panel(
+                    "position on the wheel, mm",
+                    "depth per 1000 km, µm",
+                    vec![curve],
+                )
+            }),
+        }
+    }
+    panels
 }
 
 /// Depth (um per 1000 km) over position (mm) from the first to the last worn cell, with an unworn one at both ends.

@@ -9,7 +9,7 @@ use dashpot_report::page::{Figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::loops;
 use dashpot_report::plot::sheet::Panel;
-use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, RED_LINE};
+use dashpot_report::plot::style::{FIRST, LIMIT, SECOND};
 use dashpot_testbench::bench_sheet::{Tested, index_value};
 use dashpot_testbench::bench_test::Cycle;
 
@@ -21,8 +21,8 @@ const SAMPLES: usize = 1200;
 
 /// Maximum forces with name and colour.
 const FORCES: [(Index, &str, RGBColor); 2] = [
-    (Index::MaxExtensionForceN, "extension", BLUE_LINE),
-    (Index::MaxCompressionForceN, "compression", RED_LINE),
+    (Index::MaxExtensionForceN, "extension", FIRST),
+    (Index::MaxCompressionForceN, "compression", SECOND),
 ];
 
 /// Draws the loops of all tests.
@@ -74,7 +74,7 @@ pub(super) fn over_speed(tested: &[Tested<'_>]) -> Figure {
             .collect();
         let mut curves = vec![Curve::new(name, colour, points).dotted()];
         if !limits.is_empty() {
-            curves.insert(0, Curve::bars("limits", AMBER_LINE, limits).wide(16));
+            curves.insert(0, Curve::bars("limits", LIMIT, limits).wide(16));
         }
         keeping_off_the_sides(panel(
             "peak velocity, m/s",

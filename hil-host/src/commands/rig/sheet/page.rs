@@ -6,7 +6,7 @@ use super::figures;
 use super::report::{Report, TestReport, value_of};
 use crate::commands::failure::Outcome;
 use dashpot_files::sheet::Index;
-use dashpot_report::page::{document, figure, footer, tiles};
+use dashpot_report::page::{document, figure, footer, judged, tiles};
 use dashpot_testbench::bench_sheet::Tested;
 
 /// Returns the page.
@@ -111,7 +111,7 @@ fn limits(report: &Report) -> Markup {
                         td { b { (minus(&limit.formatted())) } }
                         td { (minus(&limit.allowed())) }
                         td.text { (limit.clause.as_deref().unwrap_or("")) }
-                        td.text { (limit.verdict()) }
+                        td.text { (judged(limit.kept, limit.verdict())) }
                     }
                 }
             }

@@ -18,6 +18,7 @@ pub(super) fn panel(solved: &Solved, x_label: &str, y_label: &str, curves: Vec<C
         x_scale: Scale::Linear,
         scale: Scale::Linear,
         keeps_to_values: false,
+        y_range: None,
         curves,
     }
 }

@@ -9,7 +9,7 @@ use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::envelope::thinned;
 use dashpot_report::plot::sheet::Panel;
-use dashpot_report::plot::style::{BLUE_LINE, RED_LINE};
+use dashpot_report::plot::style::{FIRST, SECOND};
 
 /// Draws the first case of a sweep with its first seed.
 ///
@@ -30,7 +30,7 @@ pub(super) fn part(
         sides,
         ..panel(x, "force, kN", Vec::new())
     });
-    let colours = [BLUE_LINE, RED_LINE];
+    let colours = [FIRST, SECOND];
     for (number, name) in dampers.iter().enumerate() {
         let [x, force] = drawn.study.damper_keys(sweep, name);
         let (x, force) = (drawn.curve(&x)?, drawn.curve(&force)?);

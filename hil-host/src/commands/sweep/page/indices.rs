@@ -3,17 +3,15 @@
 use maud::{Markup, html};
 use plotters::style::RGBColor;
 
-use super::{Drawn, HEIGHT};
+use super::words::{Words, equation, in_unit, of_axis, of_index, of_name};
+use super::{Drawn, HEIGHT, heat};
 use crate::commands::failure::Outcome;
-use dashpot_files::study::{Axis, Sweep, Value, format_number};
+use dashpot_files::study::{Axis, Sweep, Value};
 use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::sheet::Panel;
-use dashpot_report::plot::style::{AMBER_LINE, BLUE_LINE, PALE, RED_LINE};
+use dashpot_report::plot::style::SEVERAL;
 use dashpot_study::sweep::Estimate;
-
-/// Colours of the indices in one panel.
-const COLOURS: [RGBColor; 4] = [BLUE_LINE, RED_LINE, AMBER_LINE, PALE];
 
 /// An observed index in a figure.
 pub(super) struct Index {
@@ -24,17 +22,22 @@ pub(super) struct Index {
 }
 
 impl Index {
-    /// Returns the name with the factor.
-    fn name(&self, drawn: &Drawn<'_>) -> String {
-        let name = drawn.study.observed[self.number].name.replace('_', " ");
+    fn words(&self, drawn: &Drawn<'_>) -> Words {
+        of_index(drawn.study.observed[self.number].name)
+    }
+
+    /// Returns the index in words, with its unit and the factor.
+    pub(super) fn name(&self, drawn: &Drawn<'_>) -> String {
+        let label = self.words(drawn).label;
         match self.factor {
-            Some(factor) if factor != 1.0 => format!("{name} × {factor}"),
-            _ => name,
+            Some(factor) if factor != 1.0 => format!("{label} × {factor}"),
+            _ => label,
         }
     }
 
-    fn scale(&self) -> f64 {
-        self.factor.unwrap_or(1.0)
+    /// Returns the factor from a value in a row to what the name states.
+    fn scale(&self, drawn: &Drawn<'_>) -> f64 {
+        self.words(drawn).scale * self.factor.unwrap_or(1.0)
     }
 }
 
@@ -62,18 +65,40 @@ pub(super) fn part(
         height: HEIGHT,
         cursor_group: None,
     };
+    let explained = html! { (caption) " " (meanings(drawn, observed)) };
     Ok(html! {
-        @if !plotted.is_empty() { (figure(&drawing, &html! { (caption) })?) }
+        @if !plotted.is_empty() { (figure(&drawing, &explained)?) }
+        @for sweep in plotted { (heat::maps(drawn, sweep, observed, changes)) }
         @for sweep in listed {
             (table(drawn, sweep, observed))
-            p { (caption) }
+            (heat::maps(drawn, sweep, observed, changes))
+            p { (explained) }
         }
     })
 }
 
+/// Explains each index.
+fn meanings(drawn: &Drawn<'_>, observed: &[Index]) -> String {
+    let sentences = observed.iter().map(|index| {
+        let label = index.words(drawn).label;
+        let what = label.rsplit_once(", ").map_or(&*label, |(what, _)| what);
+        let mut letters = what.chars();
+        let first = letters.next().map(char::to_uppercase);
+        let first: String = first.into_iter().flatten().collect();
+        let observed = &drawn.study.observed[index.number];
+        // The label has the unit, perhaps another one.
+        let raw = of_name(observed.name);
+        let unit = raw.rsplit_once(", ").map(|(_, unit)| format!(", {unit}"));
+        let meaning = observed.meaning;
+        let meaning = unit.map_or(meaning, |unit| meaning.trim_end_matches(&*unit));
+        format!("{first}{}: {meaning}.", letters.as_str())
+    });
+    sentences.collect::<Vec<_>>().join(" ")
+}
+
 /// Values of an index at a point of a sweep, one per seed: scaled, or the change from the first value of the first axis
 /// in percent.
-fn values(
+pub(super) fn values(
     drawn: &Drawn<'_>,
     sweep: &Sweep,
     point: u64,
@@ -82,7 +107,8 @@ fn values(
 ) -> Vec<Option<f64>> {
     let own = drawn.seed_values(sweep, point, index.number);
     if !changes {
-        return own.iter().map(|y| Some((*y)? * index.scale())).collect();
+        let scale = index.scale(drawn);
+        return own.iter().map(|y| Some((*y)? * scale)).collect();
     }
     let others = sweep.points() / sweep.axes[0].values.len() as u64;
     let first = drawn.seed_values(sweep, point % others, index.number);
@@ -101,7 +127,7 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index], changes: bool
     for (number, index) in observed.iter().enumerate() {
         for other in 0..others {
             let colour = match others {
-                1 => COLOURS[number % COLOURS.len()],
+                1 => SEVERAL[number % SEVERAL.len()],
                 _ => shades[other as usize],
             };
             let estimates = first.values.iter().enumerate().filter_map(|(at, value)| {
@@ -136,18 +162,19 @@ fn over_axis(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index], changes: bool
         }
     }
     let (y, title) = match observed {
-        _ if changes => ("change, %", sweep.title.clone()),
+        _ if changes => ("change, %".into(), sweep.title.clone()),
         [index] => {
-            let meaning = drawn.study.observed[index.number].meaning;
-            (meaning, format!("{}: {meaning}", sweep.title))
+            let name = index.name(drawn);
+            let title = format!("{}: {name}", sweep.title);
+            (name, title)
         }
-        _ => ("index", sweep.title.clone()),
+        _ => ("index".into(), sweep.title.clone()),
     };
     Panel {
         title,
         sides: true,
         keeps_to_values: changes || observed.iter().all(|index| index.factor.is_none()),
-        ..panel(&first.label, y, curves)
+        ..panel(&of_axis(first), &y, curves)
     }
 }
 
@@ -182,16 +209,8 @@ fn lighter(part: u8) -> u8 {
 fn at_others(sweep: &Sweep, other: u64) -> String {
     let values = sweep.values(other);
     let named = sweep.axes.iter().zip(values).skip(1);
-    let named = named.map(|(axis, value)| in_unit(axis, value));
+    let named = named.map(|(axis, value)| equation(axis, value));
     named.collect::<Vec<_>>().join(", ")
-}
-
-/// Formats a value in the unit of the figure.
-fn in_unit(axis: &Axis, value: &Value) -> String {
-    match value {
-        Value::Number(number) => format_number(number * axis.factor),
-        Value::Word(word) => word.clone(),
-    }
 }
 
 /// Tabulates means with confidence intervals, and their change from the first value of the first axis.
@@ -208,7 +227,7 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
     html! {
         div.wide.worded { table {
             tr {
-                @for axis in &sweep.axes { th { (axis.label) } }
+                @for axis in &sweep.axes { th { (of_axis(axis)) } }
                 @for index in observed {
                     th { (index.name(drawn)) }
                     th { "change, %" }
@@ -218,7 +237,9 @@ fn table(drawn: &Drawn<'_>, sweep: &Sweep, observed: &[Index]) -> Markup {
                 tr {
                     @for (axis, value) in sweep.axes.iter().zip(sweep.values(point)) { td { (in_unit(axis, value)) } }
                     @for index in observed {
-                        td { (text(Estimate::of(&drawn.values(sweep, point, index.number)), 4)) }
+                        @let values = values(drawn, sweep, point, index, false);
+                        @let present: Vec<f64> = values.into_iter().flatten().collect();
+                        td { (text(Estimate::of(&present), 4)) }
                         td { (text(change(point, index.number), 2)) }
                     }
                 }

@@ -1,9 +1,11 @@
 //! HTML page of a study.
 
 mod dampers;
+mod heat;
 mod indices;
 mod response;
 mod signal;
+mod words;
 
 use maud::{Markup, html};
 
@@ -110,7 +112,7 @@ pub(super) fn write(
         (cases(study))
         (footer(&html! {
             "Study " (study.digest()) ", version " (VERSION) ", physics " (report.physics) ". "
-            "rows.csv contains every case with its seed; the column `ending` gives the reason for its end."
+            "rows.csv contains every case with its seed and the raw names of parameters and indices; the column `ending` gives the reason for its end."
         }))
     };
     Ok(document(
@@ -182,12 +184,6 @@ impl Drawn<'_> {
         let observed = |number| self.rows.get(&number)?.observed.get(index).copied()?;
         numbers.map(observed).collect()
     }
-
-    /// Returns the observed values of an index at a point of a sweep, without the seeds that have none.
-    fn values(&self, sweep: &Sweep, point: u64, index: usize) -> Vec<f64> {
-        let seed_values = self.seed_values(sweep, point, index);
-        seed_values.into_iter().flatten().collect()
-    }
 }
 
 fn headline(study: &Study) -> Markup {
@@ -226,10 +222,11 @@ fn cases(study: &Study) -> Markup {
                             None => { (sweep.case.vehicle) " on " (sweep.case.track) }
                         }
                     }
-                    td.text { @for axis in &sweep.axes { (axis.parameter) br; } }
+                    td.text { @for axis in &sweep.axes { (words::of_axis(axis)) br; } }
                     td.text {
                         @for axis in &sweep.axes {
-                            (axis.values.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")) br;
+                            @let values = axis.values.iter().map(|value| words::in_unit(axis, value));
+                            (values.collect::<Vec<_>>().join(", ")) br;
                         }
                     }
                     td { (sweep.seeds.len()) }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::signal::label;
+use super::words::of_first;
 use super::{Drawn, HEIGHT};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::study::{Sweep, Value};
@@ -41,7 +41,7 @@ pub(super) fn part(
     let by_value = responses.iter().zip(values).zip(ramp(values.len()));
     for ((responses, value), colour) in by_value {
         let [over_stiffness, _, over_damping] =
-            response::of(&label(sweep, value), colour, responses, Scale::Linear);
+            response::of(&of_first(sweep, value), colour, responses, Scale::Linear);
         stiffness.curves.push(over_stiffness);
         damping.curves.push(over_damping);
     }

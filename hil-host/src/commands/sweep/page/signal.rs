@@ -2,9 +2,10 @@
 
 use maud::{Markup, html};
 
+use super::words::{of_first, of_name};
 use super::{Drawn, HEIGHT};
 use crate::commands::failure::Outcome;
-use dashpot_files::study::{Sweep, Value, format_number};
+use dashpot_files::study::{Sweep, Value};
 use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::envelope::thinned;
@@ -23,7 +24,7 @@ pub(super) fn part(
     signal: &str,
     caption: &str,
 ) -> Outcome<Markup> {
-    let what = in_words(signal);
+    let what = of_name(signal);
     let mut time_panel = panel("time, s", &what, Vec::new());
     let mut frequency_panel = Panel {
         x_scale: Scale::Decades,
@@ -35,7 +36,7 @@ pub(super) fn part(
         )
     };
     for (value, colour) in values.iter().zip(ramp(values.len())) {
-        let name = label(sweep, value);
+        let name = of_first(sweep, value);
         let history = drawn.curve(&drawn.study.history_key(sweep, value, signal))?;
         let points = thinned(history.values.iter().copied(), history.step_s);
         let curve = Curve::new(name.clone(), colour, points).wide(4);
@@ -70,35 +71,6 @@ pub(super) fn part(
         ),
     };
     Ok(figure(&drawing, &html! { (caption) " " (spread) })?)
-}
-
-/// Formats a signal name with its unit.
-fn in_words(signal: &str) -> String {
-    let units = [
-        ("_m_per_s2", ", m/s²"),
-        ("_rad", ", rad"),
-        ("_m", ", m"),
-        ("_n", ", N"),
-        ("_derailment", " Y/Q"),
-    ];
-    let found = units
-        .into_iter()
-        .find_map(|(ending, unit)| Some((signal.strip_suffix(ending)?, unit)));
-    let (name, unit) = found.unwrap_or((signal, ""));
-    name.replace('_', " ") + unit
-}
-
-/// Formats a value as a curve label.
-pub(super) fn label(sweep: &Sweep, value: &Value) -> String {
-    match (value, sweep.axes.first()) {
-        (Value::Number(number), Some(axis)) => {
-            let scaled = format_number(number * axis.factor);
-            let (what, unit) = axis.label.rsplit_once(", ").unwrap_or((&axis.label, ""));
-            let symbol = what.rsplit(' ').next().unwrap_or(what);
-            format!("{symbol} = {scaled} {unit}").trim_end().to_owned()
-        }
-        _ => value.to_string(),
-    }
 }
 
 type Mean = Vec<(f64, f64)>;

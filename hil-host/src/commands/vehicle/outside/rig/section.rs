@@ -4,7 +4,7 @@ use dashpot_report::DrawError;
 use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::Curve;
 use dashpot_report::plot::envelope::thinned;
-use dashpot_report::plot::style::{BLUE_LINE, PALE, RED_LINE};
+use dashpot_report::plot::style::{BEFORE, COMPARED, DIFFERENCE, RESULT};
 use dashpot_study::verification::IndexEffect;
 use maud::{Markup, html};
 
@@ -30,14 +30,18 @@ pub(in crate::commands::vehicle) fn section(
         Curve::new(name, colour, thinned(&mut values, step_s))
     };
     let displacements = vec![
-        over_time("desired", PALE, &|row| 1e3 * row.desired_m).wide(16),
-        over_time("command", RED_LINE, &|row| 1e3 * row.command_m).wide(4),
-        over_time("measured", BLUE_LINE, &|row| 1e3 * row.measured_m).wide(5),
+        over_time("desired", COMPARED, &|row| 1e3 * row.desired_m).wide(16),
+        over_time("command", BEFORE, &|row| 1e3 * row.command_m).wide(4),
+        over_time("measured", RESULT, &|row| 1e3 * row.measured_m).wide(5),
     ];
-    let errors =
-        vec![over_time("", RED_LINE, &|row| 1e3 * (row.measured_m - row.desired_m)).wide(5)];
-    let delays = vec![over_time("", BLUE_LINE, &|row| 1e3 * row.delay_s).wide(5)];
-    let energies = vec![over_time("", BLUE_LINE, &|row| row.added_j).wide(5)];
+    let errors = vec![
+        over_time("", DIFFERENCE, &|row| {
+            1e3 * (row.measured_m - row.desired_m)
+        })
+        .wide(5),
+    ];
+    let delays = vec![over_time("", RESULT, &|row| 1e3 * row.delay_s).wide(5)];
+    let energies = vec![over_time("", RESULT, &|row| row.added_j).wide(5)];
     let of_panels = |panels| Figure {
         panels,
         height: HEIGHT,
