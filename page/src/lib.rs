@@ -9,24 +9,20 @@ use dashpot_files::case::CASES;
 use dashpot_files::track::TRACKS;
 use dashpot_files::vehicle::VEHICLES;
 use dashpot_live::{Choice, REFERENCE_DIGEST};
-use dashpot_report::page::content_policy;
+use dashpot_report::page::{Parts, content_policy};
 use pack::packed;
 use serde_json::{Value, json};
 
 /// The engine of the page, built by `cargo xtask web`.
 const MODULE: &[u8] = include_bytes!("../module/dashpot.wasm");
 
-/// A part of another page that follows the live page.
-#[derive(Debug, Clone, Copy)]
+/// A page that follows the live page in the same file.
+#[derive(Debug, Clone)]
 pub struct Below<'a> {
     /// Title of the whole page.
     pub title: &'a str,
-    /// Style sheets.
-    pub styles: &'a [String],
-    /// Markup.
-    pub body: &'a str,
-    /// Scripts.
-    pub scripts: &'a [&'a str],
+    /// The page.
+    pub parts: Parts,
 }
 
 /// Returns a page that simulates by itself. It begins with a choice; `tables` are the names and contents of files of
@@ -102,35 +98,28 @@ fn document(
     data: &[String],
     below: Option<Below<'_>>,
 ) -> String {
-    let nothing = Below {
-        title: "Dashpot live",
-        styles: &[],
-        body: "",
-        scripts: &[],
+    let (title, parts) = match &below {
+        Some(below) => (below.title, Some(&below.parts)),
+        None => ("Dashpot live", None),
     };
-    let below = below.unwrap_or(nothing);
-    let styles: Vec<&str> = std::iter::once(files::STYLE)
-        .chain(below.styles.iter().map(String::as_str))
-        .collect();
-    let scripts: Vec<&str> = files::SCRIPTS
-        .iter()
-        .chain(below.scripts)
-        .copied()
-        .collect();
+    // The style of the live page comes last: it undoes what the other would do to it.
+    let mut styles = parts.map_or_else(Vec::new, |parts| parts.styles.to_vec());
+    styles.push(files::STYLE);
+    let mut scripts = files::SCRIPTS.to_vec();
+    scripts.extend(parts.map_or(&[][..], |parts| parts.scripts));
     let policy = content_policy(&scripts, &styles);
     let policy = policy.replace("; style-src", &format!("{script_sources}; style-src"));
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}{sources}\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n",
-        below.title
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n"
     );
     for style in styles {
         page += &format!("<style>{style}</style>\n");
     }
     page += "</head><body>\n";
     page += files::BODY;
-    page += below.body;
+    page += parts.map_or("", |parts| &parts.body);
     page.extend(data.iter().map(String::as_str));
     for script in scripts {
         page += &format!("<script>{script}</script>\n");

@@ -48,21 +48,49 @@ pub fn document(title: &str, body: &Markup) -> String {
                 @for style in STYLES { style { (PreEscaped(style)) } }
             }
             body {
-                main {
-                    noscript {
-                        p.note {
-                            "The plots are missing because the page's script does not run here. Text and tables are \
-                             complete."
-                        }
-                    }
-                    (PreEscaped(contents::with_contents(&body.0)))
-                }
-                (PreEscaped(format!("<!-- uPlot\n{LICENCE}-->\n")))
+                main.report { (content(body)) }
+                (PreEscaped(licence()))
                 @for script in SCRIPTS { script { (PreEscaped(script)) } }
             }
         }
     };
     page.into_string() + "\n"
+}
+
+/// What a page consists of, for a page that begins with something else.
+#[derive(Debug, Clone)]
+pub struct Parts {
+    /// Style sheets.
+    pub styles: &'static [&'static str],
+    /// Content of the page's `body`.
+    pub body: String,
+    /// Scripts, which come after the body.
+    pub scripts: &'static [&'static str],
+}
+
+/// Returns the parts of a page with `body`, which has no heading of the first level.
+pub fn parts(body: &Markup) -> Parts {
+    let article = html! { article.report { (content(body)) } };
+    Parts {
+        styles: &STYLES,
+        body: article.into_string() + &licence(),
+        scripts: &SCRIPTS,
+    }
+}
+
+fn content(body: &Markup) -> Markup {
+    html! {
+        noscript {
+            p.note {
+                "The plots are missing because the page's script does not run here. Text and tables are complete."
+            }
+        }
+        (PreEscaped(contents::with_contents(&body.0)))
+    }
+}
+
+fn licence() -> String {
+    format!("<!-- uPlot\n{LICENCE}-->\n")
 }
 
 /// Returns a row of key figures, each with a value and its meaning.

@@ -3,6 +3,7 @@
 mod cost;
 mod description;
 mod figures;
+mod live;
 mod page;
 mod recording;
 mod results;

@@ -3,12 +3,12 @@
 use maud::{Markup, html};
 
 use super::results::{Accuracy, Bench, Demonstration, LOOP_FREQUENCY_HZ, Ride, STEPS_S};
-use super::{description, figures};
+use super::{description, figures, live};
 use crate::commands::failure::Outcome;
 use dashpot_files::Scalar;
 use dashpot_files::harmonic::Harmonic;
 use dashpot_report::DrawError;
-use dashpot_report::page::{built, document, figure, footer, tiles};
+use dashpot_report::page::{built, figure, footer, parts, tiles};
 use dashpot_testbench::TestbenchError;
 use dashpot_testbench::published::nominal_indices;
 
@@ -22,7 +22,7 @@ pub(super) fn write(shown: &Demonstration) -> Outcome<String> {
         (description::relief(&shown.benches))
     };
     let body = html! {
-        h1 { "A rail damper in real time" }
+        h2 { "A rail damper in real time" }
         (lead(shown))
         (headline(shown))
         h2 { "The damper" }
@@ -57,7 +57,7 @@ pub(super) fn write(shown: &Demonstration) -> Outcome<String> {
             code { "dashpot --help" } "."
         }))
     };
-    Ok(document("Dashpot: a rail damper in real time", &body))
+    live::above("Dashpot: a rail damper in real time", parts(&body))
 }
 
 fn lead(shown: &Demonstration) -> Markup {
