@@ -90,7 +90,8 @@
       }
     }
     if (!(low <= high)) return [-1 / panel.factor, 1 / panel.factor];
-    const smallest = 0.01 / panel.factor;
+    // A signal at rest is a line, not its rounding errors.
+    const smallest = 10 ** (1 - words.unit(panel.unit).digits) / panel.factor;
     const wanted = [low < 0 ? -nice(Math.max(smallest, -low)) : 0, high > 0 ? nice(Math.max(smallest, high)) : 0];
     if (wanted[0] === wanted[1]) wanted[1] = smallest;
     // Grows at once, shrinks only if much of the panel is empty.

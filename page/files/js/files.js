@@ -16,8 +16,7 @@
     tell(`Saved ${name}.`);
   }
 
-  const bytes = base64 => Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
-  const file = ({ name, mime, base64 }) => save(new Blob([bytes(base64)], { type: mime }), name);
+  const file = async ({ name, mime, base64 }) => save(new Blob(await live.bytes(base64), { type: mime }), name);
 
   // The file has what is needed to know where the state belongs.
   async function saveState() {

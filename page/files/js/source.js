@@ -115,5 +115,5 @@
     return { kind, send };
   }
 
-  Object.assign(live, { connect });
+  Object.assign(live, { connect, bytes });
 }
