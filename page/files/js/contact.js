@@ -144,9 +144,7 @@
   }
 
   function draw({ context, width }) {
-    if (!live.scene?.profiles) return;
-    if (table?.of !== live.scene.profiles)
-      table = Object.assign(touching(fromDatum(live.scene.profiles)), { of: live.scene.profiles });
+    if (!live.scene?.profiles || table?.of !== live.scene.profiles) return;
     const set = live.scene.wheelsets[live.view.wheelset] ?? live.scene.wheelsets[0];
     const half = (width - 16) / 2;
     for (const [side, x] of [
@@ -158,5 +156,10 @@
     paint.text(context, "middle of the track", width / 2, HEIGHT_PX - FOOT_PX - 6, { align: "center", size: 11 });
   }
 
+  // Not while drawing, because it takes some milliseconds.
+  live.prepareContact = () => {
+    const { profiles } = live.scene;
+    if (profiles) table = Object.assign(touching(fromDatum(profiles)), { of: profiles });
+  };
   live.drawContact = () => paint.view("contact", { height: () => HEIGHT_PX, draw, period_ms: 48 });
 }

@@ -46,6 +46,7 @@
     live.verdict.restart();
     // In tasks of their own, so that none is long.
     setTimeout(() => live.dampers.scene());
+    setTimeout(live.prepareContact);
     if (!isSame || live.curves.panels.length === 0) {
       setTimeout(() => {
         live.panels.show(live.view.signals ?? live.panels.usual());
@@ -118,10 +119,9 @@
       if (view.drawn === now) continue;
       turn(view);
       // Views with a common time have their turn together, so that their times agree.
-      if (view.group)
-        live.paint.views
-          .filter(({ group, drawn, isSeen }) => group === view.group && drawn !== now && isSeen)
-          .forEach(turn);
+      const others = view.group ? live.paint.views.filter(other => other.group === view.group) : [];
+      for (const other of others)
+        if (other.drawn !== now && other.isSeen && performance.now() - start < 2 * BUDGET_MS) turn(other);
     }
   }
 
@@ -143,19 +143,15 @@
     requestAnimationFrame(draw);
   }
 
+  const pause = () => new Promise(resolve => setTimeout(resolve));
+
+  // In tasks of their own, so that none is long.
   async function start() {
-    for (const part of [
-      live.controls,
-      live.dampers,
-      live.cases,
-      live.setting,
-      live.files,
-      live.keys,
-      live.choices,
-      live.pick,
-    ])
+    const { controls, dampers, cases, setting, files, keys, choices, pick, bars } = live;
+    for (const part of [controls, dampers, cases, setting, files, keys, choices, pick, bars]) {
       part.start();
-    live.bars.start();
+      await pause();
+    }
     for (const view of [live.drawSide, live.drawAbove, live.drawBehind, live.drawContact, live.drawLoops]) view();
     requestAnimationFrame(draw);
     const linked = await live.setting.read();
