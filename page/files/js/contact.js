@@ -8,7 +8,7 @@
   const [HEIGHT_PX, HEAD_PX, FOOT_PX] = [300, 28, 46];
   // Shown part of the profiles, m from the tread datum, and the depth of the top of the rail in it.
   const [INNER_M, OUTER_M] = [-0.082, 0.072];
-  const FORCE_PER_PX = 1500;
+  const FORCE_PER_PX = 1900;
   // Steps of the shift of a wheel on its rail, and how many are looked at to each side.
   const [STEP_M, SHIFTS] = [0.0004, 32];
 

@@ -7,6 +7,9 @@
     target.matches?.('input:not([type="range"]):not([type="checkbox"]), textarea, [contenteditable]');
   const hasRig = () => !document.getElementById("emergency").hidden;
 
+  // Another page may follow below, in which Space scrolls.
+  const isInView = () => document.querySelector(".live").getBoundingClientRect().bottom > 0;
+
   // Without a rig, Space keeps its usual meaning on a button or in a list.
   const takesSpace = ({ target }) => target.matches?.("button, select, summary, a");
 
@@ -20,6 +23,7 @@
   function press(event) {
     if (!live.scene) return;
     if (event.key === "Escape" && hasRig()) return live.controls.stop();
+    if (!hasRig() && !isInView()) return;
     if (event.ctrlKey || event.metaKey || event.altKey || isText(event)) return;
     if (event.key === " ") {
       if (hasRig()) {
