@@ -63,6 +63,8 @@ pub struct Place {
 struct DeskDamper {
     name: String,
     as_new: KeyedParameters,
+    /// As new, or the preset in its place; the sliders have their ranges around it.
+    usual: KeyedParameters,
     now: KeyedParameters,
     fault: Option<&'static str>,
     wear: f64,
@@ -101,6 +103,7 @@ impl Desk {
             Ok(DeskDamper {
                 name: name.clone(),
                 now: as_new.clone(),
+                usual: as_new.clone(),
                 as_new,
                 fault: None,
                 wear: 0.0,
@@ -150,6 +153,11 @@ impl Desk {
         &self.dampers[damper].as_new
     }
 
+    /// Parameters around which a damper's numbers are chosen.
+    pub(crate) fn usual(&self, damper: usize) -> &KeyedParameters {
+        &self.dampers[damper].usual
+    }
+
     /// Present parameters of a damper.
     pub(crate) fn now(&self, damper: usize) -> &KeyedParameters {
         &self.dampers[damper].now
@@ -186,7 +194,10 @@ impl Desk {
                     return Err(ActionError::unknown("preset", preset, names()));
                 }
                 let loaded = damper::load(preset, &[])?;
-                self.put(index, &loaded, |desk| (desk.fault, desk.wear) = (None, 0.0))?
+                self.put(index, &loaded, |desk| {
+                    desk.usual = desk.now.clone();
+                    (desk.fault, desk.wear) = (None, 0.0);
+                })?
             }
             Action::AsNew { damper } => self.change_as_new(damper, &[], |desk| {
                 (desk.fault, desk.wear, desk.is_changed) = (None, 0.0, false);
@@ -255,7 +266,10 @@ impl Desk {
     ) -> Result<Change, ActionError> {
         let index = self.damper(name)?;
         let checked = self.dampers[index].as_new.with(numbers)?;
-        self.put(index, &checked, note)
+        self.put(index, &checked, |damper| {
+            damper.usual = damper.as_new.clone();
+            note(damper);
+        })
     }
 
     /// Builds a damper and puts it on the desk.

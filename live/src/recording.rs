@@ -2,12 +2,13 @@
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use falcon_mdf::Mf4Writer;
 use serde_json::{Value, json};
 
-use crate::ActionError;
+use crate::{ActionError, SignalWords};
 
-/// Largest recording, numbers: 256 MB.
-const MAX_NUMBERS: usize = 64_000_000;
+/// Largest recording, numbers: 64 MB, more than a minute of a locomotive. A file takes several times as much.
+const MAX_NUMBERS: usize = 16_000_000;
 
 /// A recording.
 #[derive(Debug, Clone, Default)]
@@ -47,10 +48,34 @@ impl Recording {
     }
 
     /// The recording as a message with a file.
+    ///
+    /// # Errors
+    /// The format is none of `csv` and `mdf4`, or nothing is recorded.
     pub fn file(&self, names: &[String], format: &str) -> Result<Value, ActionError> {
-        if format != "csv" {
-            return Err(ActionError::unknown("format", format, ["csv"].into_iter()));
+        if self.times_s.is_empty() {
+            return Err(ActionError::State("nothing is recorded"));
         }
+        let (name, mime, content) = match format {
+            "csv" => ("dashpot-live.csv", "text/csv", self.csv(names).into_bytes()),
+            "mdf4" => (
+                "dashpot-live.mf4",
+                "application/octet-stream",
+                self.mdf4(names)?,
+            ),
+            other => {
+                return Err(ActionError::unknown(
+                    "format",
+                    other,
+                    ["csv", "mdf4"].into_iter(),
+                ));
+            }
+        };
+        Ok(json!({
+            "type": "file", "name": name, "mime": mime, "base64": BASE64_STANDARD.encode(content),
+        }))
+    }
+
+    fn csv(&self, names: &[String]) -> String {
         let mut text = names.join(",");
         text.push('\n');
         for (time_s, row) in self
@@ -60,15 +85,28 @@ impl Recording {
         {
             // The first signal is the time, which needs more digits than a frame has.
             text.push_str(&time_s.to_string());
-            for value in &row[1..] {
+            for value in row.iter().skip(1) {
                 text.push(',');
                 text.push_str(&value.to_string());
             }
             text.push('\n');
         }
-        Ok(json!({
-            "type": "file", "name": "dashpot-live.csv", "mime": "text/csv",
-            "base64": BASE64_STANDARD.encode(text),
-        }))
+        text
+    }
+
+    fn mdf4(&self, names: &[String]) -> Result<Vec<u8>, ActionError> {
+        let failed = |_| ActionError::State("the recording cannot be written as MDF4");
+        // The start time is unknown. The epoch makes files reproducible.
+        let mut writer = Mf4Writer::with_start_time_ns(0);
+        let group = writer.add_group(&self.times_s).map_err(failed)?;
+        for (number, name) in names.iter().enumerate().skip(1) {
+            let rows = self.values.chunks(names.len());
+            let values: Vec<f64> = rows.map(|row| f64::from(row[number])).collect();
+            let unit = SignalWords::of(name).unit();
+            group.add_channel(name, unit, &values).map_err(failed)?;
+        }
+        let mut bytes = Vec::new();
+        writer.write(&mut bytes).map_err(failed)?;
+        Ok(bytes)
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::desk::Desk;
-use crate::quantity::{self, WEAR};
+use crate::quantity::{self, Quantity, WEAR};
 use crate::{Action, Choice};
 
 /// State of the desk and of the run in words and numbers.
@@ -47,6 +47,7 @@ pub struct Setting {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct DamperStatus {
     values: BTreeMap<&'static str, f64>,
+    quantities: Vec<Quantity>,
     changed: bool,
     fault: Option<&'static str>,
 }
@@ -57,13 +58,14 @@ impl Status {
         let damper = |index: usize| {
             let (changed, fault, wear) = desk.condition(index);
             let now = desk.now(index);
-            let quantities = quantity::of_damper(now);
+            let quantities = quantity::of_damper(desk.usual(index));
             let numbers = quantities.iter().map(|quantity| match quantity.key {
                 WEAR => (WEAR, wear),
-                key => (key, quantity.value),
+                key => (key, now.number(key).unwrap_or(quantity.value)),
             });
             DamperStatus {
                 values: numbers.collect(),
+                quantities,
                 changed,
                 fault,
             }

@@ -5,7 +5,7 @@ use std::process::Command;
 
 use dashpot::document;
 use dashpot::target::experiments;
-use dashpot_physics::{Results, STUDY, study};
+use dashpot_physics::{Results, Runs, STUDY, study};
 use xtask::aarch64;
 use xtask::processor::AARCH64;
 use xtask::tools::{AARCH64_GCC, AARCH64_LIBC, QEMU_AARCH64, have, have_library};
@@ -30,7 +30,9 @@ fn a_64_bit_arm_has_the_hosts_contact_vehicle_and_indices() {
     };
     // The contact tables come from this machine: the emulator would take minutes. The elastic contact behind them is a
     // part of the results.
-    let here = Results::new(&study(&document::in_repository(STUDY).to_string_lossy()));
+    let here = Results::new(&Runs::of(&study(
+        &document::in_repository(STUDY).to_string_lossy(),
+    )));
     let mut program = aarch64::program(&program);
     let found = succeed(program.arg(document::in_repository(STUDY)));
     assert_eq!(found, here.text());

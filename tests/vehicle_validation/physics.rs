@@ -12,7 +12,7 @@ use std::io::{Write, stderr};
 
 use dashpot::document;
 use dashpot_core::VectorWidth;
-use dashpot_physics::{Results, STUDY};
+use dashpot_physics::{Results, Runs, STUDY};
 use dashpot_rail::vehicle::Law;
 use dashpot_rail::with_narrowest_vectors;
 use dashpot_study::sweep::{OBSERVED, PHYSICS, ROW_DIGEST, Study, digest_of_cells};
@@ -31,7 +31,7 @@ fn study() -> Study {
 
 /// Results of the model with the vectors of this thread.
 fn computed() -> Results {
-    Results::new(&study())
+    Results::new(&Runs::of(&study()))
 }
 
 #[test]

@@ -40,6 +40,10 @@ impl WheelOnRail {
     /// # Errors
     /// See [`Self::geometry`].
     pub fn tables(&self) -> Result<Arc<Tables>, VehicleRunError> {
+        // A browser has no folder.
+        if cfg!(target_family = "wasm") {
+            return self.computed();
+        }
         let cached = Tables::cached(&cache_folder(), self.geometry()?);
         Ok(Arc::new(cached.tables))
     }

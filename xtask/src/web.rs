@@ -32,7 +32,7 @@ const SOURCES_TEST: [&str; 7] = [
 /// # Errors
 /// It cannot be built or written.
 pub fn web() -> Outcome {
-    let built = build()?;
+    let built = build("dashpot-browser")?;
     let failed = |error: std::io::Error| format!("{MODULE}: {error}");
     fs::copy(&built, repository().join(MODULE)).map_err(failed)?;
     let compiler = TargetToolchain::Installed.version()?;
@@ -49,7 +49,7 @@ pub fn web() -> Outcome {
 /// # Errors
 /// It cannot be built, or the bytes differ.
 pub fn check() -> Outcome {
-    let built = build()?;
+    let built = build("dashpot-browser")?;
     let read = |path: &Path| fs::read(path).map_err(|error| format!("{}: {error}", path.display()));
     if read(&built)? == read(&repository().join(MODULE))? {
         return Ok(());
@@ -62,10 +62,13 @@ pub fn check() -> Outcome {
     ))
 }
 
-/// Builds the module and returns its path.
-fn build() -> Outcome<PathBuf> {
+/// Builds the library of a package as a module and returns its path.
+///
+/// # Errors
+/// There is no library for the target, or the package does not compile.
+pub fn build(package: &str) -> Outcome<PathBuf> {
     TargetToolchain::installed(TARGET).ok_or_else(|| {
-        format!("the page's engine needs its target: run `rustup target add {TARGET}`")
+        format!("a page's engine needs its target: run `rustup target add {TARGET}`")
     })?;
     // Texts of panics have the places of sources; they must not depend on this machine.
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
@@ -92,16 +95,8 @@ fn build() -> Outcome<PathBuf> {
     let folder = repository().join("target/web");
     let mut cargo = Command::new("cargo");
     cargo
-        .args([
-            "build",
-            "--locked",
-            "--profile",
-            "web",
-            "--target",
-            TARGET,
-            "--package",
-            "dashpot-browser",
-        ])
+        .args(["rustc", "--locked", "--profile", "web", "--target", TARGET])
+        .args(["--package", package, "--lib", "--crate-type", "cdylib"])
         .arg("--target-dir")
         .arg(&folder)
         .env("CARGO_ENCODED_RUSTFLAGS", flags.join("\u{1f}"))
@@ -109,6 +104,7 @@ fn build() -> Outcome<PathBuf> {
         .env_remove("CARGO_INCREMENTAL")
         .env_remove("CARGO_PROFILE_WEB_STRIP")
         .current_dir(repository());
-    run(cargo, "cargo build of the page's engine")?;
-    Ok(folder.join(TARGET).join("web/dashpot_browser.wasm"))
+    run(cargo, &format!("cargo rustc of {package} for a browser"))?;
+    let name = package.replace('-', "_");
+    Ok(folder.join(TARGET).join(format!("web/{name}.wasm")))
 }

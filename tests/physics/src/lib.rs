@@ -7,10 +7,14 @@
 mod contact;
 mod damper;
 mod indices;
+#[cfg(target_family = "wasm")]
+mod module;
 mod vehicle;
 
+use dashpot_files::case::Case;
 use dashpot_files::study::StudyParameters;
 use dashpot_study::sweep::{Study, digest_of_cells};
+use serde::{Deserialize, Serialize};
 
 /// The study of the runs, in the repository.
 pub const STUDY: &str = "tests/physics/study/study.toml";
@@ -22,6 +26,34 @@ pub const STUDY: &str = "tests/physics/study/study.toml";
 pub fn study(path: &str) -> Study {
     let parameters = StudyParameters::load(path).expect("the study of physics");
     Study::new(parameters).expect("the study of physics")
+}
+
+/// Runs and their indices, which need no other file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Runs {
+    /// The case of each run.
+    pub cases: Vec<Case>,
+    /// Names of the indices.
+    pub observed: Vec<String>,
+}
+
+impl Runs {
+    /// The runs of a study.
+    ///
+    /// # Panics
+    /// If a case cannot be built.
+    pub fn of(study: &Study) -> Self {
+        let cases = (0..study.cases()).filter_map(|number| study.case(number));
+        let build = |case| study.build(&case).expect("a case");
+        Self {
+            cases: cases.map(build).collect(),
+            observed: study
+                .observed
+                .iter()
+                .map(|index| index.name.to_owned())
+                .collect(),
+        }
+    }
 }
 
 /// Results of the model.
@@ -47,9 +79,9 @@ impl Results {
     ///
     /// # Panics
     /// If a run ends early or an index is missing.
-    pub fn new(study: &Study) -> Self {
+    pub fn new(runs: &Runs) -> Self {
         let forces = damper::forces();
-        let indices = indices::of_runs(study);
+        let indices = indices::of_runs(runs);
         // Cells of a row are in the order of the runs, those of a part in the order of the indices.
         let mut cells = forces.both();
         cells.extend(indices.iter().flat_map(|run| run.iter().cloned()));
@@ -67,7 +99,7 @@ impl Results {
         ] {
             parts.push(part(name, bits.iter().map(String::as_str)));
         }
-        let names = study.observed.iter().map(|index| index.name).enumerate();
+        let names = runs.observed.iter().enumerate();
         parts.extend(names.map(|(index, name)| part(name, of_index(index))));
         Self {
             physics: digest_of_cells(cells.iter().map(String::as_str)),
