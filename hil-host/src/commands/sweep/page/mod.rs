@@ -2,6 +2,7 @@
 
 mod dampers;
 mod heat;
+mod index;
 mod indices;
 mod response;
 mod signal;
@@ -137,7 +138,7 @@ impl Drawn<'_> {
             } => {
                 let sweeps: Outcome<Vec<&Sweep>> = sweeps.iter().map(sweep).collect();
                 let index = |(at, name): (usize, &String)| {
-                    Some(indices::Index {
+                    Some(index::Index {
                         number: self.number(name)?,
                         factor: factors.get(at).copied(),
                     })
