@@ -113,7 +113,8 @@ pub(super) fn write(
         (cases(study))
         (footer(&html! {
             "Study " (study.digest()) ", version " (VERSION) ", physics " (report.physics) ". "
-            "rows.csv contains every case with its seed and the raw names of parameters and indices; the column `ending` gives the reason for its end."
+            "rows.csv contains every case with its seed and the raw names of parameters and indices; the column "
+            "`ending` gives the reason for its end."
         }))
     };
     Ok(document(
