@@ -224,7 +224,10 @@ fn alarms(history: &History) -> Markup {
             ul {
                 @for (alarm, time_s) in &history.alarms {
                     @if let Some(last) = history.last() {
-                        li { (judged(false, "Alarm")) ": " (alarm_in_words(*alarm, last)) ", since " (format!("{time_s:.2}")) " s." }
+                        li {
+                            (judged(false, &format!("Alarm: {}", alarm_in_words(*alarm, last))))
+                            ", since " (format!("{time_s:.2}")) " s."
+                        }
                     }
                 }
             }

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::browser::Browser;
-use crate::shown::SHEET;
+use crate::shown::{SHEET, VEHICLE};
 
 /// A4 minus the margins of the style, at 96 pixels per inch.
 const WIDTH: u32 = 687;
@@ -42,4 +42,34 @@ fn a_sheet_fits_paper_and_is_white_from_a_dark_screen() {
     assert_eq!(found["broken"], json!([]), "{found}");
     assert_eq!(found["paper"], "rgb(255, 255, 255)", "{found}");
     assert_eq!(found["page"].as_array().unwrap().len(), 1, "{found}");
+}
+
+/// Half the height of A4 minus the margins of the style, at 96 pixels per inch.
+const HALF: f64 = 508.0;
+
+#[test]
+fn two_figures_of_a_run_fit_on_a_page() {
+    let Some(browser) = Browser::start("figures on paper") else {
+        return;
+    };
+    browser.tell("Emulation.setEmulatedMedia", json!({ "media": "print" }));
+    browser.open(&VEHICLE, WIDTH);
+    browser.find("dispatchEvent(new Event('beforeprint'));");
+    browser.wait_for("document.querySelector('canvas').clientHeight < 225");
+    let found = browser.find(
+        "const shown = element => getComputedStyle(element).display !== 'none';
+         return {
+             heights: [...document.querySelectorAll('figure')].map(figure => figure.getBoundingClientRect().height),
+             controls: [...document.querySelectorAll('.contents, .data, .on-screen')].filter(shown).length,
+         };",
+    );
+    let heights = found["heights"].as_array().unwrap();
+    assert!(heights.len() > 10, "{found}");
+    let all_fit = heights.iter().all(|height| height.as_f64().unwrap() < HALF);
+    assert!(all_fit, "{found}");
+    assert_eq!(found["controls"], 0, "{found}");
+    // Back on the screen, plots have their own height again.
+    browser.find("dispatchEvent(new Event('afterprint'));");
+    browser.tell("Emulation.setEmulatedMedia", json!({ "media": "screen" }));
+    browser.wait_for("document.querySelector('canvas').clientHeight >= 225");
 }

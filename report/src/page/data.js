@@ -5,17 +5,19 @@ const offerNumbers = panel => {
   // The numbers are 32-bit, which have seven digits.
   const number = value => (value === undefined || Number.isNaN(value) ? "" : String(Number(value.toPrecision(7))));
 
-  // Curves with the same abscissas share a column of them.
+  // Curves with the same abscissas share a column of them. Marks are abscissas only.
   function columns() {
     const found = new Map();
+    const marks = panel.curves.filter(({ stroke }) => stroke === "marks");
     panel.curves.forEach(({ name, stroke, columns: [xs, lows, highs] }, index) => {
+      if (stroke === "marks") return;
       if (!found.has(xs)) found.set(xs, []);
       const curve = name || (panel.curves.length > 1 ? `curve ${index + 1}` : "");
       const label = [curve, panel.y.label].filter(Boolean).join(": ");
-      if (stroke === "marks") return;
       found.get(xs).push(...(highs ? [[`${label}, low`, lows], [`${label}, high`, highs]] : [[label, lows]]));
     });
-    return [...found].flatMap(([xs, ordinates]) => [[panel.x.label, xs], ...ordinates]);
+    const all = [...found].flatMap(([xs, ordinates]) => [[panel.x.label, xs], ...ordinates]);
+    return [...all, ...marks.map(({ name, columns: [xs] }) => [`${name}: ${panel.x.label}`, xs])];
   }
 
   function csv() {

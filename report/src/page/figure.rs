@@ -105,7 +105,7 @@ impl Figure {
                         "data"
                     }
                 }
-                div.plot tabindex="0" role="img" aria-label=(description(panel)) {}
+                div.plot role="img" tabindex="0" aria-label=(description(panel)) {}
                 script type="application/json" { (PreEscaped(data)) }
                 span.at {}
             }
@@ -137,11 +137,11 @@ fn legend(curves: &[Curve]) -> Markup {
             @for (number, curve) in curves.iter().enumerate() {
                 @if !curve.name.is_empty() || is_single && curve.has_values() {
                     li data-curve=(number) {
-                        @if named > 1 {
+                        @if named > 1 && !curve.name.is_empty() {
                             button type="button" aria-pressed="true" data-curves=(with_companions(curves, number)) {
                                 (key(curve)) (curve.name)
                             }
-                        } @else if named == 1 {
+                        } @else if !curve.name.is_empty() {
                             (key(curve)) (curve.name)
                         }
                         span.value {}
@@ -194,6 +194,20 @@ mod tests {
     }
 
     #[test]
+    fn a_curve_without_a_name_has_no_key() {
+        let marks = Curve {
+            name: "fault".into(),
+            ..Curve::marks(RIGHT, [0.0])
+        };
+        let page = html_of(vec![curve(""), marks]);
+        assert!(
+            page.contains("<li data-curve=\"0\"><span class=\"value\">"),
+            "{page}"
+        );
+        assert!(page.contains("</svg>fault<span"), "{page}");
+    }
+
+    #[test]
     fn nothing_hides_the_only_curve() {
         for name in ["", "force"] {
             let page = html_of(vec![curve(name)]);
@@ -207,7 +221,7 @@ mod tests {
         let page = html_of(vec![curve("left"), curve(""), curve("right")]);
         let label = "force, kN over time, s. Curves: left, right";
         let plot =
-            format!("<div class=\"plot\" tabindex=\"0\" role=\"img\" aria-label=\"{label}\">");
+            format!("<div class=\"plot\" role=\"img\" tabindex=\"0\" aria-label=\"{label}\">");
         assert!(page.contains(&plot), "{page}");
     }
 }

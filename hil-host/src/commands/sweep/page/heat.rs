@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::Drawn;
-use super::indices::{Index, values};
+use super::index::{Index, values};
 use super::words::{in_unit, of_axis};
 use dashpot_files::study::{Axis, Sweep};
 use dashpot_report::page::{HeatAxis, HeatMap};

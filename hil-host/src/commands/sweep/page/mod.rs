@@ -2,6 +2,7 @@
 
 mod dampers;
 mod heat;
+mod index;
 mod indices;
 mod response;
 mod signal;
@@ -112,7 +113,8 @@ pub(super) fn write(
         (cases(study))
         (footer(&html! {
             "Study " (study.digest()) ", version " (VERSION) ", physics " (report.physics) ". "
-            "rows.csv contains every case with its seed and the raw names of parameters and indices; the column `ending` gives the reason for its end."
+            "rows.csv contains every case with its seed and the raw names of parameters and indices; the column "
+            "`ending` gives the reason for its end."
         }))
     };
     Ok(document(
@@ -137,7 +139,7 @@ impl Drawn<'_> {
             } => {
                 let sweeps: Outcome<Vec<&Sweep>> = sweeps.iter().map(sweep).collect();
                 let index = |(at, name): (usize, &String)| {
-                    Some(indices::Index {
+                    Some(index::Index {
                         number: self.number(name)?,
                         factor: factors.get(at).copied(),
                     })
