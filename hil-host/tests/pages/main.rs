@@ -6,9 +6,11 @@ mod common;
 mod contents;
 mod curves;
 mod data;
+mod in_browser;
 mod keys;
 mod layout;
 mod legend;
+mod live;
 mod loops;
 mod panels;
 #[path = "../link/pil_common/mod.rs"]

@@ -1,0 +1,103 @@
+//! The live page: a locomotive that runs in the browser.
+
+use dashpot_live::Choice;
+use dashpot_page::in_browser;
+use dashpot_vehicle_run::contact::ContactSetup;
+use serde_json::Value;
+
+use crate::browser::Browser;
+
+/// The page with the contact tables of its case.
+fn page() -> String {
+    let choice = Choice {
+        speed_km_h: Some(160.0),
+        ..Choice::of("straight-180")
+    };
+    let case = choice.case().unwrap();
+    let setup = ContactSetup::of_case(&case).unwrap();
+    let pairs = setup.pairs().iter();
+    let tables = pairs.map(|pair| {
+        (
+            pair.tables_file_name().unwrap(),
+            pair.tables().unwrap().to_bytes(),
+        )
+    });
+    in_browser(&choice, &tables.collect::<Vec<_>>(), None)
+}
+
+/// The last values of a signal, as the page has them.
+fn signal(browser: &Browser, name: &str) -> f64 {
+    let found = browser.find(&format!(
+        "return live.histories[0].newest.last[live.index.get('{name}')];"
+    ));
+    found.as_f64().unwrap_or_else(|| panic!("{name}: {found}"))
+}
+
+/// Waits until the run has gone on by this number of seconds.
+fn run_for(browser: &Browser, seconds: f64) {
+    let now = browser
+        .find("return live.histories[0].newest.time_s;")
+        .as_f64()
+        .unwrap();
+    browser.wait_for(&format!(
+        "live.histories[0].newest.time_s > {}",
+        now + seconds
+    ));
+}
+
+#[test]
+fn a_person_worsens_a_damper_and_sees_its_force_go() {
+    let Some(browser) = Browser::start("the live page in a browser") else {
+        return;
+    };
+    let address = browser.open(&page(), 1280);
+    browser.wait_for("live.scene && live.status && live.histories[0].newest?.time_s > 0.5");
+    assert_eq!(browser.find("return live.scene.wheelsets.length;"), 6);
+    run_for(&browser, 0.5);
+    // Fifteen millimetres of clearance: no yaw damper of a straight run reaches its ends at once.
+    browser.click("#try-worsen");
+    browser.wait_for("live.status.dampers.filter(damper => damper.changed).length === 8");
+    run_for(&browser, 0.3);
+    assert_eq!(signal(&browser, "front_yaw_damper_1_force_n"), 0.0);
+    let values = browser
+        .find("return live.status.dampers.map(damper => damper.values['mount.clearance_m']);");
+    let wide = values
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|value| value.as_f64() == Some(0.015));
+    assert_eq!(wide.count(), 8);
+    assert_eq!(
+        browser.requests(&address),
+        [address.clone()],
+        "the page loads nothing"
+    );
+    let said: Vec<Value> = browser.log("browser");
+    assert!(said.is_empty(), "{said:?}");
+}
+
+#[test]
+fn a_slider_changes_the_damper_under_the_keyboard() {
+    let Some(browser) = Browser::start("sliders of the live page") else {
+        return;
+    };
+    browser.open(&page(), 390);
+    browser.wait_for("live.scene && live.status && live.histories[0].newest?.time_s > 0.1");
+    let before = browser
+        .find("return JSON.stringify(live.status.dampers.map(damper => damper.values.wear));");
+    // End: the slider's greatest value, which is full wear.
+    browser.press("#quantities input[type=range]", "\u{e010}");
+    browser.wait_for("live.status.dampers.some(damper => damper.values.wear === 1)");
+    assert!(!before.as_str().unwrap().contains('1'), "{before}");
+}
+
+#[test]
+fn the_browser_has_the_bits_of_the_native_program() {
+    let Some(browser) = Browser::start("bits of the vehicle in a browser") else {
+        return;
+    };
+    browser.open(&page(), 1280);
+    browser.wait_for("live.scene && live.status");
+    let found = browser.find_later("live.source.send({ do: 'digest' }).then(done);");
+    assert_eq!(found["digest"], dashpot_live::REFERENCE_DIGEST, "{found}");
+}
