@@ -98,6 +98,60 @@ fn actuator_files_are_the_shipped_ones() {
     compare("actuator_file", shipped(&ACTUATORS));
 }
 
+/// Messages of a page, one of each kind, with what they may contain.
+#[test]
+fn messages_of_the_live_page_are_one_of_each_kind() {
+    let act =
+        |action: &str| format!(r#"{{"id": 7, "do": "act", "action": {{"action": {action}}}}}"#);
+    let damper = r#""damper": "front yaw damper 1""#;
+    let messages = [
+        (
+            "damper",
+            act(&format!(
+                r#""damper", {damper}, "key": "mount.clearance_m", "value": 0.003"#
+            )),
+        ),
+        (
+            "wear",
+            act(&format!(
+                r#""damper", {damper}, "key": "wear", "value": 0.5"#
+            )),
+        ),
+        (
+            "preset",
+            act(&format!(r#""preset", {damper}, "preset": "in-service""#)),
+        ),
+        ("as-new", act(&format!(r#""as-new", {damper}"#))),
+        (
+            "fault",
+            act(&format!(r#""fault", {damper}, "fault": "torn-off""#)),
+        ),
+        ("speed", act(r#""speed", "speed_km_h": 90"#)),
+        ("friction", act(r#""friction", "factor": 0.5"#)),
+        ("defect", act(r#""defect", "kind": "twist", "size": 15"#)),
+        ("gust", act(r#""gust", "force_n": 3e4, "duration_s": 3"#)),
+        ("run", r#"{"id": 1, "do": "run", "factor": 0.1}"#.into()),
+        ("step", r#"{"id": 1, "do": "step", "ticks": 2}"#.into()),
+        (
+            "compare",
+            r#"{"id": 1, "do": "compare", "on": true}"#.into(),
+        ),
+        ("save", r#"{"id": 1, "do": "save"}"#.into()),
+        ("load", r#"{"id": 1, "do": "load", "state": "{}"}"#.into()),
+        ("record", r#"{"id": 1, "do": "record", "on": true}"#.into()),
+        (
+            "recording",
+            r#"{"id": 1, "do": "recording", "format": "csv"}"#.into(),
+        ),
+        ("status", r#"{"id": 1, "do": "status"}"#.into()),
+        ("stop", r#"{"id": 1, "do": "stop"}"#.into()),
+    ];
+    let seeds = messages
+        .into_iter()
+        .map(|(name, text)| (name.to_owned(), text.into_bytes()));
+    compare("live_message", seeds.collect());
+}
+
 #[test]
 fn rig_frames_are_one_of_each_kind() {
     let frame = |kind| Frame {
