@@ -13,6 +13,18 @@ pub struct Sender<R> {
     free: mpsc::Receiver<Box<R>>,
     filled: SyncSender<Box<R>>,
     waits: u64,
+    skipped: u64,
+}
+
+/// What [`Receiver::try_receive`] found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Received {
+    /// A record.
+    Record,
+    /// No record yet.
+    Nothing,
+    /// There are no more records, and the sender is dropped.
+    Ended,
 }
 
 /// Receiver for the thread that reads the records.
@@ -56,6 +68,7 @@ pub fn handover<R>(records: Vec<R>) -> (Sender<R>, Receiver<R>) {
         free,
         filled: to_filled,
         waits: 0,
+        skipped: 0,
     };
     let receiver = Receiver {
         filled,
@@ -82,6 +95,29 @@ impl<R> Sender<R> {
         self.filled.try_send(record).map_err(|_| ReaderEnded)
     }
 
+    /// Like [`Self::send`], but never waits: if no record is free, the record is left out and counted.
+    ///
+    /// # Errors
+    /// The other thread has ended.
+    pub fn send_or_skip(&mut self, fill: impl FnOnce(&mut R)) -> Result<(), ReaderEnded> {
+        match self.free.try_recv() {
+            Ok(mut record) => {
+                fill(&mut record);
+                self.filled.try_send(record).map_err(|_| ReaderEnded)
+            }
+            Err(TryRecvError::Disconnected) => Err(ReaderEnded),
+            Err(TryRecvError::Empty) => {
+                self.skipped += 1;
+                Ok(())
+            }
+        }
+    }
+
+    /// Number of records that [`Self::send_or_skip`] left out.
+    pub fn skipped(&self) -> u64 {
+        self.skipped
+    }
+
     /// Number of records for which [`Self::send`] had to wait because the receiver had fallen behind.
     pub fn waits(&self) -> u64 {
         self.waits
@@ -93,17 +129,45 @@ impl<R> Receiver<R> {
     ///
     /// It polls for records instead of blocking, so that the real-time thread does not have to wake it.
     pub fn receive(&self, read: impl FnOnce(&R)) -> bool {
+        let mut read = Some(read);
         loop {
-            match self.filled.try_recv() {
-                Ok(record) => {
-                    read(&record);
-                    // The sender may already be dropped.
-                    let _is_free = self.free.try_send(record);
-                    return true;
+            let taken = self.try_receive(|record| {
+                if let Some(read) = read.take() {
+                    read(record);
                 }
-                Err(TryRecvError::Disconnected) => return false,
-                Err(TryRecvError::Empty) => std::thread::sleep(POLL_INTERVAL),
+            });
+            match taken {
+                Received::Record => return true,
+                Received::Ended => return false,
+                Received::Nothing => std::thread::sleep(POLL_INTERVAL),
             }
+        }
+    }
+
+    /// Passes the next record to `read` if there is one; does not wait.
+    ///
+    /// ```
+    /// use dashpot_realtime::handover::{Received, handover};
+    /// let (mut sender, receiver) = handover(vec![0_u32; 1]);
+    /// assert_eq!(receiver.try_receive(|_| ()), Received::Nothing);
+    /// sender.send_or_skip(|record| *record = 7)?;
+    /// sender.send_or_skip(|record| *record = 8)?;
+    /// assert_eq!(sender.skipped(), 1);
+    /// assert_eq!(receiver.try_receive(|record| assert_eq!(*record, 7)), Received::Record);
+    /// drop(sender);
+    /// assert_eq!(receiver.try_receive(|_| ()), Received::Ended);
+    /// # Ok::<(), dashpot_realtime::handover::ReaderEnded>(())
+    /// ```
+    pub fn try_receive(&self, read: impl FnOnce(&R)) -> Received {
+        match self.filled.try_recv() {
+            Ok(record) => {
+                read(&record);
+                // The sender may already be dropped.
+                let _is_free = self.free.try_send(record);
+                Received::Record
+            }
+            Err(TryRecvError::Disconnected) => Received::Ended,
+            Err(TryRecvError::Empty) => Received::Nothing,
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::files::{line_count, rust_files};
 use crate::workspaces::{WORKSPACES, folder_of, packages};
 
 /// Folders of all crates, from the bottom up. A crate may use only those listed before it; tests may use any.
-const ORDER: [&str; 30] = [
+const ORDER: [&str; 31] = [
     "xtask",
     "core",
     "capi",
@@ -20,6 +20,7 @@ const ORDER: [&str; 30] = [
     "wear",
     "reference",
     "workers",
+    "server",
     "files",
     "hybrid",
     "recording",

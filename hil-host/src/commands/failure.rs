@@ -19,11 +19,13 @@ use dashpot_files::study::StudyFileError;
 use dashpot_files::track::TrackFileError;
 use dashpot_files::vehicle::{FORM as VEHICLE_FORM, VehicleFileError};
 use dashpot_host_link::{EmulatorError, LinkError, SessionError};
+use dashpot_live::ActionError;
 use dashpot_realtime::limits::TICKS_PER_ALLOWED_MISS;
 use dashpot_realtime::options::RealtimeOption;
 use dashpot_realtime::timing::span;
 use dashpot_realtime::{RealtimeError, listed, stopped};
 use dashpot_report::DrawError;
+use dashpot_server::ServerError;
 use dashpot_testbench::TestbenchError;
 use dashpot_testbench::plate::PlateError;
 use dashpot_vehicle_run::VehicleRunError;
@@ -102,7 +104,13 @@ macro_rules! failures {
     )*};
 }
 
-failures!(BuildError, DrawError, ReferenceError, toml::ser::Error);
+failures!(
+    ActionError,
+    BuildError,
+    DrawError,
+    ReferenceError,
+    toml::ser::Error
+);
 
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
@@ -229,6 +237,16 @@ impl From<ActuatorFileError> for Failure {
 impl From<VehicleRunError> for Failure {
     fn from(error: VehicleRunError) -> Self {
         Self::new(error.to_string())
+    }
+}
+
+impl From<ServerError> for Failure {
+    fn from(error: ServerError) -> Self {
+        match error {
+            ServerError::Token { .. } => Self::wrong_use(format!("--token: {error}")),
+            ServerError::Listen { .. } => Self::new(format!("--listen: {error}")),
+            _ => Self::new(error.to_string()),
+        }
     }
 }
 

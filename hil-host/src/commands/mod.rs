@@ -18,6 +18,7 @@ pub mod hybrid;
 pub mod interruption;
 pub mod line;
 pub mod link;
+pub mod live;
 pub mod margin;
 mod merge;
 pub mod modes;
@@ -61,6 +62,7 @@ pub enum Command {
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
     Vehicle(vehicle::VehicleArguments),
+    Live(live::LiveArguments),
     Hybrid(hybrid::HybridArguments),
     Sweep(sweep::SweepArguments),
     Merge(merge::MergeArguments),
@@ -87,6 +89,7 @@ impl Command {
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
             Self::Vehicle(arguments) => vehicle::run(arguments),
+            Self::Live(arguments) => live::run(arguments),
             Self::Hybrid(arguments) => hybrid::run(arguments),
             Self::Sweep(arguments) => sweep::run(arguments),
             Self::Merge(arguments) => merge::run(arguments),

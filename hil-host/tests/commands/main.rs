@@ -31,6 +31,8 @@ mod interruption;
 mod kept_curves;
 mod labview_page;
 mod lifted_wheel_without_a_word;
+#[cfg(unix)]
+mod live;
 mod modes;
 mod modes_coach;
 mod modes_freight_wagon;

@@ -47,7 +47,7 @@ fn unknown_commands_and_options() {
     wrong_use(&["rig", "--amplitude"], &[], "--amplitude");
     for command in [
         "replay", "rig", "response", "verify", "shims", "budget", "export", "contact", "pil",
-        "link", "channels",
+        "link", "channels", "live",
     ] {
         wrong_use(
             &[command],
@@ -466,4 +466,32 @@ fn features_missing_from_the_build_are_named() {
     dashpot(&options, folder.path())
         .code(2)
         .stderr(contains("build dashpot-hil with the feature `parquet`"));
+}
+
+#[test]
+fn a_live_run_that_cannot_start() {
+    let live = ["live", "--case", "straight-180", "--listen", "127.0.0.1:0"];
+    wrong_use(&["live"], &[], "no case: give --case");
+    wrong_use(
+        &live,
+        &["--record", "run.csv"],
+        "a name that ends with .mf4",
+    );
+    wrong_use(&live, &["--token", "short"], "12 to 128 of A-Z");
+    wrong_use(
+        &["live", "--case", "straight-180"],
+        &["--listen", "here"],
+        "invalid socket address",
+    );
+    wrong_use(
+        &live,
+        &["--hold-ticks", "1"],
+        "--hold-ticks requires --outside",
+    );
+    failed(
+        &live,
+        &["--record", "no-folder/run.mf4"],
+        "no-folder/run.mf4",
+    );
+    wrong_use(&live, &["--step-us", "2000"], "a paced step");
 }

@@ -5,6 +5,7 @@
 
 pub mod advice;
 pub mod bench;
+pub mod live;
 pub mod page;
 
 use std::path::Path;

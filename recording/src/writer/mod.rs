@@ -1,12 +1,19 @@
 //! Writes computed rows as text, Parquet or MDF4.
 
 #[cfg(feature = "mdf")]
+mod growing;
+#[cfg(feature = "mdf")]
 mod mdf;
+#[cfg(feature = "mdf")]
+mod mdf_head;
 #[cfg(feature = "parquet")]
 mod parquet;
 
 use std::io::Write;
 use std::path::Path;
+
+#[cfg(feature = "mdf")]
+pub use growing::GrowingMdf;
 
 use serde::Serialize;
 

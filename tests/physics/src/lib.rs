@@ -44,7 +44,11 @@ impl Runs {
     /// If a case cannot be built.
     pub fn of(study: &Study) -> Self {
         let cases = (0..study.cases()).filter_map(|number| study.case(number));
-        let build = |case| study.build(&case).expect("a case");
+        let build = |case| {
+            let case = study.build(&case).expect("a case");
+            let track = case.track.resolved().expect("a track");
+            Case { track, ..case }
+        };
         Self {
             cases: cases.map(build).collect(),
             observed: study

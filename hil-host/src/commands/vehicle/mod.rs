@@ -104,7 +104,7 @@ pub struct VehicleArguments {
     parquet: bool,
     /// Compare the run with the reference solution and fail if it is out of bounds. Takes about a hundred times as
     /// long.
-    #[arg(long, conflicts_with = "realtime")]
+    #[arg(long, conflicts_with_all = ["realtime", "choices"])]
     check: bool,
     /// Run in real time and report missed deadlines; exit code 1 if more than one in a thousand is missed.
     #[arg(long)]
@@ -289,7 +289,7 @@ struct Realtime {
 ///
 /// # Errors
 /// See [`Pacer::new`].
-fn check_realtime(step_s: f64, options: RealtimeOptions) -> Outcome<()> {
+pub(super) fn check_realtime(step_s: f64, options: RealtimeOptions) -> Outcome<()> {
     let tried = std::thread::spawn(move || Pacer::new(step_s, &options).map(drop));
     match tried.join() {
         Ok(pacer) => Ok(pacer?),

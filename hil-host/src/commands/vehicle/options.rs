@@ -71,6 +71,11 @@ fn names(shipped: &[(&str, &str)]) -> String {
 }
 
 impl CaseArguments {
+    /// Returns the simulated time (s), if it is given.
+    pub(in crate::commands) fn duration_s(&self) -> Option<f64> {
+        self.duration_s
+    }
+
     /// Builds the case from the options.
     ///
     /// # Errors
@@ -105,6 +110,6 @@ impl CaseArguments {
 }
 
 /// Reports an invalid vehicle or track of a case.
-pub(super) fn refused(case: &Case, error: &VehicleRunError) -> Failure {
+pub(in crate::commands) fn refused(case: &Case, error: &VehicleRunError) -> Failure {
     Failure::new(format!("{}: {error}", case.name))
 }

@@ -27,6 +27,13 @@ pub(super) enum Source {
     File(PathBuf),
 }
 
+impl Source {
+    /// True if the damper is outside this process.
+    pub(super) fn is_real(&self) -> bool {
+        matches!(self, Self::Link(_) | Self::Rig(_))
+    }
+}
+
 /// Prefixes of links.
 const LINKS: [&str; 3] = ["tcp:", "serial:", "qemu:"];
 
@@ -60,5 +67,24 @@ impl FromStr for Choice {
             name: name.to_owned(),
             source,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Choice;
+
+    #[test]
+    fn links_and_rigs_are_real() {
+        for (source, is_real) in [
+            ("desk", false),
+            ("force.csv", false),
+            ("tcp:localhost:1", true),
+            ("serial:/dev/ttyACM0", true),
+            ("udp:localhost:1", true),
+        ] {
+            let choice: Choice = format!("damper={source}").parse().unwrap();
+            assert_eq!(choice.source.is_real(), is_real, "{source}");
+        }
     }
 }

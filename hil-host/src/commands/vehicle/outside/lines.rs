@@ -31,6 +31,21 @@ impl Lines {
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
+
+    /// True if a damper is on a rig, real or virtual.
+    pub fn has_rig(&self) -> bool {
+        !self.rigs.is_empty()
+    }
+
+    /// True if a damper is behind a link or on a rig, and not only a recorded force.
+    pub fn are_linked(&self) -> bool {
+        self.has_rig() || !self.lines.is_empty()
+    }
+
+    /// Asks the guards of all rigs to bring their commands to rest. Does not allocate.
+    pub fn request_end(&mut self) {
+        self.rigs.iter_mut().for_each(RigLine::request_end);
+    }
 }
 
 impl Exchange for Lines {

@@ -15,7 +15,7 @@ use choice::{Choice, Source};
 use force::set_force_n;
 use line::{Line, Waits};
 use lines::Lines;
-pub(super) use report::{OutsideReport, print};
+pub(in crate::commands) use report::{OutsideReport, print};
 use rig::{RigArguments, RigLine, RigOptions, Samples};
 use silence::Silence;
 
@@ -29,15 +29,11 @@ use dashpot_vehicle_run::{Ending, Run, outside_index};
 
 /// External dampers and the options of their links.
 #[derive(Debug, Clone, clap::Args)]
-pub(super) struct OutsideArguments {
+pub(in crate::commands) struct OutsideArguments {
     /// Take the force of one damper from a target (desk, tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE), from a rig
     /// (udp:HOST:PORT, with --actuator) or from a recording (CSV, MDF4 or Parquet) with the channels time_s and
     /// force_n. A target is loaded with the damper's parameters. May be repeated.
-    #[arg(
-        long = "outside",
-        value_name = "DAMPER=LINK|FILE",
-        conflicts_with = "check"
-    )]
+    #[arg(long = "outside", value_name = "DAMPER=LINK|FILE")]
     choices: Vec<Choice>,
     /// With --realtime: largest number of ticks in a row in which the vehicle may use the last force of a target that
     /// does not answer [default: 100; for a rig 10 ms]. Then the run ends. The first such tick waits for --timeout-ms,
@@ -58,7 +54,7 @@ pub(super) struct OutsideArguments {
 const HOLD_TICKS: u64 = 100;
 
 /// The external dampers of a run.
-pub(super) struct Outside {
+pub(in crate::commands) struct Outside {
     choices: Vec<Choice>,
     /// Index of each chosen damper.
     dampers: Vec<usize>,
@@ -66,6 +62,8 @@ pub(super) struct Outside {
     /// Actuator of the dampers on `desk`; `None` without one.
     rig: Option<RigOptions>,
     is_realtime: bool,
+    /// True if the run is repeated with internal dampers.
+    is_compared: bool,
     /// Comparison with internal dampers; `None` if no damper is behind a link.
     beside: Option<InsideComparison>,
 }
@@ -76,7 +74,11 @@ impl OutsideArguments {
     /// # Errors
     /// A damper does not exist, is given twice or has a fault during the run, a file cannot be used, or `--hold-ticks`
     /// is given although the run is not in real time.
-    pub(super) fn read(&self, case: &Case, is_realtime: bool) -> Outcome<Option<Outside>> {
+    pub(in crate::commands) fn read(
+        &self,
+        case: &Case,
+        is_realtime: bool,
+    ) -> Outcome<Option<Outside>> {
         if self.hold_ticks.is_some() && (self.choices.is_empty() || !is_realtime) {
             return Err(Failure::wrong_use(
                 "--hold-ticks requires --outside and --realtime",
@@ -124,6 +126,7 @@ impl OutsideArguments {
             },
             rig,
             is_realtime,
+            is_compared: true,
             beside: None,
         }))
     }
@@ -190,7 +193,12 @@ impl OutsideArguments {
     ///
     /// # Errors
     /// A link cannot be used.
-    pub(super) fn connect(&self, outside: &mut Outside, case: &Case, run: &mut Run) -> Outcome<()> {
+    pub(in crate::commands) fn connect(
+        &self,
+        outside: &mut Outside,
+        case: &Case,
+        run: &mut Run,
+    ) -> Outcome<()> {
         // Dampers behind one link form one bank.
         let mut links: Vec<(&Choice, Vec<usize>)> = Vec::new();
         let mut behind = Vec::new();
@@ -225,7 +233,7 @@ impl OutsideArguments {
             let line = Line::open(choice, dampers, case, &self.options, waits)?;
             outside.lines.lines.push(line);
         }
-        if !behind.is_empty() {
+        if outside.is_compared && !behind.is_empty() {
             outside.beside = Some(InsideComparison::new(run, case, behind.clone()));
         }
         for damper in behind {
@@ -238,16 +246,31 @@ impl OutsideArguments {
 
 /// Signals of the external dampers.
 #[derive(Default)]
-pub(super) struct Traces {
+pub(in crate::commands) struct Traces {
     /// Forces in both runs.
-    pub(super) forces: Vec<Forces>,
+    pub(in crate::commands::vehicle) forces: Vec<Forces>,
     /// Signals of the rigs.
-    pub(super) rigs: Vec<Samples>,
+    pub(in crate::commands::vehicle) rigs: Vec<Samples>,
 }
 
 impl Outside {
+    /// Leaves out the repetition with internal dampers, because nobody knows when the run ends.
+    pub(in crate::commands) fn without_comparison(&mut self) {
+        self.is_compared = false;
+    }
+
+    /// Indices of the dampers in the vehicle.
+    pub(in crate::commands) fn dampers(&self) -> &[usize] {
+        &self.dampers
+    }
+
+    /// True if a damper is behind a link or on a rig, which go on when the vehicle pauses.
+    pub(in crate::commands) fn is_real(&self) -> bool {
+        self.choices.iter().any(|choice| choice.source.is_real())
+    }
+
     /// Returns the force sources used within the ticks and the recorder for the comparison after the run.
-    pub(super) fn parts(&mut self) -> (&mut Lines, &mut Option<InsideComparison>) {
+    pub(in crate::commands) fn parts(&mut self) -> (&mut Lines, &mut Option<InsideComparison>) {
         (&mut self.lines, &mut self.beside)
     }
 
@@ -255,7 +278,7 @@ impl Outside {
     ///
     /// # Errors
     /// The run with internal dampers fails.
-    pub(super) fn finish(
+    pub(in crate::commands) fn finish(
         mut self,
         case: &Case,
         run: &Run,

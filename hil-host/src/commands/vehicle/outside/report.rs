@@ -15,43 +15,43 @@ use dashpot_study::verification::Effect;
 
 /// Report on the external dampers.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::commands::vehicle) struct OutsideReport {
-    pub(in crate::commands::vehicle) dampers: Vec<OutsideDamper>,
+pub(in crate::commands) struct OutsideReport {
+    pub(in crate::commands) dampers: Vec<OutsideDamper>,
     /// Interval of the exchange of displacements and forces, s.
-    pub(in crate::commands::vehicle) exchange_step_s: f64,
+    pub(in crate::commands) exchange_step_s: f64,
     /// Delay from a displacement to the arrival of its force, s; does not apply to a recorded force.
-    pub(in crate::commands::vehicle) delay_s: f64,
+    pub(in crate::commands) delay_s: f64,
     /// Rigs whose actuator moves a damper.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(in crate::commands::vehicle) rigs: Vec<RigReport>,
+    pub(in crate::commands) rigs: Vec<RigReport>,
     /// Targets whose link survived to the end.
-    pub(in crate::commands::vehicle) targets: Vec<Target>,
+    pub(in crate::commands) targets: Vec<Target>,
     /// Difference from the same run with all dampers simulated internally.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(in crate::commands::vehicle) effect: Option<Effect>,
+    pub(in crate::commands) effect: Option<Effect>,
 }
 
 /// An external damper.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::commands::vehicle) struct OutsideDamper {
-    pub(in crate::commands::vehicle) damper: String,
+pub(in crate::commands) struct OutsideDamper {
+    pub(in crate::commands) damper: String,
     /// Source of the force: a link or a file.
-    pub(in crate::commands::vehicle) source: String,
-    pub(in crate::commands::vehicle) is_recorded: bool,
+    pub(in crate::commands) source: String,
+    pub(in crate::commands) is_recorded: bool,
     /// Number of the last line of the file, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(in crate::commands::vehicle) unended_line: Option<u64>,
+    pub(in crate::commands) unended_line: Option<u64>,
     /// Answers that its target did not give; `None` for a recorded force.
     #[serde(flatten)]
-    pub(in crate::commands::vehicle) silence: Option<Silence>,
+    pub(in crate::commands) silence: Option<Silence>,
 }
 
 /// A target that runs external dampers.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::commands::vehicle) struct Target {
-    pub(in crate::commands::vehicle) link: String,
+pub(in crate::commands) struct Target {
+    pub(in crate::commands) link: String,
     /// Number of its steps per exchange.
-    pub(in crate::commands::vehicle) steps_a_tick: u32,
+    pub(in crate::commands) steps_a_tick: u32,
     #[serde(flatten)]
     pub(crate) found: dashpot_host_link::Report,
 }
@@ -92,7 +92,7 @@ impl OutsideReport {
     }
 
     /// Returns the lines of the report as pairs of label and text.
-    pub(in crate::commands::vehicle) fn lines(&self) -> Vec<(String, String)> {
+    pub(in crate::commands) fn lines(&self) -> Vec<(String, String)> {
         let mut lines = Vec::new();
         for OutsideDamper {
             damper,
@@ -209,10 +209,7 @@ fn micro(time_s: f64) -> f64 {
 }
 
 /// Prints the results as text.
-pub(in crate::commands::vehicle) fn print(
-    out: &mut dyn Write,
-    report: &OutsideReport,
-) -> io::Result<()> {
+pub(in crate::commands) fn print(out: &mut dyn Write, report: &OutsideReport) -> io::Result<()> {
     writeln!(out, "\nexternal dampers")?;
     for (what, text) in report.lines() {
         writeln!(out, "{what:<26} {text}")?;

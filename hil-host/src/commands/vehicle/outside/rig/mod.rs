@@ -19,7 +19,7 @@ pub(super) use options::{RigArguments, RigOptions};
 use reasons::reasons;
 use remote::RemoteRig;
 pub(in crate::commands) use report::Datagrams;
-pub(in crate::commands::vehicle) use report::RigReport;
+pub(in crate::commands) use report::RigReport;
 use samples::{MAX_SAMPLES, Sample};
 pub(in crate::commands::vehicle) use samples::{Samples, write};
 pub(in crate::commands::vehicle) use section::{indices, section};
@@ -112,10 +112,7 @@ impl RigLine {
         let displacement_m = run.state().damper_displacements_m()[self.damper];
         let measured = self.rig.receive();
         if self.rig.is_held() {
-            self.coupling
-                .transfer()
-                .guard()
-                .end(HybridStatus::REQUESTED);
+            self.request_end();
         }
         let tick = self.coupling.tick(displacement_m, measured);
         let command = tick.command;
@@ -157,6 +154,14 @@ impl RigLine {
             let reasons = seen.chain(held).map(str::to_owned).collect();
             run.guard_ended(&self.name, reasons, self.guarded_s.unwrap_or(time_s))
         })
+    }
+
+    /// Asks the guard to bring the command to rest.
+    pub(super) fn request_end(&mut self) {
+        self.coupling
+            .transfer()
+            .guard()
+            .end(HybridStatus::REQUESTED);
     }
 
     /// Ends the session.

@@ -13,7 +13,7 @@ const CLOCK_ERROR: f64 = 0.01;
 
 /// What happened on a rig.
 #[derive(Debug, Clone, Serialize)]
-pub(in crate::commands::vehicle) struct RigReport {
+pub(in crate::commands) struct RigReport {
     pub(in crate::commands::vehicle) damper: String,
     pub(in crate::commands::vehicle) actuator: String,
     compensation: &'static str,

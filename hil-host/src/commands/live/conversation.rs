@@ -1,0 +1,190 @@
+//! Talks with viewers: scene and status to each, answers to messages, one of them operates.
+
+use std::sync::mpsc::{Receiver, RecvTimeoutError};
+use std::time::{Duration, Instant};
+
+use dashpot_live::{Message, Request};
+use dashpot_server::{Hub, ViewerId};
+use serde_json::{Value, json};
+
+use super::desk_side::DeskSide;
+use super::inbox::Event;
+use super::roles::Roles;
+
+/// Time between two statuses without news.
+const STATUS: Duration = Duration::from_secs(1);
+
+/// Least time between two statuses to all: a viewer who writes much must not flood the others.
+const NEWS: Duration = Duration::from_millis(50);
+
+/// How long to wait for an event before looking after the real-time thread.
+const POLL: Duration = Duration::from_millis(20);
+
+/// Answer to a message that only the engine of a page knows.
+const ALLOWED: &str = "not possible with dashpot live; allowed: act, run, step, reset, record, stop, status, \
+                       take-over";
+
+/// The conversation with all viewers.
+pub(super) struct Conversation {
+    hub: Hub,
+    desk: DeskSide,
+    roles: Roles,
+    told: Instant,
+    /// True if all viewers should get a status soon.
+    is_news: bool,
+}
+
+impl Conversation {
+    pub fn new(hub: Hub, desk: DeskSide) -> Self {
+        Self {
+            hub,
+            desk,
+            roles: Roles::default(),
+            told: Instant::now(),
+            is_news: false,
+        }
+    }
+
+    /// Talks until the run is over.
+    pub fn run(&mut self, events: &Receiver<Event>, is_over: impl Fn() -> bool) {
+        while !is_over() {
+            match events.recv_timeout(POLL) {
+                Ok(event) => self.hear(event),
+                Err(RecvTimeoutError::Timeout) => {}
+                // The server has failed; the run goes on without viewers.
+                Err(RecvTimeoutError::Disconnected) => std::thread::sleep(POLL),
+            }
+            self.is_news |= self.desk.take_notes();
+            let since = self.told.elapsed();
+            if since >= STATUS {
+                self.tell_health();
+            }
+            if since >= STATUS || (self.is_news && since >= NEWS) {
+                self.tell_status();
+            }
+        }
+        self.desk.take_notes();
+    }
+
+    /// Tells all viewers how the run ended.
+    pub fn end(&mut self, ending: String) {
+        self.desk.end(ending);
+        self.tell_status();
+    }
+
+    /// Actions of all runs.
+    pub fn actions(&self) -> u64 {
+        self.desk.actions()
+    }
+
+    fn tell_status(&mut self) {
+        (self.told, self.is_news) = (Instant::now(), false);
+        let status = self.desk.status();
+        let viewers = self.hub.viewers();
+        let count = viewers.len();
+        for (viewer, lost_frames) in viewers {
+            let status = self.status_of(viewer, status.clone(), (count, lost_frames));
+            self.hub.send(viewer, &status);
+        }
+    }
+
+    fn tell_health(&self) {
+        let health = self.desk.health().to_string();
+        for (viewer, _) in self.hub.viewers() {
+            self.hub.send(viewer, &health);
+        }
+    }
+
+    fn status_of(&self, viewer: ViewerId, mut status: Value, counts: (usize, u64)) -> String {
+        status["role"] = json!(self.roles.of(viewer));
+        (status["viewers"], status["lost_frames"]) = (json!(counts.0), json!(counts.1));
+        status.to_string()
+    }
+
+    /// The status of one viewer.
+    fn own_status(&self, viewer: ViewerId) -> String {
+        let viewers = self.hub.viewers();
+        let lost = viewers.iter().find(|(other, _)| *other == viewer);
+        let lost_frames = lost.map_or(0, |(_, lost_frames)| *lost_frames);
+        self.status_of(viewer, self.desk.status(), (viewers.len(), lost_frames))
+    }
+
+    fn scene_of(&self, viewer: ViewerId) -> String {
+        let mut scene = self.desk.scene().clone();
+        scene["role"] = json!(self.roles.of(viewer));
+        scene.to_string()
+    }
+
+    fn hear(&mut self, event: Event) {
+        match event {
+            Event::Joined(viewer, wanted) => {
+                self.roles.join(viewer, wanted);
+                let first = [self.scene_of(viewer), self.own_status(viewer)];
+                self.hub.begin(viewer, &first);
+                self.is_news = true;
+            }
+            Event::Left(viewer) => {
+                self.roles.leave(viewer);
+                self.is_news = true;
+            }
+            Event::Message(viewer, message) => self.answer(viewer, message),
+            Event::Unreadable(viewer, error) => {
+                self.hub.send(viewer, &answer(None, Err(error)));
+            }
+        }
+    }
+
+    fn answer(&mut self, viewer: ViewerId, message: Value) {
+        let id = message.get("id").cloned();
+        let result = self.message(viewer, message);
+        if result.is_ok() {
+            self.hub.send(viewer, &self.own_status(viewer));
+            self.is_news = true;
+        }
+        // Without a number nobody waits for the answer, but an error should be seen.
+        if id.is_some() || result.is_err() {
+            self.hub.send(viewer, &answer(id, result));
+        }
+    }
+
+    fn message(&mut self, viewer: ViewerId, message: Value) -> Result<(), String> {
+        // These two are for the machine alone.
+        match message.get("do").and_then(Value::as_str) {
+            Some("take-over") => return Ok(self.roles.take_over(viewer)?),
+            Some("status") => {
+                self.hub.send(viewer, &self.desk.health().to_string());
+                return Ok(());
+            }
+            _ => {}
+        }
+        let message: Message =
+            serde_json::from_value(message).map_err(|error| format!("message: {error}"))?;
+        if let Request::Stop = message.request {
+            // The inbox has already passed it on.
+            return Ok(());
+        }
+        if !self.roles.is_operator(viewer) {
+            return Err("you watch: only the operator acts; allowed: stop, take-over".into());
+        }
+        match message.request {
+            Request::Act { action } => self.desk.act(&action),
+            Request::Run { factor } => self.desk.set_factor(factor),
+            Request::Step { ticks } => self.desk.step(ticks),
+            Request::Record { on } => self.desk.record(on),
+            Request::Reset => {
+                self.desk.reset()?;
+                for (viewer, _) in self.hub.viewers() {
+                    self.hub.send(viewer, &self.scene_of(viewer));
+                }
+                Ok(())
+            }
+            Request::Start { .. } => Err("the case is chosen when dashpot live starts".into()),
+            _ => Err(ALLOWED.into()),
+        }
+    }
+}
+
+/// The answer to a message.
+fn answer(id: Option<Value>, result: Result<(), String>) -> String {
+    json!({"type": "answer", "id": id, "error": result.err()}).to_string()
+}

@@ -1,0 +1,279 @@
+//! The operator's side of the run: it checks actions, builds what they change, and orders it from the real-time thread.
+
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{Receiver, SyncSender};
+
+use dashpot_live::{Action, Built, Change, Desk, Observer, Place, Scene, Simulation, Status};
+use dashpot_rail::track::Track;
+use dashpot_vehicle_run::Run;
+use serde_json::{Value, json};
+
+use super::control::Control;
+use super::observed::Observed;
+use super::order::{Note, Order};
+use crate::commands::failure::Outcome;
+
+/// How long an action waits before it acts, s: so that it acts at the tick that the setting names.
+const AHEAD_S: f64 = 0.05;
+
+/// Factors of real time that an operator may choose.
+const FACTOR: std::ops::RangeInclusive<f64> = 0.0..=100.0;
+
+/// Most ticks of one message.
+const STEPS: u32 = 10_000;
+
+/// The dampers outside, as far as the operator's side needs to know.
+#[derive(Debug, Clone, Default)]
+pub(super) struct OutsideFacts {
+    /// Indices of the dampers.
+    pub dampers: Vec<usize>,
+    /// True if something goes on when the vehicle pauses.
+    pub is_real: bool,
+    pub has_rig: bool,
+}
+
+/// The operator's side.
+pub(super) struct DeskSide {
+    pub orders: SyncSender<Order>,
+    pub notes: Receiver<Note>,
+    pub control: Arc<Control>,
+    pub observed: Arc<Observed>,
+    pub outside: OutsideFacts,
+    /// True if there is a file to record to.
+    pub can_record: bool,
+    built: Built,
+    desk: Desk,
+    scene: Value,
+    epoch: u32,
+    ended: Option<String>,
+    /// Tracks that the real-time thread may still use. It must not be the one that frees them.
+    tracks: Vec<Arc<Track>>,
+    actions: u64,
+}
+
+impl DeskSide {
+    /// The side of a run at its start.
+    ///
+    /// # Errors
+    /// A vehicle that cannot be drawn.
+    pub fn new(
+        (built, desk): (Built, Desk),
+        run: &Run,
+        names: &[String],
+        (orders, notes): (SyncSender<Order>, Receiver<Note>),
+        (control, observed): (Arc<Control>, Arc<Observed>),
+        outside: OutsideFacts,
+    ) -> Outcome<Self> {
+        let scene = scene(&desk, run, names, outside.has_rig)?;
+        Ok(Self {
+            orders,
+            notes,
+            control,
+            observed,
+            outside,
+            can_record: false,
+            built,
+            desk,
+            scene,
+            epoch: 1,
+            ended: None,
+            tracks: Vec::new(),
+            actions: 0,
+        })
+    }
+
+    /// What a page draws, without the role.
+    pub fn scene(&self) -> &Value {
+        &self.scene
+    }
+
+    /// State of the run, without what differs between viewers.
+    pub fn status(&self) -> Value {
+        let mut status = Status::new(&self.desk, None);
+        status.factor = self.control.factor();
+        status.ended.clone_from(&self.ended);
+        status.warnings = self.observed.warnings();
+        status.is_recording = self.observed.is_recording.load(Ordering::Relaxed);
+        status.recorded_ticks = self.observed.recorded_ticks.load(Ordering::Relaxed);
+        let mut status = json!(status);
+        status["late_ticks"] = json!(self.control.late_ticks());
+        status
+    }
+
+    /// Health of the dampers, as a message.
+    pub fn health(&self) -> Value {
+        json!({"type": "health", "readings": self.observed.health()})
+    }
+
+    /// Actions of all runs.
+    pub fn actions(&self) -> u64 {
+        self.actions
+    }
+
+    /// Says how the run ended.
+    pub fn end(&mut self, ending: String) {
+        self.ended = Some(ending);
+    }
+
+    /// Takes what the real-time thread says, and frees what it has no use for any more. Returns true if viewers should
+    /// know.
+    pub fn take_notes(&mut self) -> bool {
+        let mut is_news = false;
+        while let Ok(note) = self.notes.try_recv() {
+            match note {
+                Note::Spent(order) => drop(order),
+                Note::Stopped => is_news = true,
+                Note::Ended(ending) => {
+                    self.ended = Some(ending.to_string());
+                    is_news = true;
+                }
+            }
+        }
+        self.tracks.retain(|track| Arc::strong_count(track) > 1);
+        is_news
+    }
+
+    fn order(&self, order: Order) -> Result<(), String> {
+        let sent = self.orders.send(order);
+        sent.map_err(|_| "the run has ended".to_owned())
+    }
+
+    /// Does an action.
+    ///
+    /// # Errors
+    /// The action is not possible; nothing changes.
+    pub fn act(&mut self, action: &Action) -> Result<(), String> {
+        self.refuse_outside(action)?;
+        let mut place = self.control.place();
+        if self.control.factor() > 0.0 {
+            let ahead = AHEAD_S / self.built.case().step_s;
+            place = Place {
+                tick: place.tick + ahead.ceil() as u64,
+                ..place
+            };
+        }
+        let change = self.desk.act(action, place);
+        let change = change.map_err(|error| error.to_string())?;
+        if let Change::Track(track) = &change {
+            self.tracks.push(Arc::clone(track));
+        }
+        self.actions += 1;
+        self.order(Order::Change {
+            at: place.tick,
+            change,
+        })
+    }
+
+    /// A damper outside is what it is.
+    fn refuse_outside(&self, action: &Action) -> Result<(), String> {
+        let (Action::Damper { damper, .. }
+        | Action::Preset { damper, .. }
+        | Action::AsNew { damper }
+        | Action::Fault { damper, .. }) = action
+        else {
+            return Ok(());
+        };
+        let mut names = self.built.case().vehicle.dampers();
+        let index = names.position(|element| element.name == *damper);
+        match index.is_some_and(|index| self.outside.dampers.contains(&index)) {
+            true => Err(format!(
+                "{damper} is outside; it cannot be changed from here"
+            )),
+            false => Ok(()),
+        }
+    }
+
+    fn refuse_real(&self, what: &str) -> Result<(), String> {
+        match self.outside.is_real {
+            true => Err(format!(
+                "{what}: not possible while a real damper is outside; allowed: the emergency stop"
+            )),
+            false => Ok(()),
+        }
+    }
+
+    /// Sets the speed of time.
+    ///
+    /// # Errors
+    /// A real damper is outside, or the factor is not allowed.
+    pub fn set_factor(&mut self, factor: f64) -> Result<(), String> {
+        if !FACTOR.contains(&factor) {
+            let [min, max] = [FACTOR.start(), FACTOR.end()];
+            return Err(format!("factor: {factor}, allowed: {min} to {max}"));
+        }
+        if factor != 1.0 {
+            self.refuse_real("another pace than real time")?;
+        }
+        self.order(Order::Factor(factor))?;
+        self.control.set_factor(factor);
+        Ok(())
+    }
+
+    /// Makes ticks of a paused run.
+    ///
+    /// # Errors
+    /// A real damper is outside, or the run is not paused.
+    pub fn step(&mut self, ticks: u32) -> Result<(), String> {
+        self.refuse_real("single steps")?;
+        if self.control.factor() > 0.0 {
+            return Err("single steps: allowed while the run is paused".into());
+        }
+        self.order(Order::Steps(ticks.min(STEPS)))
+    }
+
+    /// Returns to the start, without actions.
+    ///
+    /// # Errors
+    /// A damper is outside, or the vehicle cannot run.
+    pub fn reset(&mut self) -> Result<(), String> {
+        if !self.outside.dampers.is_empty() {
+            return Err(
+                "a reset is not possible with a damper outside; start dashpot live again".into(),
+            );
+        }
+        let run = self.built.run().map_err(|error| error.to_string())?;
+        let case = self.built.case();
+        let desk = Desk::new(case, &run).map_err(|error| error.to_string())?;
+        let observer = Observer::new(&desk, &run).map_err(|error| error.to_string())?;
+        let simulation = Box::new(Simulation::new(case, run));
+        self.epoch += 1;
+        self.observed.set_next(self.epoch, observer);
+        self.order(Order::Start {
+            epoch: self.epoch,
+            simulation,
+        })?;
+        self.desk = desk;
+        // The end had paused the run; the operator may have paused it too, and then it stays so.
+        match self.ended.take() {
+            Some(_) => self.set_factor(1.0),
+            None => Ok(()),
+        }
+    }
+
+    /// Begins or ends the recording.
+    ///
+    /// # Errors
+    /// There is no file to record to, or it cannot be written.
+    pub fn record(&mut self, on: bool) -> Result<(), String> {
+        if !self.can_record {
+            return Err(
+                "there is no file to record to: start dashpot live with --record FILE.mf4".into(),
+            );
+        }
+        match self.observed.recording_error() {
+            Some(error) if on => Err(error),
+            _ => {
+                self.observed.is_recording.store(on, Ordering::Relaxed);
+                Ok(())
+            }
+        }
+    }
+}
+
+fn scene(desk: &Desk, run: &Run, names: &[String], has_rig: bool) -> Outcome<Value> {
+    let mut scene = Scene::new(desk, run, names)?;
+    scene.source = "machine";
+    scene.has_rig = has_rig;
+    Ok(json!(scene))
+}
