@@ -45,8 +45,9 @@ enum Width {
 }
 
 impl VectorWidth {
-    /// Vectors that every processor for which the program is compiled has: SSE2 on x86-64, NEON on 64-bit Arm, SIMD128 in
-    /// WebAssembly if the compiler may use it, AVX2 if it may use that everywhere. On other processors dampers are stepped one by one.
+    /// Vectors that every processor for which the program is compiled has: SSE2 on x86-64, NEON on 64-bit Arm, SIMD128
+    /// in WebAssembly if the compiler may use it, AVX2 if it may use that everywhere. On other processors dampers are
+    /// stepped one by one.
     #[inline]
     pub fn baseline() -> Self {
         #[cfg(target_arch = "x86_64")]

@@ -3,7 +3,7 @@
 use dashpot_files::contact::ContactOptions;
 
 /// Wheels and rails; each option replaces the value of the files.
-#[derive(Debug, Clone, clap::Args)]
+#[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 pub struct WheelRailArguments {
     /// Profile of all wheels: `s1002` or a file (see `dashpot contact --help`) [default: that of the vehicle].
     #[arg(long, value_name = "NAME|FILE")]

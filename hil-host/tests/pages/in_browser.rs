@@ -32,7 +32,8 @@ fn a_browser_has_the_bits_of_damper_bank_contact_vehicle_and_every_index() {
         1280,
     );
     let found = browser.find_later(
-        "const bytes = id => Uint8Array.from(atob(document.getElementById(id).textContent), letter => letter.charCodeAt(0));
+        "const text = id => atob(document.getElementById(id).textContent);
+         const bytes = id => Uint8Array.from(text(id), letter => letter.charCodeAt(0));
          WebAssembly.instantiate(bytes('module'), {}).then(({ instance: { exports } }) => {
            const runs = bytes('runs');
            new Uint8Array(exports.memory.buffer, exports.input(runs.length), runs.length).set(runs);

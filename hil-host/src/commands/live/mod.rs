@@ -41,6 +41,7 @@ use super::paced::Paced;
 use super::vehicle::check_realtime;
 use super::vehicle::outside::lines::Lines;
 use super::{interruption, print_report};
+use dashpot_files::output::write_bytes;
 use dashpot_live::{Built, Desk, Observer, Simulation, WheelOnRail};
 use dashpot_realtime::budget;
 use dashpot_realtime::handover::handover;
@@ -64,9 +65,13 @@ struct Prepared {
 /// Runs the command.
 ///
 /// # Errors
-/// The case is invalid, the address cannot be used, a damper outside fails, or the run ends otherwise than asked.
+/// The case is invalid, the page cannot be written, the address cannot be used, a damper outside fails, or the run ends otherwise than asked.
 pub fn run(arguments: &LiveArguments) -> Outcome<()> {
     arguments.check()?;
+    if let Some(path) = &arguments.page {
+        let page = page::in_browser(&arguments.case.choice()?, None)?;
+        return Ok(write_bytes(path, page.as_bytes())?);
+    }
     let case = arguments.case()?;
     let mut outside = arguments.outside.read(&case, true)?;
     check_realtime(case.step_s, arguments.options.options())?;

@@ -20,6 +20,7 @@ const IRREGULAR_M: f64 = 10_000.0;
     after_help = "Examples:
   dashpot live --case straight-180
   dashpot live --case curve-r600 --record run.mf4
+  dashpot live --case curve-r300 --page curve.html
   dashpot live --case straight-180 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --fifo 80
   dashpot live --case straight-180 --outside \"front yaw damper 1=udp:rig:7001\" --actuator servo
   dashpot live --case straight-180 --listen 0.0.0.0:8089 --token at-least-12-characters
@@ -48,6 +49,10 @@ pub struct LiveArguments {
     /// was killed. After a reset the recording goes on in FILE-2.
     #[arg(long, value_name = "FILE.mf4")]
     pub(super) record: Option<PathBuf>,
+    /// Write a page in which the vehicle runs by itself, in the browser, into this file, and end. The case is a shipped
+    /// one with --vehicle, --track, --speed-km-h, --friction and --set.
+    #[arg(long, value_name = "FILE.html", conflicts_with_all = ["outside", "record", "token"])]
+    pub(super) page: Option<PathBuf>,
     #[command(flatten)]
     pub(super) limits: TickLimitArguments,
     #[command(flatten)]

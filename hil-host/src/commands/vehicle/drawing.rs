@@ -1,13 +1,12 @@
 //! Side view of the vehicle with labelled axles, bodies and dampers.
 
-use dashpot_rail::vehicle::{Body, Direction, Element, Law, VehicleParameters};
+use dashpot_live::{Outline, wheelbase};
+use dashpot_rail::vehicle::{Body, Direction, Law, VehicleParameters};
 use maud::{Markup, html};
 
 /// Pixels per metre.
 const SCALE: f64 = 44.0;
 const MARGIN: f64 = 30.0;
-/// Half the height of a frame between wheelsets, m.
-const HALF_FRAME_M: f64 = 0.17;
 /// Height of the sheet above the rails, m.
 const SKY_M: f64 = 4.4;
 
@@ -28,59 +27,20 @@ impl Sheet {
     }
 }
 
-/// True if an end of the element is attached to the part called `name`.
-fn is_on(element: &Element, name: &str) -> bool {
-    element
-        .ends
-        .iter()
-        .any(|end| end.on.as_deref() == Some(name))
-}
-
-/// Returns the rearmost and foremost position of the elements attached to a body (m).
-fn reach(parameters: &VehicleParameters, body: &Body) -> [f64; 2] {
-    let elements = parameters
-        .elements
-        .iter()
-        .filter(|element| is_on(element, &body.name));
-    let positions = elements.flat_map(|element| element.ends.iter().map(|end| end.at_m[0]));
-    positions.fold([body.x_m, body.x_m], |[min, max], x| {
-        [min.min(x), max.max(x)]
-    })
-}
-
-/// True if the body carries wheelsets, as a bogie frame does.
-fn is_frame(parameters: &VehicleParameters, body: &Body) -> bool {
-    let is_wheelset = |element: &Element| {
-        let mut wheelsets = parameters.wheelsets.iter();
-        wheelsets.any(|wheelset| is_on(element, &wheelset.name))
-    };
-    let mut elements = parameters.elements.iter();
-    parameters.bodies.len() > 1
-        && elements.any(|element| is_on(element, &body.name) && is_wheelset(element))
-}
-
 /// Draws the vehicle from its right side, running to the right.
 pub(super) fn vehicle(parameters: &VehicleParameters) -> Markup {
-    let positions = parameters.wheelsets.iter().map(|wheelset| wheelset.x_m);
-    let [rear, front] =
-        positions.fold([0.0_f64; 2], |[rear, front], x| [rear.min(x), front.max(x)]);
+    let [rear, front] = wheelbase(parameters);
     let sheet = Sheet {
         rear_m: rear - 2.2,
         width: SCALE * (front - rear + 4.4) + 2.0 * MARGIN,
         height: SCALE * (SKY_M + 1.2),
     };
     let body_outline = |body: &Body| {
-        let is_frame = is_frame(parameters, body);
-        let ([from, to], [bottom, top]) = if is_frame {
-            let [from, to] = reach(parameters, body);
-            let height = body.height_m;
-            (
-                [from - 0.5, to + 0.5],
-                [height - HALF_FRAME_M, height + HALF_FRAME_M],
-            )
-        } else {
-            ([rear - 2.0, front + 2.0], [1.15, SKY_M - 0.4])
-        };
+        let Outline {
+            x_m: [from, to],
+            height_m: [bottom, top],
+            is_frame,
+        } = Outline::of(parameters, body);
         let size = [SCALE * (to - from), SCALE * (top - bottom)];
         ([sheet.x(from), sheet.y(top)], size, is_frame)
     };

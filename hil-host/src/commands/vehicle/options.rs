@@ -5,6 +5,7 @@ use crate::commands::wheel_rail::WheelRailArguments;
 use dashpot_files::case::{CASES, Case, CaseNumbers, CaseParts};
 use dashpot_files::track::TRACKS;
 use dashpot_files::vehicle::{Replacement, VEHICLES};
+use dashpot_live::Choice;
 use dashpot_vehicle_run::VehicleRunError;
 
 /// The case, by name or by its parts; a given part overrides that of the case.
@@ -106,6 +107,42 @@ impl CaseArguments {
         options.dampers.extend(self.dampers.iter().cloned());
         options.overrides.extend(self.overrides.iter().cloned());
         Ok(options.case()?)
+    }
+
+    /// The case as a choice of shipped files, for a page in which it runs by itself.
+    ///
+    /// # Errors
+    /// Another option of the case is given.
+    pub(in crate::commands) fn choice(&self) -> Outcome<Choice> {
+        let others = [
+            ("--duration-s", self.duration_s.is_some()),
+            ("--start-m", self.start_m.is_some()),
+            (
+                "--normal-damping-s-per-m",
+                self.normal_damping_s_per_m.is_some(),
+            ),
+            ("--step-us", self.step_us.is_some()),
+            ("--push-m", self.push_m.is_some()),
+            ("--damper", !self.dampers.is_empty()),
+            (
+                "options of wheel and rail",
+                self.contact != WheelRailArguments::default(),
+            ),
+        ];
+        if let Some((option, _)) = others.iter().find(|(_, is_given)| *is_given) {
+            return Err(Failure::wrong_use(format!(
+                "{option} with --page; allowed: --case, --vehicle, --track, --speed-km-h, --friction and --set"
+            )));
+        }
+        Ok(Choice {
+            case: self.case.clone().unwrap_or_else(|| CASES[0].0.to_owned()),
+            vehicle: self.vehicle.clone(),
+            track: self.track.clone(),
+            speed_km_h: self.speed_km_h,
+            friction: self.friction,
+            seed: None,
+            set: self.overrides.clone(),
+        })
     }
 }
 
