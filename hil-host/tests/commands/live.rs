@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::common::live::{Live, Viewer};
-use crate::common::{dashpot, json_of, text_of};
+use crate::common::{dashpot, error_of, json_of, text_of};
 
 const CASE: [&str; 2] = ["--case", "straight-180"];
 const DAMPER: &str = "front lateral damper 1";
@@ -333,4 +333,29 @@ fn the_report_is_also_text() {
     );
     assert!(text.contains("viewers: 0 came"), "{text}");
     assert!(text.contains("deadlines missed"), "{text}");
+}
+
+#[test]
+fn a_page_in_which_the_vehicle_runs_by_itself_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["live", "--case", "curve-r300", "--page", "curve.html"];
+    dashpot(&arguments, folder.path()).success();
+    let page = std::fs::read_to_string(folder.path().join("curve.html")).unwrap();
+    assert!(page.contains(r#""case":"curve-r300""#) && page.contains("worker-src blob:"));
+    assert!(page.len() < 4_000_000, "{} bytes", page.len());
+    for (more, said) in [
+        (&["--step-us", "500"][..], "--step-us with --page"),
+        (&["--set", "body.mass=1"], "mass_kg"),
+        (
+            &["--outside", "front yaw damper 1=desk"],
+            "cannot be used with",
+        ),
+    ] {
+        let refused = dashpot(
+            &[&arguments[..3], &["--page", "other.html"], more].concat(),
+            folder.path(),
+        );
+        assert!(error_of(&refused.failure()).contains(said), "{more:?}");
+        assert!(!folder.path().join("other.html").exists());
+    }
 }

@@ -51,7 +51,7 @@ pub struct LiveArguments {
     pub(super) record: Option<PathBuf>,
     /// Write a page in which the vehicle runs by itself, in the browser, into this file, and end. The case is a shipped
     /// one with --vehicle, --track, --speed-km-h, --friction and --set.
-    #[arg(long, value_name = "FILE.html", conflicts_with_all = ["outside", "record", "token"])]
+    #[arg(long, value_name = "FILE.html", conflicts_with_all = ["choices", "record", "token"])]
     pub(super) page: Option<PathBuf>,
     #[command(flatten)]
     pub(super) limits: TickLimitArguments,
