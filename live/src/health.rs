@@ -84,7 +84,7 @@ impl HealthWatch {
                     low: value - SIDES * sd,
                     high: value + SIDES * sd,
                     unit,
-                    alarm: reading.status.intersects(alarm | HealthStatus::NO_FORCE),
+                    alarm: reading.status.intersects(alarm),
                     trusted: reading.is_trusted(),
                 }
             };
@@ -93,7 +93,8 @@ impl HealthWatch {
                     "clearance",
                     reading.clearance_m,
                     "m",
-                    HealthStatus::CLEARANCE,
+                    // Without a force the clearance is wider than the motion, or the damper is gone.
+                    HealthStatus::CLEARANCE | HealthStatus::NO_FORCE,
                 ),
                 line(
                     "stiffness",

@@ -14,6 +14,8 @@
   let pace = 1;
   // The error that is shown, until the next success.
   let failure = "";
+  // The scene whose lead is written; the speed comes with the status.
+  let told = null;
 
   // Sends a message and shows the error of its answer, if any.
   async function ask(message) {
@@ -143,10 +145,6 @@
     defectSize();
     const hasYaw = live.scene.dampers.some(({ direction }) => direction === "longitudinal");
     put("try-worsen", hasYaw ? "Worsen the yaw dampers" : "Worsen the dampers");
-    const speed = words.fixed(live.status?.speed_km_h ?? live.setup.choice?.speed_km_h ?? 160, 0);
-    const article = /^[aeiou]/i.test(live.scene.vehicle) ? "An" : "A";
-    const advice = `Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`;
-    put("lead", `${article} ${live.scene.vehicle} at ${speed} km/h. ${advice}`);
     put("case-name", live.scene.case);
     put("track-name", live.scene.track);
     const [slowest, fastest] = live.scene.speed_range_km_h ?? [10, 350];
@@ -162,9 +160,18 @@
     put("defect-unit", known.size_unit);
   }
 
+  function lead(speed_km_h) {
+    told = live.scene;
+    const article = /^[aeiou]/i.test(live.scene.vehicle) ? "An" : "A";
+    const hasYaw = live.scene.dampers.some(({ direction }) => direction === "longitudinal");
+    const advice = `Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`;
+    put("lead", `${article} ${live.scene.vehicle} at ${words.fixed(speed_km_h, 0)} km/h. ${advice}`);
+  }
+
   function status() {
     const { factor, speed_km_h, friction_factor, is_comparing, warnings, role, viewers } = live.status;
     if (factor > 0) pace = factor;
+    if (told !== live.scene) lead(speed_km_h);
     put("run-text", factor > 0 ? "Pause" : "Run");
     by("run").dataset.state = factor > 0 ? "running" : "paused";
     const select = by("factor");

@@ -106,10 +106,9 @@
       const { factor, text: written, digits } = words.unit(unit);
       const [middle, least, most] = [value, low, high].map(number => words.fixed(number * factor, digits));
       const cells = [
-        words.capital(damper),
-        label,
+        `${words.capital(damper)}, ${label}`,
         `${middle} ${written}`.trim() + ` (${least} to ${most})`,
-        (alarm ? "▲ alarm" : "✓ good") + (trusted === false ? ", value unsure" : ""),
+        (alarm ? "▲ alarm" : "✓ good") + (trusted === false ? ", unsure" : ""),
       ];
       row.append(
         ...cells.map((text, n) =>
