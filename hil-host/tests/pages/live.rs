@@ -69,7 +69,7 @@ fn a_person_worsens_a_damper_and_sees_its_force_go() {
     assert_eq!(wide.count(), 8);
     assert_eq!(
         browser.requests(&address),
-        [address.clone()],
+        std::slice::from_ref(&address),
         "the page loads nothing"
     );
     let said: Vec<Value> = browser.log("browser");
