@@ -3,12 +3,36 @@
 use std::fs;
 use std::sync::LazyLock;
 
+use dashpot_report::page::{Parts, content_policy, parts};
+
 use crate::common::dashpot;
 use crate::pil_common::{desk, serve_tcp};
 
-/// Page of the demonstration: histories and loops.
+/// Page of the demonstration without the live page above it: histories and loops.
 pub static DEMONSTRATION: LazyLock<String> =
-    LazyLock::new(|| made(&["--output", "page.html"], "page.html"));
+    LazyLock::new(|| below_live(&made(&["--output", "page.html"], "page.html")));
+
+/// The report in a page that begins with the live page, which has its own tests (`live.rs`).
+fn below_live(page: &str) -> String {
+    let Parts {
+        styles, scripts, ..
+    } = parts(&maud::PreEscaped(String::new()));
+    let (_, report) = page.split_once("<article class=\"report\">").unwrap();
+    let (report, _) = report.split_once("</article>").unwrap();
+    let policy = content_policy(scripts, styles);
+    let in_tags = |tag: &str, texts: &[&str]| -> String {
+        let texts = texts.iter();
+        texts.map(|text| format!("<{tag}>{text}</{tag}>")).collect()
+    };
+    format!(
+        "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\">\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>Demonstration</title>{}</head>\
+         <body><main class=\"report\">{report}</main>{}</body></html>",
+        in_tags("style", styles),
+        in_tags("script", scripts)
+    )
+}
 
 /// Page of a locomotive: histories that share their cursor.
 pub static VEHICLE: LazyLock<String> = LazyLock::new(|| {

@@ -65,7 +65,8 @@ struct Prepared {
 /// Runs the command.
 ///
 /// # Errors
-/// The case is invalid, the page cannot be written, the address cannot be used, a damper outside fails, or the run ends otherwise than asked.
+/// The case is invalid, the page cannot be written, the address cannot be used, a damper outside fails, or the run ends
+/// otherwise than asked.
 pub fn run(arguments: &LiveArguments) -> Outcome<()> {
     arguments.check()?;
     if let Some(path) = &arguments.page {
