@@ -141,10 +141,12 @@ mod tests {
     }
 
     #[test]
-    fn a_file_without_rows_is_readable() {
+    fn a_file_without_rows_is_whole_and_refused_as_empty() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("run.mf4");
         let file = GrowingMdf::create(&path, &[("time_s", "s"), ("force_n", "N")]).unwrap();
-        assert_eq!((file.rows(), read(&path).0), (0, 0));
+        assert_eq!(file.rows(), 0);
+        let refused = overview(&path, &Channels::default()).unwrap_err();
+        assert!(refused.to_string().contains("row"), "{refused}");
     }
 }
