@@ -68,11 +68,17 @@ pub enum Action {
 }
 
 impl Action {
-    /// True for an action that changes a damper.
-    pub fn is_on_damper(&self) -> bool {
-        matches!(
-            self,
-            Self::Damper { .. } | Self::Preset { .. } | Self::AsNew { .. } | Self::Fault { .. }
-        )
+    /// Name of the damper that the action changes, if it changes one.
+    pub fn damper(&self) -> Option<&str> {
+        match self {
+            Self::Damper { damper, .. }
+            | Self::Preset { damper, .. }
+            | Self::AsNew { damper }
+            | Self::Fault { damper, .. } => Some(damper),
+            Self::Speed { .. }
+            | Self::Friction { .. }
+            | Self::Defect { .. }
+            | Self::Gust { .. } => None,
+        }
     }
 }

@@ -1,10 +1,11 @@
 //! Choice of a case by names and numbers, short enough for a link.
 
-use dashpot_files::case::{CASES, Case, CaseError, CaseNumbers, CaseParts};
-use dashpot_files::did_you_mean;
+use dashpot_files::case::{CASES, Case, CaseError, CaseOptions};
 use dashpot_files::track::{IrregularityParameters, TRACKS};
 use dashpot_files::vehicle::VEHICLES;
 use serde::{Deserialize, Serialize};
+
+use crate::error::UnknownName;
 
 /// Shortest length of generated irregularities in a browser, m: a minute at 180 km/h, computed in half a second.
 const LENGTH_M: f64 = 3000.0;
@@ -48,17 +49,8 @@ pub struct Choice {
 #[non_exhaustive]
 pub enum ChoiceError {
     /// Only shipped files can be chosen.
-    #[error("no shipped {kind} `{name}`{near}; allowed: {allowed}")]
-    NotShipped {
-        /// Kind of file.
-        kind: &'static str,
-        /// Name that was given.
-        name: String,
-        /// Suggestion with the nearest name, or empty.
-        near: String,
-        /// All names.
-        allowed: String,
-    },
+    #[error(transparent)]
+    NotShipped(#[from] UnknownName),
     /// The irregularities of the track are not generated.
     #[error("seed {0}: the irregularities of this track are not generated; allowed: no seed")]
     Seed(u64),
@@ -67,17 +59,12 @@ pub enum ChoiceError {
     Case(#[from] Box<CaseError>),
 }
 
-fn shipped(kind: &'static str, name: &str, names: &[(&str, &str)]) -> Result<(), ChoiceError> {
-    let known = || names.iter().map(|(known, _)| *known);
-    if known().any(|known| known == name) {
-        return Ok(());
+fn shipped(kind: &'static str, name: &str, names: &[(&str, &str)]) -> Result<(), UnknownName> {
+    let known = names.iter().map(|(known, _)| *known);
+    match known.clone().any(|known| known == name) {
+        true => Ok(()),
+        false => Err(UnknownName::new(kind, name, known)),
     }
-    Err(ChoiceError::NotShipped {
-        kind,
-        name: name.to_owned(),
-        near: did_you_mean(name, known()),
-        allowed: known().collect::<Vec<_>>().join(", "),
-    })
 }
 
 impl Choice {
@@ -94,37 +81,36 @@ impl Choice {
     /// # Errors
     /// A name that does not ship, a number out of bounds, or an override that does not apply.
     pub fn case(&self) -> Result<Case, ChoiceError> {
-        shipped("case", &self.case, &CASES)?;
+        shipped("shipped case", &self.case, &CASES)?;
         if let Some(vehicle) = &self.vehicle {
-            shipped("vehicle", vehicle, &VEHICLES)?;
+            shipped("shipped vehicle", vehicle, &VEHICLES)?;
         }
         if let Some(track) = &self.track {
-            shipped("track", track, &TRACKS)?;
+            shipped("shipped track", track, &TRACKS)?;
         }
-        let parts = CaseParts {
-            case: Some(&self.case),
-            vehicle: self.vehicle.as_deref(),
-            track: self.track.as_deref(),
-            numbers: CaseNumbers {
-                speed_km_h: self.speed_km_h,
-                friction: self.friction,
-                ..CaseNumbers::default()
-            },
-        };
-        let mut case = parts
-            .options()
-            .and_then(|options| {
-                let mut options = options.unwrap_or_else(|| {
-                    dashpot_files::case::CaseOptions::new("locomotive", "ideal", 100.0)
-                });
-                options.overrides.extend(self.set.iter().cloned());
-                options.case()
-            })
-            .map_err(Box::new)?;
+        let case = self.options().and_then(|options| options.case());
+        let mut case = case.map_err(Box::new)?;
         if let Some(seed) = self.seed {
             case.track = case.track.with_seed(seed).ok_or(ChoiceError::Seed(seed))?;
         }
         Ok(endless(case, LENGTH_M))
+    }
+
+    fn options(&self) -> Result<CaseOptions, CaseError> {
+        let mut options = CaseOptions::load(&self.case)?;
+        if let Some(vehicle) = &self.vehicle {
+            options.set_vehicle(vehicle);
+        }
+        if let Some(track) = &self.track {
+            options.set_track(track);
+        }
+        for (key, number) in [("speed_km_h", self.speed_km_h), ("friction", self.friction)] {
+            if let Some(number) = number {
+                options.set_number(key, number);
+            }
+        }
+        options.overrides.extend(self.set.iter().cloned());
+        Ok(options)
     }
 }
 

@@ -11,7 +11,9 @@ use dashpot_rail::vehicle::{FRICTION_FACTOR, Law, Vehicle};
 use dashpot_vehicle_run::{Run, VehicleRunError};
 
 use crate::defect::{AHEAD_M, DEFECTS, defect};
+use crate::error::{UnknownName, within};
 use crate::fault::{FAULTS, FaultKind};
+use crate::outline::wheelbase;
 use crate::quantity::{WEAR, worn};
 use crate::{Action, ActionError};
 
@@ -110,7 +112,6 @@ impl Desk {
                 is_changed: false,
             })
         });
-        let positions = case.vehicle.wheelsets.iter().map(|wheelset| wheelset.x_m);
         Ok(Self {
             dampers: dampers.collect::<Result<_, DamperError>>()?,
             vehicle: run.vehicle().clone(),
@@ -118,7 +119,7 @@ impl Desk {
             actions: Vec::new(),
             speed_km_h: 3.6 * case.speed_m_per_s,
             friction_factor: 1.0,
-            leading_m: positions.fold(0.0, f64::max),
+            leading_m: wheelbase(&case.vehicle)[1],
             case,
         })
     }
@@ -191,7 +192,7 @@ impl Desk {
                 let index = self.damper(damper)?;
                 let names = || PRESETS.iter().map(|(name, _)| *name);
                 if !names().any(|name| name == preset) {
-                    return Err(ActionError::unknown("preset", preset, names()));
+                    return Err(UnknownName::new("preset", preset, names()).into());
                 }
                 let loaded = damper::load(preset, &[])?;
                 self.put(index, &loaded, |desk| {
@@ -205,7 +206,7 @@ impl Desk {
             Action::Fault { damper, fault } => {
                 let names = || FAULTS.iter().map(|fault| fault.id);
                 let found = FaultKind::find(fault);
-                let found = found.ok_or_else(|| ActionError::unknown("fault", fault, names()))?;
+                let found = found.ok_or_else(|| UnknownName::new("fault", fault, names()))?;
                 let numbers = found.changes(&self.dampers[self.damper(damper)?].as_new);
                 self.change_as_new(damper, &numbers, |desk| {
                     (desk.fault, desk.wear) = (Some(found.id), 0.0)
@@ -224,16 +225,15 @@ impl Desk {
             Action::Defect { kind, size } => {
                 let names = || DEFECTS.iter().map(|defect| defect.kind);
                 let Some(known) = DEFECTS.iter().find(|known| known.kind == kind) else {
-                    return Err(ActionError::unknown("defect", kind, names()));
+                    return Err(UnknownName::new("defect", kind, names()).into());
                 };
                 within("size", *size, [known.min, known.max])?;
                 let start_m = place.distance_m + self.leading_m + AHEAD_M;
-                let mut track = self.case.track.clone();
-                track.defects.clone_from(&self.defects);
-                track.defects.extend(defect(kind, *size, start_m));
-                let built = track.build().map_err(VehicleRunError::from)?;
-                self.defects = track.defects;
-                Change::Track(Arc::new(built))
+                let mut defects = self.defects.clone();
+                defects.extend(defect(kind, *size, start_m));
+                let change = self.track_with(&defects)?;
+                self.defects = defects;
+                change
             }
             Action::Gust {
                 force_n,
@@ -254,7 +254,7 @@ impl Desk {
     fn damper(&self, name: &str) -> Result<usize, ActionError> {
         let names = || self.dampers.iter().map(|damper| damper.name.as_str());
         let found = names().position(|known| known == name);
-        found.ok_or_else(|| ActionError::unknown("damper", name, names()))
+        Ok(found.ok_or_else(|| UnknownName::new("damper", name, names()))?)
     }
 
     /// Changes numbers of a damper as new.
@@ -279,16 +279,12 @@ impl Desk {
         parameters: &DamperParameters,
         note: impl FnOnce(&mut DeskDamper),
     ) -> Result<Change, ActionError> {
-        let built = self.vehicle.build_damper(index, parameters);
-        let built = built.map_err(VehicleRunError::from)?;
+        let change = self.built(index, parameters)?;
         let damper = &mut self.dampers[index];
         damper.now = KeyedParameters::new(&damper.name, parameters)?;
         damper.is_changed = true;
         note(damper);
-        Ok(Change::Damper {
-            index,
-            built: Box::new(built),
-        })
+        Ok(change)
     }
 
     /// Defects of the track, those of the case first.
@@ -315,47 +311,44 @@ impl Desk {
         Ok(())
     }
 
-    /// Returns the changes that make every damper as new.
-    pub(crate) fn dampers_as_new(&self) -> Result<Vec<Change>, ActionError> {
-        self.built(|damper| &damper.as_new)
+    /// Builds a damper.
+    fn built(&self, index: usize, parameters: &DamperParameters) -> Result<Change, ActionError> {
+        let built = self.vehicle.build_damper(index, parameters);
+        Ok(Change::Damper {
+            index,
+            built: Box::new(built.map_err(VehicleRunError::from)?),
+        })
     }
 
-    fn built(
+    /// Builds the track with these defects in place of its own.
+    fn track_with(&self, defects: &[Defect]) -> Result<Change, ActionError> {
+        let mut track = self.case.track.clone();
+        track.defects = defects.to_vec();
+        let built = track.build().map_err(VehicleRunError::from)?;
+        Ok(Change::Track(Arc::new(built)))
+    }
+
+    /// Builds every damper that is not as new, with some of its parameters.
+    fn changed_dampers(
         &self,
         of: impl Fn(&DeskDamper) -> &KeyedParameters,
     ) -> Result<Vec<Change>, ActionError> {
         let dampers = self.dampers.iter().enumerate();
-        let built = dampers.map(|(index, damper)| {
-            let built = self.vehicle.build_damper(index, &*of(damper).with(&[])?);
-            Ok(Change::Damper {
-                index,
-                built: Box::new(built.map_err(VehicleRunError::from)?),
-            })
-        });
-        built.collect()
+        dampers
+            .filter(|(_, damper)| damper.is_changed)
+            .map(|(index, damper)| self.built(index, &*of(damper).with(&[])?))
+            .collect()
+    }
+
+    /// Returns the changes that make every damper of the desk as new.
+    pub(crate) fn dampers_as_new(&self) -> Result<Vec<Change>, ActionError> {
+        self.changed_dampers(|damper| &damper.as_new)
     }
 
     /// Returns the changes that bring a vehicle as new to the state of the desk, without speed, friction and gusts.
     pub(crate) fn changes(&self) -> Result<Vec<Change>, ActionError> {
-        let mut changes = self.built(|damper| &damper.now)?;
-        let mut track = self.case.track.clone();
-        track.defects.clone_from(&self.defects);
-        changes.push(Change::Track(Arc::new(
-            track.build().map_err(VehicleRunError::from)?,
-        )));
+        let mut changes = self.changed_dampers(|damper| &damper.now)?;
+        changes.push(self.track_with(&self.defects)?);
         Ok(changes)
-    }
-}
-
-fn within(name: &'static str, value: f64, [min, max]: [f64; 2]) -> Result<(), ActionError> {
-    if (min..=max).contains(&value) {
-        Ok(())
-    } else {
-        Err(ActionError::OutOfRange {
-            name,
-            value,
-            min,
-            max,
-        })
     }
 }

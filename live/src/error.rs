@@ -11,17 +11,8 @@ use crate::ChoiceError;
 #[non_exhaustive]
 pub enum ActionError {
     /// A name that does not exist.
-    #[error("no {kind} `{name}`{near}; allowed: {allowed}")]
-    Unknown {
-        /// What is named.
-        kind: &'static str,
-        /// Name that was given.
-        name: String,
-        /// Suggestion with the nearest name, or empty.
-        near: String,
-        /// All names.
-        allowed: String,
-    },
+    #[error(transparent)]
+    Unknown(#[from] UnknownName),
     /// A value out of range.
     #[error("{name}: {value}, allowed: {min} to {max}")]
     OutOfRange {
@@ -51,17 +42,48 @@ pub enum ActionError {
     Message(String),
 }
 
-impl ActionError {
-    pub(crate) fn unknown<'a>(
+/// A name that does not exist.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("no {kind} `{name}`{near}; allowed: {allowed}")]
+pub struct UnknownName {
+    /// What is named.
+    pub kind: &'static str,
+    /// Name that was given.
+    pub name: String,
+    /// Suggestion with the nearest name, or empty.
+    pub near: String,
+    /// All names.
+    pub allowed: String,
+}
+
+impl UnknownName {
+    pub(crate) fn new<'a>(
         kind: &'static str,
         name: &str,
         names: impl Iterator<Item = &'a str> + Clone,
     ) -> Self {
-        Self::Unknown {
+        Self {
             kind,
             name: name.to_owned(),
             near: did_you_mean(name, names.clone()),
             allowed: names.collect::<Vec<_>>().join(", "),
         }
+    }
+}
+
+/// Checks that a value is in its range.
+///
+/// # Errors
+/// It is not; NaN never is.
+pub fn within(name: &'static str, value: f64, [min, max]: [f64; 2]) -> Result<(), ActionError> {
+    if (min..=max).contains(&value) {
+        Ok(())
+    } else {
+        Err(ActionError::OutOfRange {
+            name,
+            value,
+            min,
+            max,
+        })
     }
 }

@@ -4,6 +4,12 @@ use serde::Deserialize;
 
 use crate::{Action, Choice};
 
+/// Factors of real time that an operator may choose.
+pub const FACTOR: [f64; 2] = [0.0, 100.0];
+
+/// Largest number of ticks that one message asks for.
+pub const MAX_STEPS: u32 = 10_000;
+
 /// A message from the page.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Message {

@@ -5,10 +5,25 @@ use base64::prelude::BASE64_STANDARD;
 use falcon_mdf::Mf4Writer;
 use serde_json::{Value, json};
 
+use crate::error::UnknownName;
 use crate::{ActionError, SignalWords};
 
 /// Largest recording, numbers: 64 MB, more than a minute of a locomotive. A file takes several times as much.
 const MAX_NUMBERS: usize = 16_000_000;
+
+/// Writes a recording whose signals have these names.
+type Write = fn(&Recording, &[String]) -> Result<Vec<u8>, ActionError>;
+
+/// Formats of a file: their names, the file's name and type, and what writes it.
+const FORMATS: [(&str, &str, &str, Write); 2] = [
+    ("csv", "dashpot-live.csv", "text/csv", Recording::csv),
+    (
+        "mdf4",
+        "dashpot-live.mf4",
+        "application/octet-stream",
+        Recording::mdf4,
+    ),
+];
 
 /// A recording.
 #[derive(Debug, Clone, Default)]
@@ -52,30 +67,21 @@ impl Recording {
     /// # Errors
     /// The format is none of `csv` and `mdf4`, or nothing is recorded.
     pub fn file(&self, names: &[String], format: &str) -> Result<Value, ActionError> {
+        let formats = FORMATS.map(|(format, ..)| format).into_iter();
+        let found = FORMATS.iter().find(|(known, ..)| *known == format);
+        let Some((_, name, mime, write)) = found else {
+            return Err(UnknownName::new("format", format, formats).into());
+        };
         if self.times_s.is_empty() {
             return Err(ActionError::State("nothing is recorded"));
         }
-        let (name, mime, content) = match format {
-            "csv" => ("dashpot-live.csv", "text/csv", self.csv(names).into_bytes()),
-            "mdf4" => (
-                "dashpot-live.mf4",
-                "application/octet-stream",
-                self.mdf4(names)?,
-            ),
-            other => {
-                return Err(ActionError::unknown(
-                    "format",
-                    other,
-                    ["csv", "mdf4"].into_iter(),
-                ));
-            }
-        };
+        let content = write(self, names)?;
         Ok(json!({
             "type": "file", "name": name, "mime": mime, "base64": BASE64_STANDARD.encode(content),
         }))
     }
 
-    fn csv(&self, names: &[String]) -> String {
+    fn csv(&self, names: &[String]) -> Result<Vec<u8>, ActionError> {
         let mut text = names.join(",");
         text.push('\n');
         for (time_s, row) in self
@@ -91,7 +97,7 @@ impl Recording {
             }
             text.push('\n');
         }
-        text
+        Ok(text.into_bytes())
     }
 
     fn mdf4(&self, names: &[String]) -> Result<Vec<u8>, ActionError> {

@@ -9,12 +9,14 @@ use dashpot_vehicle_run::VehicleRunError;
 use dashpot_vehicle_run::contact::WheelOnRail;
 use serde_json::{Value, json};
 
+use crate::error::within;
+use crate::message::{FACTOR, MAX_STEPS};
 use crate::observer::flags;
 use crate::recording::Recording;
 use crate::saved::Saved;
 use crate::{
-    Action, ActionError, Built, Change, Choice, Desk, Message, Observer, Request, Scene,
-    Simulation, Status, reference_digest,
+    Action, ActionError, Built, Choice, Desk, Message, Observer, Request, Scene, Simulation,
+    Status, reference_digest,
 };
 
 /// Where the tables of a pair of wheel and rail come from.
@@ -226,29 +228,21 @@ impl Session {
         let none = json!({});
         match request {
             Request::Start { choice, actions } => {
-                self.restart(choice, actions)?;
+                self.replace_by(self.started(choice, actions)?)?;
                 return Ok((vec![self.scene()], none));
             }
             Request::Reset => {
-                self.restart(self.choice.clone(), Vec::new())?;
+                self.replace_by(self.started(self.choice.clone(), Vec::new())?)?;
                 return Ok((vec![self.scene()], none));
             }
             Request::Act { action } => self.act(&action)?,
             Request::Run { factor } => {
-                if !(0.0..=100.0).contains(&factor) {
-                    let (name, min, max) = ("factor", 0.0, 100.0);
-                    return Err(ActionError::OutOfRange {
-                        name,
-                        value: factor,
-                        min,
-                        max,
-                    });
-                }
+                within("factor", factor, FACTOR)?;
                 self.factor = factor;
                 self.is_stopped &= factor == 0.0;
             }
             Request::Step { ticks } => {
-                self.advance(ticks.min(10_000))?;
+                self.advance(ticks.min(MAX_STEPS))?;
             }
             Request::Compare { on } => self.compare(on)?,
             Request::Save => {
@@ -280,14 +274,19 @@ impl Session {
         Ok((Vec::new(), none))
     }
 
-    fn restart(&mut self, choice: Choice, actions: Vec<(u64, Action)>) -> Result<(), ActionError> {
+    /// Another run at its start, with the tables of this one; a run of the same choice is not built again.
+    fn started(&self, choice: Choice, actions: Vec<(u64, Action)>) -> Result<Self, ActionError> {
         let built = match choice == self.choice {
             true => self.built.clone(),
             false => Built::new(choice.case()?, &*self.tables)?,
         };
-        let started = Self::of(choice, built, actions, Rc::clone(&self.tables))?;
+        Self::of(choice, built, actions, Rc::clone(&self.tables))
+    }
+
+    /// Goes on with another run, at the same pace and with the vehicle as new beside it if it was there.
+    fn replace_by(&mut self, other: Self) -> Result<(), ActionError> {
         let (factor, was_comparing) = (self.factor, self.as_new.is_some());
-        *self = started;
+        *self = other;
         self.factor = factor;
         self.compare(was_comparing)
     }
@@ -296,7 +295,7 @@ impl Session {
         let change = self.desk.act(action, self.main.simulation.place())?;
         self.main.simulation.apply(&change)?;
         if let Some(as_new) = &mut self.as_new
-            && !action.is_on_damper()
+            && action.damper().is_none()
         {
             as_new.simulation.apply(&change)?;
         }
@@ -333,21 +332,13 @@ impl Session {
     fn load(&mut self, text: &str) -> Result<(), ActionError> {
         let saved = Saved::read(text)?;
         let (state, inputs) = saved.state()?;
-        let before = self.save()?;
-        self.restart(saved.choice.clone(), Vec::new())?;
-        let loaded = self
-            .desk
-            .replay(&saved.actions, &saved.defects)
-            .and_then(|()| {
-                self.main.simulation.restore(state, inputs)?;
-                let changes: Vec<Change> = self.desk.changes()?;
-                changes
-                    .iter()
-                    .try_for_each(|change| Ok(self.main.simulation.apply(change)?))
-            });
-        if loaded.is_err() && before != text {
-            self.load(&before)?;
+        let mut loaded = self.started(saved.choice.clone(), Vec::new())?;
+        loaded.desk.replay(&saved.actions, &saved.defects)?;
+        let simulation = &mut loaded.main.simulation;
+        simulation.restore(state, inputs)?;
+        for change in loaded.desk.changes()? {
+            simulation.apply(&change)?;
         }
-        loaded
+        self.replace_by(loaded)
     }
 }

@@ -148,20 +148,20 @@ impl Conversation {
     }
 
     fn message(&mut self, viewer: ViewerId, message: Value) -> Result<(), String> {
-        // These two are for the machine alone.
-        match message.get("do").and_then(Value::as_str) {
-            Some("take-over") => return Ok(self.roles.take_over(viewer)?),
-            Some("status") => {
-                self.hub.send(viewer, &self.desk.health().to_string());
-                return Ok(());
-            }
-            _ => {}
+        // The page's own engine does not know this one.
+        if message.get("do").and_then(Value::as_str) == Some("take-over") {
+            return Ok(self.roles.take_over(viewer)?);
         }
         let message: Message =
             serde_json::from_value(message).map_err(|error| format!("message: {error}"))?;
-        if let Request::Stop = message.request {
+        match message.request {
+            Request::Status => {
+                self.hub.send(viewer, &self.desk.health().to_string());
+                return Ok(());
+            }
             // The inbox has already passed it on.
-            return Ok(());
+            Request::Stop => return Ok(()),
+            _ => {}
         }
         if !self.roles.is_operator(viewer) {
             return Err("you watch: only the operator acts; allowed: stop, take-over".into());

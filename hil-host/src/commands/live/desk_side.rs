@@ -4,7 +4,10 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, SyncSender};
 
-use dashpot_live::{Action, Built, Change, Desk, Observer, Place, Scene, Simulation, Status};
+use dashpot_live::{
+    Action, Built, Change, Desk, FACTOR, MAX_STEPS, Observer, Place, Scene, Simulation, Status,
+    within,
+};
 use dashpot_rail::track::Track;
 use dashpot_vehicle_run::Run;
 use serde_json::{Value, json};
@@ -16,12 +19,6 @@ use crate::commands::failure::Outcome;
 
 /// How long an action waits before it acts, s: so that it acts at the tick that the setting names.
 const AHEAD_S: f64 = 0.05;
-
-/// Factors of real time that an operator may choose.
-const FACTOR: std::ops::RangeInclusive<f64> = 0.0..=100.0;
-
-/// Most ticks of one message.
-const STEPS: u32 = 10_000;
 
 /// The dampers outside, as far as the operator's side needs to know.
 #[derive(Debug, Clone, Default)]
@@ -167,15 +164,11 @@ impl DeskSide {
 
     /// A damper outside is what it is.
     fn refuse_outside(&self, action: &Action) -> Result<(), String> {
-        let (Action::Damper { damper, .. }
-        | Action::Preset { damper, .. }
-        | Action::AsNew { damper }
-        | Action::Fault { damper, .. }) = action
-        else {
+        let Some(damper) = action.damper() else {
             return Ok(());
         };
         let mut names = self.built.case().vehicle.dampers();
-        let index = names.position(|element| element.name == *damper);
+        let index = names.position(|element| element.name == damper);
         match index.is_some_and(|index| self.outside.dampers.contains(&index)) {
             true => Err(format!(
                 "{damper} is outside; it cannot be changed from here"
@@ -198,10 +191,7 @@ impl DeskSide {
     /// # Errors
     /// A real damper is outside, or the factor is not allowed.
     pub fn set_factor(&mut self, factor: f64) -> Result<(), String> {
-        if !FACTOR.contains(&factor) {
-            let [min, max] = [FACTOR.start(), FACTOR.end()];
-            return Err(format!("factor: {factor}, allowed: {min} to {max}"));
-        }
+        within("factor", factor, FACTOR).map_err(|error| error.to_string())?;
         if factor != 1.0 {
             self.refuse_real("another pace than real time")?;
         }
@@ -219,7 +209,7 @@ impl DeskSide {
         if self.control.factor() > 0.0 {
             return Err("single steps: allowed while the run is paused".into());
         }
-        self.order(Order::Steps(ticks.min(STEPS)))
+        self.order(Order::Steps(ticks.min(MAX_STEPS)))
     }
 
     /// Returns to the start, without actions.
