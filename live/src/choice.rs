@@ -5,7 +5,7 @@ use dashpot_files::track::{IrregularityParameters, TRACKS};
 use dashpot_files::vehicle::VEHICLES;
 use serde::{Deserialize, Serialize};
 
-use crate::error::UnknownName;
+use crate::unknown_name::UnknownName;
 
 /// Shortest length of generated irregularities in a browser, m: a minute at 180 km/h, computed in half a second.
 const LENGTH_M: f64 = 3000.0;

@@ -11,10 +11,11 @@ use dashpot_rail::vehicle::{FRICTION_FACTOR, Law, Vehicle};
 use dashpot_vehicle_run::{Run, VehicleRunError};
 
 use crate::defect::{AHEAD_M, DEFECTS, defect};
-use crate::error::{UnknownName, within};
+use crate::error::within;
 use crate::fault::{FAULTS, FaultKind};
 use crate::outline::wheelbase;
 use crate::quantity::{WEAR, worn};
+use crate::unknown_name::UnknownName;
 use crate::{Action, ActionError};
 
 /// Speeds that an operator may choose, km/h.

@@ -1,10 +1,10 @@
 //! Errors of a live run.
 
 use dashpot_files::damper::DamperError;
-use dashpot_files::did_you_mean;
 use dashpot_vehicle_run::VehicleRunError;
 
 use crate::ChoiceError;
+use crate::unknown_name::UnknownName;
 
 /// An action or message that cannot be done.
 #[derive(Debug, thiserror::Error)]
@@ -40,35 +40,6 @@ pub enum ActionError {
     /// A message that is not of the protocol.
     #[error("message: {0}")]
     Message(String),
-}
-
-/// A name that does not exist.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("no {kind} `{name}`{near}; allowed: {allowed}")]
-pub struct UnknownName {
-    /// What is named.
-    pub kind: &'static str,
-    /// Name that was given.
-    pub name: String,
-    /// Suggestion with the nearest name, or empty.
-    pub near: String,
-    /// All names.
-    pub allowed: String,
-}
-
-impl UnknownName {
-    pub(crate) fn new<'a>(
-        kind: &'static str,
-        name: &str,
-        names: impl Iterator<Item = &'a str> + Clone,
-    ) -> Self {
-        Self {
-            kind,
-            name: name.to_owned(),
-            near: did_you_mean(name, names.clone()),
-            allowed: names.collect::<Vec<_>>().join(", "),
-        }
-    }
 }
 
 /// Checks that a value is in its range.

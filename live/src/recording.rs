@@ -5,7 +5,7 @@ use base64::prelude::BASE64_STANDARD;
 use falcon_mdf::Mf4Writer;
 use serde_json::{Value, json};
 
-use crate::error::UnknownName;
+use crate::unknown_name::UnknownName;
 use crate::{ActionError, SignalWords};
 
 /// Largest recording, numbers: 64 MB, more than a minute of a locomotive. A file takes several times as much.

@@ -9,7 +9,7 @@ use dashpot_files::case::CASES;
 use dashpot_files::track::TRACKS;
 use dashpot_files::vehicle::VEHICLES;
 use dashpot_live::{Choice, REFERENCE_DIGEST};
-use dashpot_report::page::{Parts, content_policy};
+use dashpot_report::page::{Parts, content_policy_with};
 use pack::packed;
 use serde_json::{Value, json};
 
@@ -23,6 +23,15 @@ pub struct Below<'a> {
     pub title: &'a str,
     /// The page.
     pub parts: Parts,
+}
+
+/// A page and its content policy, which is also in the page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Document {
+    /// The page.
+    pub html: String,
+    /// The policy, for a server's header.
+    pub policy: String,
 }
 
 /// Returns a page that simulates by itself. It begins with a choice; `tables` are the names and contents of files of
@@ -63,11 +72,11 @@ pub fn in_browser(
             &packed(content),
         ));
     }
-    document("; worker-src blob:", " 'wasm-unsafe-eval'", &data, below)
+    document(" 'wasm-unsafe-eval'", "; worker-src blob:", &data, below).html
 }
 
 /// Returns the page of a vehicle that runs on the machine that serves it.
-pub fn of_server(vehicle: &str) -> String {
+pub fn of_server(vehicle: &str) -> Document {
     let setup = json!({
         "source": "server",
         "version": env!("CARGO_PKG_VERSION"),
@@ -80,7 +89,7 @@ pub fn of_server(vehicle: &str) -> String {
         "id=\"setup\"",
         &setup.to_string(),
     )];
-    document("; connect-src 'self'", "", &data, None)
+    document("", "; connect-src 'self'", &data, None)
 }
 
 /// Content that the browser does not run. `<` is escaped, so that nothing in it ends the block.
@@ -93,11 +102,11 @@ fn data_block(mime: &str, name: &str, content: &str) -> String {
 }
 
 fn document(
-    sources: &str,
-    script_sources: &str,
+    script_source: &str,
+    directives: &str,
     data: &[String],
     below: Option<Below<'_>>,
-) -> String {
+) -> Document {
     let (title, parts) = match &below {
         Some(below) => (below.title, Some(&below.parts)),
         None => ("Dashpot live", None),
@@ -107,11 +116,10 @@ fn document(
     styles.push(files::STYLE);
     let mut scripts = files::SCRIPTS.to_vec();
     scripts.extend(parts.map_or(&[][..], |parts| parts.scripts));
-    let policy = content_policy(&scripts, &styles);
-    let policy = policy.replace("; style-src", &format!("{script_sources}; style-src"));
+    let policy = content_policy_with(&scripts, &styles, script_source, directives);
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}{sources}\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n"
     );
     for style in styles {
@@ -124,5 +132,6 @@ fn document(
     for script in scripts {
         page += &format!("<script>{script}</script>\n");
     }
-    page + "</body></html>\n"
+    page += "</body></html>\n";
+    Document { html: page, policy }
 }

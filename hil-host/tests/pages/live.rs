@@ -1,29 +1,9 @@
 //! The live page: a locomotive that runs in the browser.
 
-use dashpot_live::Choice;
-use dashpot_page::in_browser;
-use dashpot_vehicle_run::contact::ContactSetup;
 use serde_json::Value;
 
 use crate::browser::Browser;
-
-/// The page with the contact tables of its case.
-fn page() -> String {
-    let choice = Choice {
-        speed_km_h: Some(160.0),
-        ..Choice::of("straight-180")
-    };
-    let case = choice.case().unwrap();
-    let setup = ContactSetup::of_case(&case).unwrap();
-    let pairs = setup.pairs().iter();
-    let tables = pairs.map(|pair| {
-        (
-            pair.tables_file_name().unwrap(),
-            pair.tables().unwrap().to_bytes(),
-        )
-    });
-    in_browser(&choice, &tables.collect::<Vec<_>>(), None)
-}
+use crate::shown::LIVE;
 
 /// The last values of a signal, as the page has them.
 fn signal(browser: &Browser, name: &str) -> f64 {
@@ -50,7 +30,7 @@ fn a_person_worsens_a_damper_and_sees_its_force_go() {
     let Some(browser) = Browser::start("the live page in a browser") else {
         return;
     };
-    let address = browser.open(&page(), 1280);
+    let address = browser.open(&LIVE, 1280);
     browser.wait_for("live.scene && live.status && live.histories[0].newest?.time_s > 0.5");
     assert_eq!(browser.find("return live.scene.wheelsets.length;"), 6);
     run_for(&browser, 0.5);
@@ -81,7 +61,7 @@ fn a_slider_changes_the_damper_under_the_keyboard() {
     let Some(browser) = Browser::start("sliders of the live page") else {
         return;
     };
-    browser.open(&page(), 390);
+    browser.open(&LIVE, 390);
     browser.wait_for("live.scene && live.status && live.histories[0].newest?.time_s > 0.1");
     let before = browser
         .find("return JSON.stringify(live.status.dampers.map(damper => damper.values.wear));");
@@ -96,7 +76,7 @@ fn the_browser_has_the_bits_of_the_native_program() {
     let Some(browser) = Browser::start("bits of the vehicle in a browser") else {
         return;
     };
-    browser.open(&page(), 1280);
+    browser.open(&LIVE, 1280);
     browser.wait_for("live.scene && live.status");
     let found = browser.find_later("live.source.send({ do: 'digest' }).then(done);");
     assert_eq!(found["digest"], dashpot_live::REFERENCE_DIGEST, "{found}");

@@ -8,9 +8,12 @@ use dashpot_report::page::{Parts, content_policy, parts};
 use crate::common::dashpot;
 use crate::pil_common::{desk, serve_tcp};
 
+/// Page of the demonstration as it is written.
+pub static WHOLE_DEMONSTRATION: LazyLock<String> =
+    LazyLock::new(|| made(&["--output", "page.html"], "page.html"));
+
 /// Page of the demonstration without the live page above it: histories and loops.
-pub static DEMONSTRATION: LazyLock<String> =
-    LazyLock::new(|| below_live(&made(&["--output", "page.html"], "page.html")));
+pub static DEMONSTRATION: LazyLock<String> = LazyLock::new(|| below_live(&WHOLE_DEMONSTRATION));
 
 /// The report in a page that begins with the live page, which has its own tests (`live.rs`).
 fn below_live(page: &str) -> String {
@@ -33,6 +36,12 @@ fn below_live(page: &str) -> String {
         in_tags("script", scripts)
     )
 }
+
+/// Page in which the locomotive runs by itself.
+pub static LIVE: LazyLock<String> = LazyLock::new(|| {
+    let case = ["live", "--case", "straight-180", "--speed-km-h", "160"];
+    made(&[&case[..], &["--page", "page.html"]].concat(), "page.html")
+});
 
 /// Page of a locomotive: histories that share their cursor.
 pub static VEHICLE: LazyLock<String> = LazyLock::new(|| {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::common::are_as_their_readme_says;
-use crate::shown::DEMONSTRATION;
+use crate::shown::{VEHICLE, WHOLE_DEMONSTRATION};
 
 #[test]
 fn the_plotting_library_is_what_its_readme_says() {
@@ -15,5 +15,7 @@ fn the_plotting_library_is_what_its_readme_says() {
 #[test]
 fn pages_have_the_librarys_licence() {
     let licence = include_str!("../../../report/src/page/uplot/LICENSE");
-    assert!(DEMONSTRATION.contains(&format!("<!-- uPlot\n{licence}-->")));
+    for page in [&*WHOLE_DEMONSTRATION, &*VEHICLE] {
+        assert!(page.contains(&format!("<!-- uPlot\n{licence}-->")));
+    }
 }

@@ -15,7 +15,7 @@ pub use heat::{HeatAxis, HeatMap};
 pub use verdict::{judged, share_cell, verdict};
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-pub use policy::content_policy;
+pub use policy::{content_policy, content_policy_with};
 
 use crate::DrawError;
 

@@ -9,8 +9,20 @@ use sha2::{Digest, Sha256};
 
 /// Returns the policy of a page with these scripts and styles.
 pub fn content_policy(scripts: &[&str], styles: &[&str]) -> String {
+    content_policy_with(scripts, styles, "", "")
+}
+
+/// Returns the policy of a page that needs more: another source of scripts after a space, and other directives after a
+/// semicolon and a space.
+pub fn content_policy_with(
+    scripts: &[&str],
+    styles: &[&str],
+    script_source: &str,
+    directives: &str,
+) -> String {
     format!(
-        "default-src 'none'; script-src {}; style-src {}; base-uri 'none'; form-action 'none'",
+        "default-src 'none'; script-src {}{script_source}; style-src {}; base-uri 'none'; form-action 'none'\
+         {directives}",
         hashes(scripts),
         hashes(styles)
     )

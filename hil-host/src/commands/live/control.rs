@@ -1,4 +1,4 @@
-//! What the real-time thread shares with all others: numbers that nobody waits for.
+//! Numbers that the real-time thread shares with all others. Nobody waits for them.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 

@@ -14,7 +14,7 @@ use super::roles::Roles;
 /// Time between two statuses without news.
 const STATUS: Duration = Duration::from_secs(1);
 
-/// Least time between two statuses to all: a viewer who writes much must not flood the others.
+/// Shortest time between two statuses to all viewers, so that one who writes much does not flood the others.
 const NEWS: Duration = Duration::from_millis(50);
 
 /// How long to wait for an event before looking after the real-time thread.

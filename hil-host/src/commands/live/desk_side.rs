@@ -80,7 +80,7 @@ impl DeskSide {
         })
     }
 
-    /// What a page draws, without the role.
+    /// The scene of a page, without the role.
     pub fn scene(&self) -> &Value {
         &self.scene
     }

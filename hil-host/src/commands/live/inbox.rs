@@ -1,4 +1,4 @@
-//! What viewers do, on its way to the operator's side.
+//! Events of viewers on their way to the operator's side.
 
 use std::sync::Arc;
 use std::sync::mpsc::SyncSender;

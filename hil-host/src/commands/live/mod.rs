@@ -112,7 +112,7 @@ pub fn run(arguments: &LiveArguments) -> Outcome<()> {
         None => None,
     };
     conversation.end(ending.to_string());
-    // From here on nobody listens to viewers, so none of them holds the end up.
+    // Nobody listens to viewers any more, so that none of them delays the end.
     drop(to_hear);
     let viewers = server.hub().clone();
     server.stop();
@@ -165,9 +165,7 @@ fn serve(
     let settings = Settings {
         listen: arguments.listen,
         token: arguments.token.clone(),
-        page: page::document(&page::Setup {
-            vehicle: case.vehicle.name.clone(),
-        }),
+        page: page::served(&case.vehicle.name),
     };
     let control = Arc::clone(&prepared.control);
     let server = Server::start(settings, |_| Inbox { events, control })?;
