@@ -3,10 +3,14 @@
 use std::time::Duration;
 
 use dashpot_core::Damper;
+use dashpot_core::link::{Counters, Request};
+use dashpot_realtime::pacing::Pacer;
 
 use super::host_replica::HostReplica;
 use super::report::Measured;
-use super::{Hold, Link, LinkError, MissingAnswers, Pace, Report, Session, SessionError};
+use super::{
+    Hold, Link, LinkError, MissingAnswers, Pace, Report, Session, SessionError, TickRecord,
+};
 
 /// Longest wait for the answer to a step.
 const MAX_WAIT: Duration = Duration::from_secs(3600);
@@ -55,12 +59,31 @@ impl<L: Link> Bank<L> {
         })
     }
 
+    /// Lets [`Self::step`] wait until each tick is due.
+    #[must_use]
+    pub fn paced(mut self, pacer: Pacer) -> Self {
+        self.pace = Pace::Paced(Box::new(pacer));
+        self
+    }
+
     /// Steps the target by one tick: sends the displacements (m) of its first slots and returns the forces (N) of all
     /// slots.
     ///
     /// # Errors
     /// The target is lost and does not recover, or a force is not finite.
     pub fn step(&mut self, displacements_m: &[f32]) -> Result<&[f32], SessionError> {
+        self.step_recorded(displacements_m, |_| {})
+    }
+
+    /// Like [`Self::step`], and passes the record of the tick to `sink`.
+    ///
+    /// # Errors
+    /// Same errors as [`Self::step`].
+    pub fn step_recorded(
+        &mut self,
+        displacements_m: &[f32],
+        mut sink: impl FnMut(&TickRecord<'_>),
+    ) -> Result<&[f32], SessionError> {
         for (slot, displacement_m) in self.displacements_m.iter_mut().zip(displacements_m) {
             *slot = *displacement_m;
         }
@@ -79,11 +102,84 @@ impl<L: Link> Bank<L> {
                     });
                 }
                 forces_n.copy_from_slice(found_n);
+                sink(record);
                 Ok(())
             },
         )?;
         self.missing.answered();
         Ok(&self.forces_n)
+    }
+
+    /// Puts another damper into a slot of the target and of the replica. Its force continues where the other's was.
+    ///
+    /// # Errors
+    /// There is no such slot, the damper is built for another step than the target, or the target is lost and does not
+    /// recover.
+    ///
+    /// ```
+    /// use dashpot_core::Damper;
+    /// use dashpot_core::parameters::{DamperParameters, Mount};
+    /// use dashpot_host_link::{Bank, Client, Desk, RetryLimits, Session};
+    ///
+    /// let [stiff, soft] = [8e6, 2e6].map(|stiffness| {
+    ///     DamperParameters::reduced(120e3, 0.03, Mount::new(stiffness)).build::<f32>(1e-3)
+    /// });
+    /// let (stiff, soft) = (stiff?, soft?);
+    /// let client = Client::new(Desk::new([stiff; 3])?, RetryLimits::default(), 7);
+    /// let mut bank = Bank::start(Session::open(client)?, &[stiff])?;
+    /// let before_n = bank.step(&[1e-4])?[0];
+    /// bank.replace(0, soft)?;
+    /// let after_n = bank.step(&[1e-4])?[0];
+    /// assert!((after_n - before_n).abs() < 0.3 * before_n, "{before_n} {after_n}");
+    /// assert_eq!(bank.finish()?.mismatches, 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn replace(&mut self, slot: usize, damper: Damper<f32>) -> Result<(), SessionError> {
+        let slots = self.host.dampers.len();
+        let (Some(place), Ok(number)) = (self.host.dampers.get_mut(slot), u8::try_from(slot))
+        else {
+            return Err(SessionError::TooManyDampers {
+                dampers: slot.saturating_add(1),
+                slots,
+            });
+        };
+        if damper.step_s() != place.step_s() {
+            return Err(SessionError::Step {
+                damper_s: damper.step_s(),
+                target_s: place.step_s(),
+            });
+        }
+        *place = damper;
+        let image = damper.to_image();
+        let load = Request::Load {
+            damper: number,
+            image: &image,
+        };
+        self.order(&load)
+    }
+
+    /// Clears status bits and rejected inputs of all dampers, on the target and in the replica.
+    ///
+    /// # Errors
+    /// The target is lost and does not recover.
+    pub fn clear_status(&mut self) -> Result<(), SessionError> {
+        self.order(&Request::ClearStatus)?;
+        self.host.clear_status();
+        Ok(())
+    }
+
+    /// Counters of the target since power-on.
+    ///
+    /// # Errors
+    /// The target is lost and does not recover.
+    pub fn counters(&mut self) -> Result<Counters, SessionError> {
+        self.session.counters()
+    }
+
+    /// Sends a request that has no figures in its answer.
+    fn order(&mut self, request: &Request<'_>) -> Result<(), SessionError> {
+        let (session, host, measured) = (&mut self.session, &self.host, &mut self.measured);
+        session.retry(host, measured, |client| client.request(request).map(drop))
     }
 
     /// Like [`Self::step`], but in real time: returns the last forces if the answer does not come in time, and steps

@@ -54,6 +54,13 @@ impl HostReplica {
         self.states.iter().flat_map(|s| s.to_bytes()).collect()
     }
 
+    /// Clears status bits and rejected inputs.
+    pub(super) fn clear_status(&mut self) {
+        for state in &mut self.states {
+            state.clear_status();
+        }
+    }
+
     /// Forces of the last tick (N).
     pub(super) fn forces_n(&self) -> &[f32] {
         &self.forces_n

@@ -1,5 +1,6 @@
 //! Links chosen by name.
 
+use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -26,6 +27,16 @@ impl FromStr for LinkChoice {
             Some(("qemu", image)) if !image.is_empty() => Ok(Self::Qemu(image.into())),
             None if text == "qemu" => Ok(Self::Qemu(DEFAULT_IMAGE.into())),
             _ => Err("allowed: tcp:HOST:PORT, serial:DEVICE, qemu, qemu:IMAGE".into()),
+        }
+    }
+}
+
+impl fmt::Display for LinkChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Tcp(address) => write!(f, "tcp:{address}"),
+            Self::Serial(device) => write!(f, "serial:{}", device.display()),
+            Self::Qemu(image) => write!(f, "qemu:{}", image.display()),
         }
     }
 }

@@ -176,7 +176,7 @@ impl<L: Link> Session<L> {
     }
 
     /// Repeats a request until it succeeds. A lost target is first restored to the last state of the host.
-    fn retry<R>(
+    pub(super) fn retry<R>(
         &mut self,
         host: &HostReplica,
         measured: &mut Measured,
@@ -247,7 +247,7 @@ impl<L: Link> Session<L> {
         Ok(differing + missing)
     }
 
-    fn counters(&mut self) -> Result<Counters, SessionError> {
+    pub(super) fn counters(&mut self) -> Result<Counters, SessionError> {
         let mut tries = 0;
         loop {
             match self.client.request(&Request::Counters) {

@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use dashpot_core::{Damper, DamperParameters};
+use dashpot_core::{CheckedParameters, Damper, DamperParameters};
 use dashpot_files::case::Case;
-use dashpot_files::damper::{self, DamperError, KeyedParameters, PRESETS};
+use dashpot_files::damper::DamperError;
 use dashpot_rail::creep::KalkerBook;
 use dashpot_rail::track::{Defect, Track};
 use dashpot_rail::vehicle::{FRICTION_FACTOR, Law, Vehicle};
 use dashpot_vehicle_run::{Run, VehicleRunError};
 
+use crate::damper_desk::DamperDesk;
 use crate::defect::{AHEAD_M, DEFECTS, defect};
 use crate::error::within;
-use crate::fault::{FAULTS, FaultKind};
 use crate::outline::wheelbase;
-use crate::quantity::{WEAR, worn};
 use crate::unknown_name::UnknownName;
 use crate::{Action, ActionError};
 
@@ -61,25 +60,12 @@ pub struct Place {
     pub distance_m: f64,
 }
 
-/// A damper on the desk.
-#[derive(Debug, Clone)]
-struct DeskDamper {
-    name: String,
-    as_new: KeyedParameters,
-    /// As new, or the preset in its place; the sliders have their ranges around it.
-    usual: KeyedParameters,
-    now: KeyedParameters,
-    fault: Option<&'static str>,
-    wear: f64,
-    is_changed: bool,
-}
-
 /// Checks and prepares actions; knows the parameters of everything that they may change.
 #[derive(Debug, Clone)]
 pub struct Desk {
     case: Case,
     vehicle: Vehicle<KalkerBook>,
-    dampers: Vec<DeskDamper>,
+    dampers: Vec<DamperDesk>,
     defects: Vec<Defect>,
     actions: Vec<(u64, Action)>,
     speed_km_h: f64,
@@ -101,18 +87,7 @@ impl Desk {
                 Law::Damper { parameters, .. } => Some((&element.name, parameters)),
                 _ => None,
             });
-        let dampers = dampers.map(|(name, parameters)| {
-            let as_new = KeyedParameters::new(name, parameters)?;
-            Ok(DeskDamper {
-                name: name.clone(),
-                now: as_new.clone(),
-                usual: as_new.clone(),
-                as_new,
-                fault: None,
-                wear: 0.0,
-                is_changed: false,
-            })
-        });
+        let dampers = dampers.map(|(name, parameters)| DamperDesk::new(name, parameters));
         Ok(Self {
             dampers: dampers.collect::<Result<_, DamperError>>()?,
             vehicle: run.vehicle().clone(),
@@ -145,30 +120,9 @@ impl Desk {
         self.friction_factor
     }
 
-    /// Number of dampers.
-    pub fn dampers(&self) -> usize {
-        self.dampers.len()
-    }
-
-    /// Parameters of a damper as new.
-    pub(crate) fn as_new(&self, damper: usize) -> &KeyedParameters {
-        &self.dampers[damper].as_new
-    }
-
-    /// Parameters around which a damper's numbers are chosen.
-    pub(crate) fn usual(&self, damper: usize) -> &KeyedParameters {
-        &self.dampers[damper].usual
-    }
-
-    /// Present parameters of a damper.
-    pub(crate) fn now(&self, damper: usize) -> &KeyedParameters {
-        &self.dampers[damper].now
-    }
-
-    /// True if a damper differs from itself as new, its fault, and its wear.
-    pub(crate) fn condition(&self, damper: usize) -> (bool, Option<&'static str>, f64) {
-        let damper = &self.dampers[damper];
-        (damper.is_changed, damper.fault, damper.wear)
+    /// The dampers.
+    pub fn dampers(&self) -> &[DamperDesk] {
+        &self.dampers
     }
 
     /// Checks an action and prepares its change.
@@ -177,41 +131,15 @@ impl Desk {
     /// Unknown names, or values that are not allowed. On an error, nothing changes.
     pub fn act(&mut self, action: &Action, place: Place) -> Result<Change, ActionError> {
         let change = match action {
-            Action::Damper { damper, key, value } if key == WEAR => {
-                within(WEAR, *value, [0.0, 1.0])?;
-                let numbers = worn(&self.dampers[self.damper(damper)?].as_new, *value);
-                self.change_as_new(damper, &numbers, |desk| {
-                    (desk.fault, desk.wear) = (None, *value)
-                })?
-            }
-            Action::Damper { damper, key, value } => {
+            Action::Damper { damper, .. }
+            | Action::Preset { damper, .. }
+            | Action::AsNew { damper }
+            | Action::Fault { damper, .. } => {
                 let index = self.damper(damper)?;
-                let checked = self.dampers[index].now.with(&[(key, *value)])?;
-                self.put(index, &checked, |_| ())?
-            }
-            Action::Preset { damper, preset } => {
-                let index = self.damper(damper)?;
-                let names = || PRESETS.iter().map(|(name, _)| *name);
-                if !names().any(|name| name == preset) {
-                    return Err(UnknownName::new("preset", preset, names()).into());
-                }
-                let loaded = damper::load(preset, &[])?;
-                self.put(index, &loaded, |desk| {
-                    desk.usual = desk.now.clone();
-                    (desk.fault, desk.wear) = (None, 0.0);
-                })?
-            }
-            Action::AsNew { damper } => self.change_as_new(damper, &[], |desk| {
-                (desk.fault, desk.wear, desk.is_changed) = (None, 0.0, false);
-            })?,
-            Action::Fault { damper, fault } => {
-                let names = || FAULTS.iter().map(|fault| fault.id);
-                let found = FaultKind::find(fault);
-                let found = found.ok_or_else(|| UnknownName::new("fault", fault, names()))?;
-                let numbers = found.changes(&self.dampers[self.damper(damper)?].as_new);
-                self.change_as_new(damper, &numbers, |desk| {
-                    (desk.fault, desk.wear) = (Some(found.id), 0.0)
-                })?
+                let after = self.dampers[index].after(action)?;
+                let change = self.built(index, &*after.parameters()?)?;
+                self.dampers[index] = after;
+                change
             }
             Action::Speed { speed_km_h } => {
                 within("speed_km_h", *speed_km_h, SPEED_KM_H)?;
@@ -253,39 +181,9 @@ impl Desk {
     }
 
     fn damper(&self, name: &str) -> Result<usize, ActionError> {
-        let names = || self.dampers.iter().map(|damper| damper.name.as_str());
+        let names = || self.dampers.iter().map(DamperDesk::name);
         let found = names().position(|known| known == name);
         Ok(found.ok_or_else(|| UnknownName::new("damper", name, names()))?)
-    }
-
-    /// Changes numbers of a damper as new.
-    fn change_as_new(
-        &mut self,
-        name: &str,
-        numbers: &[(&str, f64)],
-        note: impl FnOnce(&mut DeskDamper),
-    ) -> Result<Change, ActionError> {
-        let index = self.damper(name)?;
-        let checked = self.dampers[index].as_new.with(numbers)?;
-        self.put(index, &checked, |damper| {
-            damper.usual = damper.as_new.clone();
-            note(damper);
-        })
-    }
-
-    /// Builds a damper and puts it on the desk.
-    fn put(
-        &mut self,
-        index: usize,
-        parameters: &DamperParameters,
-        note: impl FnOnce(&mut DeskDamper),
-    ) -> Result<Change, ActionError> {
-        let change = self.built(index, parameters)?;
-        let damper = &mut self.dampers[index];
-        damper.now = KeyedParameters::new(&damper.name, parameters)?;
-        damper.is_changed = true;
-        note(damper);
-        Ok(change)
     }
 
     /// Defects of the track, those of the case first.
@@ -332,23 +230,23 @@ impl Desk {
     /// Builds every damper that is not as new, with some of its parameters.
     fn changed_dampers(
         &self,
-        of: impl Fn(&DeskDamper) -> &KeyedParameters,
+        parameters: impl Fn(&DamperDesk) -> Result<CheckedParameters, DamperError>,
     ) -> Result<Vec<Change>, ActionError> {
         let dampers = self.dampers.iter().enumerate();
         dampers
-            .filter(|(_, damper)| damper.is_changed)
-            .map(|(index, damper)| self.built(index, &*of(damper).with(&[])?))
+            .filter(|(_, damper)| damper.is_changed())
+            .map(|(index, damper)| self.built(index, &*parameters(damper)?))
             .collect()
     }
 
     /// Returns the changes that make every damper of the desk as new.
     pub(crate) fn dampers_as_new(&self) -> Result<Vec<Change>, ActionError> {
-        self.changed_dampers(|damper| &damper.as_new)
+        self.changed_dampers(DamperDesk::parameters_as_new)
     }
 
     /// Returns the changes that bring a vehicle as new to the state of the desk, without speed, friction and gusts.
     pub(crate) fn changes(&self) -> Result<Vec<Change>, ActionError> {
-        let mut changes = self.changed_dampers(|damper| &damper.now)?;
+        let mut changes = self.changed_dampers(DamperDesk::parameters)?;
         changes.push(self.track_with(&self.defects)?);
         Ok(changes)
     }

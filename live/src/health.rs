@@ -44,12 +44,11 @@ impl HealthWatch {
     pub fn new(desk: &Desk) -> Result<Self, ActionError> {
         let step_s = desk.case().step_s;
         let settings = HealthSettings::new(NOISE.0, NOISE.1);
-        let mut dampers = Vec::with_capacity(desk.dampers());
-        for index in 0..desk.dampers() {
-            let as_new = desk.as_new(index);
-            if let Ok(model) = as_new.with(&[])?.health_model(&settings, step_s) {
+        let mut dampers = Vec::with_capacity(desk.dampers().len());
+        for damper in desk.dampers() {
+            if let Ok(model) = damper.parameters_as_new()?.health_model(&settings, step_s) {
                 dampers.push(Watched {
-                    name: as_new.name().to_owned(),
+                    name: damper.name().to_owned(),
                     health: Health::new(&model),
                     model,
                 });

@@ -1,4 +1,4 @@
-//! Numbers of a frame: the last value of each signal, and its least and greatest since the frame before.
+//! Follows a run: its signals in frames, results outside the validity of the model, health of its dampers.
 
 use dashpot_files::case::{Change, Event};
 use dashpot_vehicle_run::recorded::all_signals;
@@ -7,22 +7,8 @@ use dashpot_vehicle_run::{Indexer, Run, ValidityWatch, VehicleTick, filtered_nam
 
 use crate::ActionError;
 use crate::desk::{Desk, SPEED_KM_H};
+use crate::frame::{Frame, FrameHead, flags};
 use crate::health::{HealthLine, HealthWatch};
-
-/// Bytes before the numbers of a frame.
-const HEADER_BYTES: usize = 48;
-
-/// Flags of a frame.
-pub mod flags {
-    /// The run has ended.
-    pub const ENDED: u32 = 1;
-    /// The model does not cover what happened.
-    pub const OUTSIDE_VALIDITY: u32 = 2;
-    /// The operator has stopped the run.
-    pub const STOPPED: u32 = 4;
-    /// The run is slower than wanted.
-    pub const SLOW: u32 = 8;
-}
 
 /// Follows a run tick by tick, without allocating in a tick.
 #[derive(Debug, Clone)]
@@ -32,10 +18,7 @@ pub struct Observer {
     indexer: Indexer,
     validity: ValidityWatch,
     health: HealthWatch,
-    last: Vec<f32>,
-    least: Vec<f32>,
-    greatest: Vec<f32>,
-    ticks_in_frame: u32,
+    frame: Frame,
     time_s: f64,
     distance_m: f64,
     ticks: u64,
@@ -66,18 +49,21 @@ impl Observer {
             indexer: Indexer::new(&slowest),
             validity: ValidityWatch::new(case, run.track()),
             health: HealthWatch::new(desk)?,
-            last: vec![0.0; names.len()],
-            least: vec![f32::INFINITY; names.len()],
-            greatest: vec![f32::NEG_INFINITY; names.len()],
+            frame: Frame::new(names.len()),
             signals,
             names,
-            ticks_in_frame: 0,
             time_s: run.time_s(),
             distance_m: run.state().distance_m(),
             ticks: run.state().ticks(),
             step_s: case.step_s,
         };
-        observer.read(run.state());
+        let start = values(
+            &observer.signals,
+            &observer.indexer,
+            run.state(),
+            run.time_s(),
+        );
+        observer.frame.read(start);
         Ok(observer)
     }
 
@@ -93,26 +79,14 @@ impl Observer {
         self.indexer.add(tick);
         self.validity.add(tick);
         self.health.add(tick);
-        self.read(tick);
-        self.ticks_in_frame += 1;
-    }
-
-    fn read(&mut self, tick: &impl VehicleTick) {
         self.distance_m = tick.distance_m();
-        let time_s = self.time_s;
-        let signals = self.signals.iter().map(|signal| signal.value(tick, time_s));
-        let values = signals.chain(self.indexer.filtered());
-        for (number, value) in values.enumerate() {
-            let value = value as f32;
-            self.last[number] = value;
-            self.least[number] = self.least[number].min(value);
-            self.greatest[number] = self.greatest[number].max(value);
-        }
+        self.frame
+            .add(values(&self.signals, &self.indexer, tick, self.time_s));
     }
 
     /// Last value of each signal.
     pub fn values(&self) -> &[f32] {
-        &self.last
+        self.frame.last()
     }
 
     /// Health of the dampers.
@@ -128,28 +102,29 @@ impl Observer {
 
     /// Writes a frame, and begins the next. `run` is the number of the run on the page.
     pub fn frame(&mut self, run: u32, work_us: [f32; 2], flags: u32, to: &mut Vec<u8>) {
-        to.clear();
-        let numbers = self.names.len();
-        to.reserve(HEADER_BYTES + 12 * numbers);
-        to.extend(run.to_le_bytes());
-        to.extend((numbers as u32).to_le_bytes());
-        for value in [self.time_s, self.distance_m, self.ticks as f64] {
-            to.extend(value.to_le_bytes());
-        }
-        for value in work_us {
-            to.extend(value.to_le_bytes());
-        }
-        to.extend(self.ticks_in_frame.to_le_bytes());
-        let outside = self.validity.longest_lift_s() > 0.0 && !self.validity.warnings().is_empty();
-        let outside = if outside { flags::OUTSIDE_VALIDITY } else { 0 };
-        to.extend((flags | outside).to_le_bytes());
-        for values in [&self.last, &self.least, &self.greatest] {
-            for value in values {
-                to.extend(value.to_le_bytes());
-            }
-        }
-        self.ticks_in_frame = 0;
-        self.least.clone_from(&self.last);
-        self.greatest.clone_from(&self.last);
+        let outside = match self.validity.has_warnings() {
+            true => flags::OUTSIDE_VALIDITY,
+            false => 0,
+        };
+        let head = FrameHead {
+            run,
+            time_s: self.time_s,
+            distance_m: self.distance_m,
+            ticks: self.ticks,
+            work_us,
+            flags: flags | outside,
+        };
+        self.frame.write(&head, to);
     }
+}
+
+/// Values of all signals at a tick.
+fn values(
+    signals: &[Signal],
+    indexer: &Indexer,
+    tick: &impl VehicleTick,
+    time_s: f64,
+) -> impl Iterator<Item = f32> {
+    let values = signals.iter().map(move |signal| signal.value(tick, time_s));
+    values.chain(indexer.filtered()).map(|value| value as f32)
 }

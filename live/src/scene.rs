@@ -14,7 +14,7 @@ use crate::defect::{DEFECTS, DefectKind};
 use crate::desk::{Desk, SPEED_KM_H};
 use crate::fault::{FAULTS, FaultKind};
 use crate::outline::Outline;
-use crate::quantity::{self, Quantity};
+use crate::quantity::Quantity;
 use crate::signal::SignalWords;
 
 /// Half the width of a car body, m.
@@ -177,9 +177,10 @@ fn bodies(case: &Case) -> Vec<SceneBody> {
 }
 
 fn dampers(desk: &Desk, run: &Run) -> Vec<SceneDamper> {
-    let elements = desk.case().vehicle.dampers().enumerate();
+    let elements = desk.case().vehicle.dampers().zip(desk.dampers());
     elements
-        .map(|(index, element)| SceneDamper {
+        .enumerate()
+        .map(|(index, (element, damper))| SceneDamper {
             name: element.name.clone(),
             slug: slug(&element.name),
             direction: match element.law {
@@ -198,7 +199,7 @@ fn dampers(desk: &Desk, run: &Run) -> Vec<SceneDamper> {
                 .each_ref()
                 .map(|end| end.on.as_deref().map(slug)),
             ends_m: element.ends.each_ref().map(|end| end.at_m),
-            quantities: quantity::of_damper(desk.as_new(index)),
+            quantities: damper.quantities(),
             presets: PRESETS.iter().map(|(name, _)| *name).collect(),
             outside: run.state().outside_force_n(index).is_some(),
         })

@@ -10,8 +10,8 @@ use dashpot_vehicle_run::contact::WheelOnRail;
 use serde_json::{Value, json};
 
 use crate::error::within;
+use crate::frame::flags;
 use crate::message::{FACTOR, MAX_STEPS};
-use crate::observer::flags;
 use crate::recording::Recording;
 use crate::saved::Saved;
 use crate::{

@@ -1,11 +1,9 @@
 //! What a page shows besides the numbers of a frame.
 
-use std::collections::BTreeMap;
-
 use serde::Serialize;
 
+use crate::damper_desk::{DamperDesk, DamperStatus};
 use crate::desk::Desk;
-use crate::quantity::{self, Quantity, WEAR};
 use crate::{Action, Choice};
 
 /// State of the desk and of the run in words and numbers.
@@ -44,32 +42,9 @@ pub struct Setting {
     actions: Vec<(u64, Action)>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct DamperStatus {
-    values: BTreeMap<&'static str, f64>,
-    quantities: Vec<Quantity>,
-    changed: bool,
-    fault: Option<&'static str>,
-}
-
 impl Status {
     /// The status of a desk, for an operator who is alone.
     pub fn new(desk: &Desk, choice: Option<&Choice>) -> Self {
-        let damper = |index: usize| {
-            let (changed, fault, wear) = desk.condition(index);
-            let now = desk.now(index);
-            let quantities = quantity::of_damper(desk.usual(index));
-            let numbers = quantities.iter().map(|quantity| match quantity.key {
-                WEAR => (WEAR, wear),
-                key => (key, now.number(key).unwrap_or(quantity.value)),
-            });
-            DamperStatus {
-                values: numbers.collect(),
-                quantities,
-                changed,
-                fault,
-            }
-        };
         Self {
             kind: "status",
             factor: 1.0,
@@ -77,7 +52,7 @@ impl Status {
             friction_factor: desk.friction_factor(),
             ended: None,
             warnings: Vec::new(),
-            dampers: (0..desk.dampers()).map(damper).collect(),
+            dampers: desk.dampers().iter().map(DamperDesk::status).collect(),
             setting: choice.map(|choice| Setting {
                 version: env!("CARGO_PKG_VERSION"),
                 choice: choice.clone(),

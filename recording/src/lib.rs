@@ -23,6 +23,7 @@ mod remedy;
 mod rows;
 mod samples;
 mod select;
+mod signals;
 mod stream;
 pub mod stretches;
 #[cfg(feature = "parquet")]
@@ -48,6 +49,7 @@ use open::{Origin, open_rows};
 pub use overview::{ChannelOverview, Overview, TimeOverview, overview};
 pub use remedy::Remedy;
 use rows::Rows;
+pub use signals::Signals;
 pub use text_options::{DecimalMark, Separator, TextOptions};
 pub use unit::{Quantity, Unit};
 

@@ -80,6 +80,14 @@ impl Hub {
         }
     }
 
+    /// Sends a text to all viewers; frames that they have not been sent yet are out of date.
+    pub fn begin_anew(&self, text: &str) {
+        let bytes: Arc<[u8]> = wire::text(text).into();
+        for (_, outbox) in self.outboxes() {
+            outbox.begin_anew(Arc::clone(&bytes));
+        }
+    }
+
     /// Sends frames to all viewers at once.
     pub fn frames<'a>(&self, frames: impl ExactSizeIterator<Item = &'a [u8]>) {
         let outboxes = self.outboxes();

@@ -73,6 +73,12 @@ impl Outbox {
         });
     }
 
+    /// Puts a text in, with which the frames that wait are out of date.
+    pub fn begin_anew(&self, bytes: Arc<[u8]>) {
+        self.change(|waiting| waiting.bursts.clear());
+        self.text(bytes);
+    }
+
     /// Puts frames in; the oldest are lost if too many wait.
     pub fn burst(&self, burst: Burst) {
         self.change(|waiting| {
@@ -164,6 +170,23 @@ mod tests {
         };
         assert_eq!(parts.len(), 1 + MAX_BURSTS);
         assert_eq!(&*parts[0], [1]);
+    }
+
+    #[test]
+    fn frames_before_a_new_beginning_are_not_sent_after_it() {
+        let outbox = Outbox::default();
+        outbox.begin([[1].into()].into_iter());
+        outbox.burst(burst(2));
+        outbox.begin_anew([2].into());
+        outbox.burst(burst(1));
+        let Next::Send(parts) = outbox.next(NOW) else {
+            panic!("nothing to send");
+        };
+        assert_eq!(
+            parts,
+            [[1].into(), [2].into(), [0].into()] as [std::sync::Arc<[u8]>; 3]
+        );
+        assert_eq!(outbox.lost_frames(), 0);
     }
 
     #[test]

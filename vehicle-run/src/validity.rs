@@ -130,6 +130,14 @@ impl ValidityWatch {
             .collect()
     }
 
+    /// True if there is a warning; costs nothing in every tick.
+    pub fn has_warnings(&self) -> bool {
+        let is_outside = |wheel: &Wheel| {
+            wheel.long_lifts > 0 || (wheel.beyond_ticks > 0 && wheel.load_static_n.is_some())
+        };
+        self.start.is_some() || self.wheels.iter().any(is_outside)
+    }
+
     /// Time at the end of a tick, s.
     fn time_s(&self, tick: u64) -> f64 {
         nearest_nanosecond(tick as f64 * self.step_s)

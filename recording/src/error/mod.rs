@@ -312,4 +312,35 @@ pub enum RecordingError {
         /// Time of the row (s).
         time_s: f64,
     },
+    /// None of the wanted signals is in the recording.
+    #[error(
+        "the recording has none of the signals wanted, such as {example}; it has {}",
+        listed(found)
+    )]
+    NoSignal {
+        /// Name of a wanted signal.
+        example: String,
+        /// Names of the channels in the file.
+        found: Vec<String>,
+    },
+    /// A signal has another unit than its name says.
+    #[error("signal {channel} has the unit `{unit}`, allowed: {allowed}")]
+    SignalUnit {
+        /// Name of the channel.
+        channel: String,
+        /// Stated unit.
+        unit: String,
+        /// Unit that it must have.
+        allowed: String,
+    },
+    /// The recording does not fit into memory.
+    #[error(
+        "the recording is too long: {rows} rows of {signals} signals fit into memory; use a part of it"
+    )]
+    TooManyRows {
+        /// Rows that fit.
+        rows: usize,
+        /// Signals that were found.
+        signals: usize,
+    },
 }

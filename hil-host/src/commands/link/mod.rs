@@ -7,8 +7,8 @@ mod inspect;
 mod load;
 mod places;
 mod saved;
-mod target;
-mod telemetry;
+pub(in crate::commands) mod target;
+pub(in crate::commands) mod telemetry;
 mod watch;
 
 use std::io::{self, Write};

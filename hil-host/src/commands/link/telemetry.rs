@@ -71,14 +71,14 @@ impl PlaceSample {
 }
 
 /// Samples fetched from one slot.
-pub(super) struct Taken {
+pub(in crate::commands) struct Taken {
     /// Number of samples of this damper overwritten by newer ones since power-on.
-    pub(super) overwritten: u32,
-    pub(super) samples: Vec<Sample>,
+    pub(in crate::commands) overwritten: u32,
+    pub(in crate::commands) samples: Vec<Sample>,
 }
 
 /// Fetches the oldest buffered samples of the damper in one slot.
-pub(super) fn take(target: &mut Target, place: u8) -> Outcome<Taken> {
+pub(in crate::commands) fn take(target: &mut Target, place: u8) -> Outcome<Taken> {
     target.ask(
         &Request::Telemetry { damper: place },
         |response| match response {

@@ -3,13 +3,12 @@
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-use dashpot_live::{Message, Request};
 use dashpot_server::{Hub, ViewerId};
 use serde_json::{Value, json};
 
-use super::desk_side::DeskSide;
 use super::inbox::Event;
 use super::roles::Roles;
+use super::source::{Source, Told};
 
 /// Time between two statuses without news.
 const STATUS: Duration = Duration::from_secs(1);
@@ -17,28 +16,25 @@ const STATUS: Duration = Duration::from_secs(1);
 /// Shortest time between two statuses to all viewers, so that one who writes much does not flood the others.
 const NEWS: Duration = Duration::from_millis(50);
 
-/// How long to wait for an event before looking after the real-time thread.
-const POLL: Duration = Duration::from_millis(20);
-
-/// Answer to a message that only the engine of a page knows.
-const ALLOWED: &str = "not possible with dashpot live; allowed: act, run, step, reset, record, stop, status, \
-                       take-over";
+/// How long to wait for an event before looking after the source: a browser draws 60 times a second.
+const POLL: Duration = Duration::from_micros(16_667);
 
 /// The conversation with all viewers.
-pub(super) struct Conversation {
+pub(super) struct Conversation<S> {
     hub: Hub,
-    desk: DeskSide,
+    /// What the viewers see.
+    pub source: S,
     roles: Roles,
     told: Instant,
     /// True if all viewers should get a status soon.
     is_news: bool,
 }
 
-impl Conversation {
-    pub fn new(hub: Hub, desk: DeskSide) -> Self {
+impl<S: Source> Conversation<S> {
+    pub fn new(hub: Hub, source: S) -> Self {
         Self {
             hub,
-            desk,
+            source,
             roles: Roles::default(),
             told: Instant::now(),
             is_news: false,
@@ -54,7 +50,7 @@ impl Conversation {
                 // The server has failed; the run goes on without viewers.
                 Err(RecvTimeoutError::Disconnected) => std::thread::sleep(POLL),
             }
-            self.is_news |= self.desk.take_notes();
+            self.is_news |= self.source.look_after();
             let since = self.told.elapsed();
             if since >= STATUS {
                 self.tell_health();
@@ -63,23 +59,18 @@ impl Conversation {
                 self.tell_status();
             }
         }
-        self.desk.take_notes();
+        self.source.look_after();
     }
 
     /// Tells all viewers how the run ended.
     pub fn end(&mut self, ending: String) {
-        self.desk.end(ending);
+        self.source.end(ending);
         self.tell_status();
-    }
-
-    /// Actions of all runs.
-    pub fn actions(&self) -> u64 {
-        self.desk.actions()
     }
 
     fn tell_status(&mut self) {
         (self.told, self.is_news) = (Instant::now(), false);
-        let status = self.desk.status();
+        let status = self.source.status();
         let viewers = self.hub.viewers();
         let count = viewers.len();
         for (viewer, lost_frames) in viewers {
@@ -89,9 +80,14 @@ impl Conversation {
     }
 
     fn tell_health(&self) {
-        let health = self.desk.health().to_string();
         for (viewer, _) in self.hub.viewers() {
-            self.hub.send(viewer, &health);
+            self.tell_health_to(viewer);
+        }
+    }
+
+    fn tell_health_to(&self, viewer: ViewerId) {
+        if let Some(health) = self.source.health() {
+            self.hub.send(viewer, &health.to_string());
         }
     }
 
@@ -106,11 +102,11 @@ impl Conversation {
         let viewers = self.hub.viewers();
         let lost = viewers.iter().find(|(other, _)| *other == viewer);
         let lost_frames = lost.map_or(0, |(_, lost_frames)| *lost_frames);
-        self.status_of(viewer, self.desk.status(), (viewers.len(), lost_frames))
+        self.status_of(viewer, self.source.status(), (viewers.len(), lost_frames))
     }
 
     fn scene_of(&self, viewer: ViewerId) -> String {
-        let mut scene = self.desk.scene().clone();
+        let mut scene = self.source.scene().clone();
         scene["role"] = json!(self.roles.of(viewer));
         scene.to_string()
     }
@@ -121,6 +117,7 @@ impl Conversation {
                 self.roles.join(viewer, wanted);
                 let first = [self.scene_of(viewer), self.own_status(viewer)];
                 self.hub.begin(viewer, &first);
+                self.source.joined();
                 self.is_news = true;
             }
             Event::Left(viewer) => {
@@ -148,39 +145,25 @@ impl Conversation {
     }
 
     fn message(&mut self, viewer: ViewerId, message: Value) -> Result<(), String> {
-        // The page's own engine does not know this one.
-        if message.get("do").and_then(Value::as_str) == Some("take-over") {
-            return Ok(self.roles.take_over(viewer)?);
-        }
-        let message: Message =
-            serde_json::from_value(message).map_err(|error| format!("message: {error}"))?;
-        match message.request {
-            Request::Status => {
-                self.hub.send(viewer, &self.desk.health().to_string());
+        match message.get("do").and_then(Value::as_str) {
+            Some("take-over") => return Ok(self.roles.take_over(viewer)?),
+            Some("status") => {
+                self.tell_health_to(viewer);
                 return Ok(());
             }
             // The inbox has already passed it on.
-            Request::Stop => return Ok(()),
+            Some("stop") => return Ok(()),
             _ => {}
         }
         if !self.roles.is_operator(viewer) {
             return Err("you watch: only the operator acts; allowed: stop, take-over".into());
         }
-        match message.request {
-            Request::Act { action } => self.desk.act(&action),
-            Request::Run { factor } => self.desk.set_factor(factor),
-            Request::Step { ticks } => self.desk.step(ticks),
-            Request::Record { on } => self.desk.record(on),
-            Request::Reset => {
-                self.desk.reset()?;
-                for (viewer, _) in self.hub.viewers() {
-                    self.hub.send(viewer, &self.scene_of(viewer));
-                }
-                Ok(())
+        if self.source.operate(message)? == Told::Scene {
+            for (viewer, _) in self.hub.viewers() {
+                self.hub.send(viewer, &self.scene_of(viewer));
             }
-            Request::Start { .. } => Err("the case is chosen when dashpot live starts".into()),
-            _ => Err(ALLOWED.into()),
         }
+        Ok(())
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::mpsc::SyncSender;
 use dashpot_server::{Handler, ViewerId, WantedRole};
 use serde_json::Value;
 
-use super::control::Control;
+use super::stop::Stop;
 
 /// Messages that wait for the operator's side.
 pub(super) const EVENTS: usize = 256;
@@ -27,7 +27,7 @@ pub(super) enum Event {
 /// Takes events from the connections.
 pub(super) struct Inbox {
     pub events: SyncSender<Event>,
-    pub control: Arc<Control>,
+    pub stop: Arc<Stop>,
 }
 
 impl Inbox {
@@ -39,7 +39,7 @@ impl Inbox {
     fn put_message(&self, viewer: ViewerId, message: Value) {
         // An emergency stop does not wait for what others want.
         if message.get("do").and_then(Value::as_str) == Some("stop") {
-            self.control.stop();
+            self.stop.press();
         }
         self.put(Event::Message(viewer, message));
     }
@@ -82,14 +82,14 @@ mod tests {
         let (events, read) = sync_channel(8);
         let inbox = Inbox {
             events,
-            control: Arc::default(),
+            stop: Arc::default(),
         };
         let viewer = ViewerId(1);
         inbox.message(viewer, r#"{"do": "run", "factor": 1}"#);
-        assert!(!inbox.control.takes_stop());
+        assert!(!inbox.stop.takes());
         inbox.message(viewer, r#"[{"do": "status"}, {"id": 2, "do": "stop"}]"#);
-        assert!(inbox.control.takes_stop());
-        assert!(!inbox.control.takes_stop());
+        assert!(inbox.stop.takes());
+        assert!(!inbox.stop.takes());
         inbox.message(viewer, "{");
         let events: Vec<Event> = read.try_iter().collect();
         assert_eq!(events.len(), 4);

@@ -3,6 +3,7 @@
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
+use super::target::TargetArguments;
 use crate::commands::arguments::{Format, RealtimeArguments, TickLimitArguments};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::vehicle::CaseArguments;
@@ -13,7 +14,7 @@ use dashpot_live::endless;
 /// Shortest length of generated irregularities, m: more than six minutes at 90 km/h.
 const IRREGULAR_M: f64 = 10_000.0;
 
-/// Run a vehicle in real time, watched and changed from a page in a browser.
+/// Watch and change a running vehicle from a page in a browser; or a target, or a recording.
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
@@ -21,6 +22,8 @@ const IRREGULAR_M: f64 = 10_000.0;
   dashpot live --case straight-180
   dashpot live --case curve-r600 --record run.mf4
   dashpot live --case curve-r300 --page curve.html
+  dashpot live --case curve-r600 --recording run.mf4
+  dashpot live --link serial:/dev/ttyACM0 --slot-damper in-service
   dashpot live --case straight-180 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --fifo 80
   dashpot live --case straight-180 --outside \"front yaw damper 1=udp:rig:7001\" --actuator servo
   dashpot live --case straight-180 --listen 0.0.0.0:8089 --token at-least-12-characters
@@ -28,6 +31,9 @@ const IRREGULAR_M: f64 = 10_000.0;
 Prints the address of the page. The first who opens it operates, others watch; see docs/live.md. On an address that
 other machines reach, viewers need a token: that of --token, or a random one that the printed address contains. The
 options of a process can be read by other users of the machine, so prefer the random one there.
+
+With --link, a target without a vehicle: its dampers move in a sine that the page sets, and the same dampers run beside
+it on this machine. A target that runs free is only watched.
 
 The run ends with --duration-s, by SIGINT or SIGTERM, or when an external damper ends it. The guards of rigs then come
 to rest first. Without an external damper a derailed vehicle waits for a reset. The report is printed at the end. The
@@ -39,6 +45,12 @@ pub struct LiveArguments {
     pub(super) case: CaseArguments,
     #[command(flatten)]
     pub(super) outside: OutsideArguments,
+    #[command(flatten)]
+    pub(super) target: TargetArguments,
+    /// Show a recording of the vehicle of the case as it ran: MDF4 (of --record), Parquet or text, with signals named as
+    /// in history.csv.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["choices", "record", "page", "link"])]
+    pub(super) recording: Option<PathBuf>,
     /// Address and port of the page; port 0 takes a free one.
     #[arg(long, default_value = "127.0.0.1:8089", value_name = "ADDRESS:PORT")]
     pub(super) listen: SocketAddr,
@@ -51,7 +63,7 @@ pub struct LiveArguments {
     pub(super) record: Option<PathBuf>,
     /// Write a page in which the vehicle runs by itself, in the browser, into this file, and end. The case is a shipped
     /// one with --vehicle, --track, --speed-km-h, --friction and --set.
-    #[arg(long, value_name = "FILE.html", conflicts_with_all = ["choices", "record", "token"])]
+    #[arg(long, value_name = "FILE.html", conflicts_with_all = ["choices", "record", "token", "link"])]
     pub(super) page: Option<PathBuf>,
     #[command(flatten)]
     pub(super) limits: TickLimitArguments,

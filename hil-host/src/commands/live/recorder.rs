@@ -1,14 +1,13 @@
 //! Writes the recording, on a thread of its own: a slow disk holds nothing else up.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 use std::sync::mpsc::Receiver;
 
 use dashpot_live::SignalWords;
 #[cfg(feature = "mdf")]
 pub(super) use dashpot_recording::writer::GrowingMdf;
 
-use super::observed::Observed;
+use super::recorded::RecordingState;
 use crate::commands::failure::Outcome;
 
 /// Rows of one run.
@@ -42,16 +41,15 @@ impl Recorder {
     }
 
     /// Writes blocks until their sender is gone, or the file cannot be written.
-    pub fn run(mut self, blocks: &Receiver<Block>, observed: &Observed) {
+    pub fn run(mut self, blocks: &Receiver<Block>, state: &RecordingState) {
         for block in blocks {
-            let count = match self.write(&block) {
-                Ok(()) => &observed.recorded_ticks,
+            match self.write(&block) {
+                Ok(()) => state.add(block.rows),
                 Err(error) => {
-                    observed.fail_recording(error.to_string());
-                    &observed.unrecorded_ticks
+                    state.fail(error.to_string());
+                    state.leave_out(block.rows);
                 }
-            };
-            count.fetch_add(block.rows, Ordering::Relaxed);
+            }
         }
     }
 

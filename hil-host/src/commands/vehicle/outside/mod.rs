@@ -69,6 +69,11 @@ pub(in crate::commands) struct Outside {
 }
 
 impl OutsideArguments {
+    /// Returns the options of links.
+    pub(in crate::commands) fn line_options(&self) -> &LineOptions {
+        &self.options
+    }
+
     /// Looks up the dampers and reads the files.
     ///
     /// # Errors

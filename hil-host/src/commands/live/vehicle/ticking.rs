@@ -99,7 +99,7 @@ impl<'a> Ticking<'a> {
                 break run.slow_tick(stop.tick, stop.work_ns, stop.limit_ns);
             }
             self.take_orders()?;
-            if self.control.takes_stop() && self.stop() {
+            if self.control.stop.takes() && self.stop() {
                 break self.simulation.run().interrupted();
             }
             if (is_unwanted() || self.control.is_ending()) && !self.come_to_rest() {

@@ -1,12 +1,11 @@
 //! The operator's side of the run: it checks actions, builds what they change, and orders it from the real-time thread.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::sync::mpsc::{Receiver, SyncSender};
 
 use dashpot_live::{
-    Action, Built, Change, Desk, FACTOR, MAX_STEPS, Observer, Place, Scene, Simulation, Status,
-    within,
+    Action, Built, Change, Desk, FACTOR, MAX_STEPS, Message, Observer, Place, Request, Scene,
+    Simulation, Status, within,
 };
 use dashpot_rail::track::Track;
 use dashpot_vehicle_run::Run;
@@ -16,9 +15,14 @@ use super::control::Control;
 use super::observed::Observed;
 use super::order::{Note, Order};
 use crate::commands::failure::Outcome;
+use crate::commands::live::source::{Source, Told, read};
 
 /// How long an action waits before it acts, s: so that it acts at the tick that the setting names.
 const AHEAD_S: f64 = 0.05;
+
+/// Answer to a message that only the engine of a page knows.
+const ALLOWED: &str = "not possible with dashpot live; allowed: act, run, step, reset, record, stop, status, \
+                       take-over";
 
 /// The dampers outside, as far as the operator's side needs to know.
 #[derive(Debug, Clone, Default)]
@@ -80,55 +84,9 @@ impl DeskSide {
         })
     }
 
-    /// The scene of a page, without the role.
-    pub fn scene(&self) -> &Value {
-        &self.scene
-    }
-
-    /// State of the run, without what differs between viewers.
-    pub fn status(&self) -> Value {
-        let mut status = Status::new(&self.desk, None);
-        status.factor = self.control.factor();
-        status.ended.clone_from(&self.ended);
-        status.warnings = self.observed.warnings();
-        status.is_recording = self.observed.is_recording.load(Ordering::Relaxed);
-        status.recorded_ticks = self.observed.recorded_ticks.load(Ordering::Relaxed);
-        let mut status = json!(status);
-        status["late_ticks"] = json!(self.control.late_ticks());
-        status
-    }
-
-    /// Health of the dampers, as a message.
-    pub fn health(&self) -> Value {
-        json!({"type": "health", "readings": self.observed.health()})
-    }
-
     /// Actions of all runs.
     pub fn actions(&self) -> u64 {
         self.actions
-    }
-
-    /// Says how the run ended.
-    pub fn end(&mut self, ending: String) {
-        self.ended = Some(ending);
-    }
-
-    /// Takes what the real-time thread says, and frees what it has no use for any more. Returns true if viewers should
-    /// know.
-    pub fn take_notes(&mut self) -> bool {
-        let mut is_news = false;
-        while let Ok(note) = self.notes.try_recv() {
-            match note {
-                Note::Spent(order) => drop(order),
-                Note::Stopped => is_news = true,
-                Note::Ended(ending) => {
-                    self.ended = Some(ending.to_string());
-                    is_news = true;
-                }
-            }
-        }
-        self.tracks.retain(|track| Arc::strong_count(track) > 1);
-        is_news
     }
 
     fn order(&self, order: Order) -> Result<(), String> {
@@ -240,24 +198,66 @@ impl DeskSide {
             None => Ok(()),
         }
     }
+}
 
-    /// Begins or ends the recording.
-    ///
-    /// # Errors
-    /// There is no file to record to, or it cannot be written.
-    pub fn record(&mut self, on: bool) -> Result<(), String> {
-        if !self.can_record {
-            return Err(
-                "there is no file to record to: start dashpot live with --record FILE.mf4".into(),
-            );
-        }
-        match self.observed.recording_error() {
-            Some(error) if on => Err(error),
-            _ => {
-                self.observed.is_recording.store(on, Ordering::Relaxed);
-                Ok(())
+impl Source for DeskSide {
+    fn scene(&self) -> &Value {
+        &self.scene
+    }
+
+    fn status(&self) -> Value {
+        let mut status = Status::new(&self.desk, None);
+        status.factor = self.control.factor();
+        status.ended.clone_from(&self.ended);
+        status.warnings = self.observed.warnings();
+        status.is_recording = self.observed.recording.is_on();
+        status.recorded_ticks = self.observed.recording.ticks();
+        let mut status = json!(status);
+        status["late_ticks"] = json!(self.control.late_ticks());
+        status
+    }
+
+    fn health(&self) -> Option<Value> {
+        Some(json!({"type": "health", "readings": self.observed.health()}))
+    }
+
+    /// Takes what the real-time thread says, and frees what it has no use for any more.
+    fn look_after(&mut self) -> bool {
+        let mut is_news = false;
+        while let Ok(note) = self.notes.try_recv() {
+            match note {
+                Note::Spent(order) => drop(order),
+                Note::Stopped => is_news = true,
+                Note::Ended(ending) => {
+                    self.ended = Some(ending.to_string());
+                    is_news = true;
+                }
             }
         }
+        self.tracks.retain(|track| Arc::strong_count(track) > 1);
+        is_news
+    }
+
+    fn operate(&mut self, message: Value) -> Result<Told, String> {
+        match read::<Message>(message)?.request {
+            Request::Act { action } => self.act(&action)?,
+            Request::Run { factor } => self.set_factor(factor)?,
+            Request::Step { ticks } => self.step(ticks)?,
+            Request::Record { on } => self.observed.recording.operate(on, self.can_record)?,
+            Request::Reset => {
+                self.reset()?;
+                return Ok(Told::Scene);
+            }
+            Request::Start { .. } => {
+                return Err("the case is chosen when dashpot live starts".into());
+            }
+            _ => return Err(ALLOWED.into()),
+        }
+        Ok(Told::Status)
+    }
+
+    fn end(&mut self, ending: String) {
+        self.ended = Some(ending);
     }
 }
 

@@ -1,6 +1,5 @@
 //! Makes frames and rows from every tick, on a thread of its own.
 
-use std::sync::atomic::Ordering;
 use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
@@ -10,8 +9,8 @@ use dashpot_server::Hub;
 
 use super::control::Control;
 use super::observed::Observed;
-use super::recorder::{Block, GrowingMdf};
 use super::tick::Tick;
+use crate::commands::live::recorder::{Block, GrowingMdf};
 
 /// Simulated time of a frame, s, so that loops are smooth. Faster than real time it grows with the speed.
 const FRAME_S: f64 = 0.005;
@@ -116,7 +115,7 @@ impl Watching<'_> {
         if frame.ticks as f64 * self.step_s >= wanted_s * (1.0 - 1e-9) {
             self.end_frame(pending);
         }
-        if self.blocks.is_some() && self.observed.is_recording.load(Ordering::Relaxed) {
+        if self.blocks.is_some() && self.observed.recording.is_on() {
             let time_s = crate::commands::nearest_nanosecond(tick.record.time_s);
             // The first signal is the time, in single precision.
             let values = self.observer.values().get(1..).unwrap_or_default();
@@ -178,8 +177,7 @@ impl Watching<'_> {
             bytes,
         };
         if blocks.try_send(block).is_err() {
-            let unrecorded = &self.observed.unrecorded_ticks;
-            unrecorded.fetch_add(rows, Ordering::Relaxed);
+            self.observed.recording.leave_out(rows);
         }
     }
 }

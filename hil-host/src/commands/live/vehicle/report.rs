@@ -1,14 +1,14 @@
 //! Report of a run.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 use serde::Serialize;
 
 use crate::commands::counted;
+use crate::commands::live::recorded::Recorded;
+use crate::commands::live::viewers::Viewers;
 use crate::commands::paced::Paced;
 use crate::commands::vehicle::outside::{self, OutsideReport};
-use dashpot_server::ViewerCount;
 use dashpot_vehicle_run::Ending;
 
 /// Report of a run.
@@ -35,33 +35,6 @@ pub(super) struct Report {
     pub outside: Option<OutsideReport>,
 }
 
-/// Viewers of a run.
-#[derive(Serialize)]
-pub(super) struct Viewers {
-    came: u64,
-    most_at_once: u64,
-    lost_frames: u64,
-}
-
-impl From<ViewerCount> for Viewers {
-    fn from(count: ViewerCount) -> Self {
-        Self {
-            came: count.came,
-            most_at_once: count.most,
-            lost_frames: count.lost_frames,
-        }
-    }
-}
-
-/// The recording of a run.
-#[derive(Serialize)]
-pub(super) struct Recorded {
-    pub file: PathBuf,
-    pub ticks: u64,
-    pub unrecorded_ticks: u64,
-    pub error: Option<String>,
-}
-
 /// Prints the report as text.
 pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     let Report {
@@ -82,16 +55,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     if report.is_stopped {
         writeln!(out, "the emergency stop was pressed")?;
     }
-    let Viewers {
-        came,
-        most_at_once,
-        lost_frames,
-    } = report.viewers;
-    writeln!(
-        out,
-        "viewers: {came} came, at most {most_at_once} at once; {} lost by slow viewers",
-        counted(lost_frames, "frame")
-    )?;
+    report.viewers.print(out)?;
     if report.unobserved_ticks > 0 {
         let unobserved = counted(report.unobserved_ticks, "tick");
         writeln!(
@@ -99,29 +63,8 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             "warning: {unobserved} in no frame and no recording: the machine was too slow"
         )?;
     }
-    if let Some(Recorded {
-        file,
-        ticks,
-        unrecorded_ticks,
-        error,
-    }) = &report.recording
-    {
-        writeln!(
-            out,
-            "recording: {} in {}",
-            counted(*ticks, "tick"),
-            file.display()
-        )?;
-        if *unrecorded_ticks > 0 {
-            writeln!(
-                out,
-                "warning: {} not recorded",
-                counted(*unrecorded_ticks, "tick")
-            )?;
-        }
-        if let Some(error) = error {
-            writeln!(out, "warning: {error}")?;
-        }
+    if let Some(recording) = &report.recording {
+        recording.print(out)?;
     }
     for warning in &report.warnings {
         writeln!(out, "warning: {warning}")?;

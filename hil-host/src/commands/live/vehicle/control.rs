@@ -1,8 +1,11 @@
 //! Numbers that the real-time thread shares with all others. Nobody waits for them.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use dashpot_live::Place;
+
+use crate::commands::live::stop::Stop;
 
 /// Numbers and wishes.
 #[derive(Debug, Default)]
@@ -11,8 +14,8 @@ pub(super) struct Control {
     distance_bits: AtomicU64,
     factor_bits: AtomicU64,
     late_ticks: AtomicU64,
-    /// Somebody wants an emergency stop.
-    stop: AtomicBool,
+    /// The emergency stop.
+    pub stop: Arc<Stop>,
     /// The operator's side has failed.
     end: AtomicBool,
 }
@@ -51,17 +54,6 @@ impl Control {
     /// Ticks that missed their deadline.
     pub fn late_ticks(&self) -> u64 {
         self.late_ticks.load(Ordering::Relaxed)
-    }
-
-    /// Emergency stop: acts at the next tick.
-    pub fn stop(&self) {
-        self.stop.store(true, Ordering::Relaxed);
-    }
-
-    /// True once after each [`Self::stop`].
-    pub fn takes_stop(&self) -> bool {
-        // Reading first keeps the memory shared in all other ticks.
-        self.stop.load(Ordering::Relaxed) && self.stop.swap(false, Ordering::Relaxed)
     }
 
     /// Ends the run.
