@@ -218,7 +218,7 @@ fn a_viewer_who_never_reads_loses_frames_and_nobody_else_notices() {
         viewers
     });
     let mut viewers = watching.join().unwrap();
-    live.signal("-INT");
+    live.signal("-TERM");
     for viewer in &mut viewers {
         let texts = viewer.rest();
         assert!(texts.last().unwrap()["ended"].is_string());

@@ -33,6 +33,7 @@ mod labview_page;
 mod lifted_wheel_without_a_word;
 #[cfg(unix)]
 mod live;
+mod live_replay;
 mod modes;
 mod modes_coach;
 mod modes_freight_wagon;

@@ -8,6 +8,7 @@ mod link_health;
 mod link_load;
 mod link_samples;
 mod link_states;
+mod live_target;
 mod missed_deadlines_exited_0;
 mod pil_bank;
 mod pil_by_tick;

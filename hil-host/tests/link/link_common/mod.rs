@@ -11,20 +11,21 @@ use dashpot_host_link::{Desk, Link, LinkError};
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::common::live::Live;
 use crate::common::{command, error_of, json_of, text_of};
 use crate::pil_common::{desk, serve_tcp};
 
 /// Number of free-running ticks before each request; every action sends a hello and its own request.
 pub const TICKS: u32 = 20;
 
-/// Simulated target whose time advances with requests: when it runs free, by [`TICKS`] before each.
-struct Ticking(Desk<3>);
+/// Simulated target whose time advances with requests: when it runs free, by this number of ticks before each.
+struct Ticking(Desk<3>, u32);
 
 impl Link for Ticking {
     fn send(&mut self, bytes: &[u8]) -> Result<(), LinkError> {
         // A zero byte ends a frame.
         for _ in bytes.iter().filter(|byte| **byte == 0) {
-            for _ in 0..TICKS {
+            for _ in 0..self.1 {
                 self.0.device().tick(1);
             }
         }
@@ -44,10 +45,22 @@ pub struct Rig {
 
 impl Rig {
     pub fn new() -> Self {
+        Self::with_ticks(TICKS)
+    }
+
+    /// A target with this number of free-running ticks before each request.
+    pub fn with_ticks(ticks: u32) -> Self {
         Self {
-            address: serve_tcp(|| Box::new(Ticking(desk()))),
+            address: serve_tcp(move || Box::new(Ticking(desk(), ticks))),
             folder: tempfile::tempdir().unwrap(),
         }
+    }
+
+    /// `dashpot live` with this target.
+    pub fn live(&self, options: &[&str]) -> Live {
+        let link = format!("tcp:{}", self.address);
+        let line = ["--link", &link, "--timeout-ms", "60000"];
+        Live::start(&[&line[..], options].concat(), self.folder.path())
     }
 
     /// `dashpot link` with an action, not started yet.

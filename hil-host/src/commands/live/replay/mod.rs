@@ -6,7 +6,6 @@ mod side;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
 
 use dashpot_live::{Built, Desk, Observer, Scene, SignalWords, Status, WheelOnRail};
 use dashpot_recording::Signals;
@@ -72,7 +71,7 @@ pub(super) fn run(arguments: &LiveArguments, path: &Path) -> Outcome<()> {
         hub: served.server.hub().clone(),
         scene,
         status,
-        since: Instant::now(),
+        since: None,
     };
     let hub = served.server.hub().clone();
     let mut conversation = Conversation::new(hub.clone(), source);

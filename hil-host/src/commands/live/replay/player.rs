@@ -26,7 +26,7 @@ pub(super) struct Player {
 }
 
 impl Player {
-    /// A recording at its start, paused; `names` are those of its signals, the time first.
+    /// A recording at its start, at the pace of real time; `names` are those of its signals, the time first.
     pub fn new(signals: Signals, names: &[String]) -> Self {
         Self {
             time_s: signals.times_s()[0],
@@ -35,7 +35,7 @@ impl Player {
             frame: Frame::new(names.len()),
             row: Vec::new(),
             next: 0,
-            factor: 0.0,
+            factor: 1.0,
         }
     }
 
@@ -171,6 +171,7 @@ mod tests {
     fn every_row_is_in_one_frame() {
         let mut player = player();
         let mut frames = Vec::new();
+        player.set_factor(0.0);
         player.advance(1.0, &mut frames);
         assert!(frames.is_empty(), "it is paused");
         player.set_factor(0.5);

@@ -30,8 +30,8 @@ pub(super) struct ReplaySide {
     pub hub: Hub,
     pub scene: Value,
     pub status: Value,
-    /// When time was last looked after.
-    pub since: Instant,
+    /// When time was last looked after; `None` before the first viewer came.
+    pub since: Option<Instant>,
 }
 
 impl ReplaySide {
@@ -61,12 +61,16 @@ impl Source for ReplaySide {
     }
 
     fn joined(&mut self) {
+        self.since.get_or_insert_with(Instant::now);
         self.seek(self.player.time_s());
     }
 
     fn look_after(&mut self) -> bool {
-        let elapsed = self.since.elapsed();
-        self.since += elapsed;
+        let Some(since) = &mut self.since else {
+            return false;
+        };
+        let elapsed = since.elapsed();
+        *since += elapsed;
         let was_running = self.player.factor() > 0.0;
         let mut frames = Vec::new();
         self.player.advance(elapsed.as_secs_f64(), &mut frames);
