@@ -77,28 +77,34 @@
       return from;
     }
 
-    // Least and greatest of a signal in the last seconds.
+    // Least and greatest of a signal in the last seconds; NaN if it is not known.
     range(signal, seconds) {
       let [least, greatest] = [Infinity, -Infinity];
       if (signal === undefined || !this.newest) return [NaN, NaN];
       for (let i = this.after(this.newest.time_s - seconds); i < this.end; i++) {
         const at = signal * ROWS + (i % ROWS);
-        least = Math.min(least, this.least[at]);
-        greatest = Math.max(greatest, this.greatest[at]);
+        // A comparison with NaN is false, so values that are not known do not count.
+        if (this.least[at] < least) least = this.least[at];
+        if (this.greatest[at] > greatest) greatest = this.greatest[at];
       }
-      return [least, greatest];
+      return least <= greatest ? [least, greatest] : [NaN, NaN];
     }
   }
 
-  // Value of a signal by name in the newest frame of a run; 0 before the first frame.
-  function value(name, run = 0) {
+  // Value of a signal by name in the newest frame of a run; NaN if it is not known.
+  function reading(name, run = 0) {
     const at = live.index?.get(name);
     const frame = live.histories?.[run]?.newest;
-    const found = at === undefined || !frame ? 0 : frame.last[at];
+    return at === undefined || !frame ? NaN : frame.last[at];
+  }
+
+  // The same for drawings of the vehicle: what is not known is at rest.
+  function value(name, run = 0) {
+    const found = reading(name, run);
     return Number.isFinite(found) ? found : 0;
   }
 
   const has = run => Boolean(live.histories?.[run]?.newest);
 
-  Object.assign(live, { frames: { decode, History, value, has, ROWS, FLAGS } });
+  Object.assign(live, { frames: { decode, History, reading, value, has, ROWS, FLAGS } });
 }

@@ -111,14 +111,19 @@
     return `curve to the ${way}, radius ${radius > 20000 ? "over 20 km" : `${radius} m`}${tilt}`;
   }
 
-  const distance = () => live.histories?.[0]?.newest?.distance_m ?? live.scene?.start_m ?? 0;
+  // A recording may lack the distance; then the vehicle stands at its start.
+  const distance = () => {
+    const known = live.histories?.[0]?.newest?.distance_m;
+    return Number.isFinite(known) ? known : (live.scene?.start_m ?? 0);
+  };
   // Speed over the newest half second of the run, else the wanted one.
   function speed() {
     const history = live.histories?.[0];
     if (history?.newest && history.end - history.start > 10) {
       const from = history.after(history.newest.time_s - 0.5) % live.frames.ROWS;
       const time = history.newest.time_s - history.times[from];
-      if (time > 0.02) return (history.newest.distance_m - history.distances[from]) / time;
+      const way = history.newest.distance_m - history.distances[from];
+      if (time > 0.02 && Number.isFinite(way)) return way / time;
     }
     return (live.status?.speed_km_h ?? 0) / 3.6;
   }
