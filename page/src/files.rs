@@ -10,7 +10,7 @@ pub(crate) const STYLE: &str = include_str!("../files/live.css");
 pub(crate) const WORKER: &str = include_str!("../files/worker.js");
 
 /// Scripts; the last starts the page.
-pub(crate) const SCRIPTS: [&str; 29] = [
+pub(crate) const SCRIPTS: [&str; 30] = [
     include_str!("../files/js/words.js"),
     include_str!("../files/js/sources.js"),
     include_str!("../files/js/frame.js"),
@@ -27,6 +27,7 @@ pub(crate) const SCRIPTS: [&str; 29] = [
     include_str!("../files/js/curves.js"),
     include_str!("../files/js/panels.js"),
     include_str!("../files/js/loops.js"),
+    include_str!("../files/js/slots.js"),
     include_str!("../files/js/bars.js"),
     include_str!("../files/js/verdict.js"),
     include_str!("../files/js/target.js"),

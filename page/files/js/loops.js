@@ -42,21 +42,25 @@
     if (!damper || !live.histories) return;
     if (range.of !== damper) Object.assign(range, { of: damper, x: 0, y: 0 });
     const shown = loops(damper);
-    const largest = axis =>
-      shown.reduce((most, loop) => {
-        const ends = loop.history.range(loop[axis], SECONDS).map(Math.abs).filter(Number.isFinite);
-        return Math.max(most, ...ends);
-      }, 0);
-    // The axes grow at once and shrink slowly.
-    const wanted = [nice(Math.max(2e-4, largest("x"))), nice(Math.max(200, largest("y")))];
-    ["x", "y"].forEach((axis, n) => {
-      range[axis] = wanted[n] > range[axis] || wanted[n] < 0.45 * range[axis] ? wanted[n] : range[axis];
-    });
+    fit(range, shown);
     const [w, h] = [width - LEFT - RIGHT, height - TOP - BOTTOM];
     const px = value => LEFT + 0.5 * w * (1 + value / range.x);
     const py = value => TOP + 0.5 * h * (1 - value / range.y);
     axes(context, px, py, w, h, height);
     for (const one of shown) loop(context, one, px, py);
+  }
+
+  // Fits the axes to loops. They grow at once and shrink slowly.
+  function fit(range, shown) {
+    const largest = axis =>
+      shown.reduce((most, loop) => {
+        const ends = loop.history.range(loop[axis], SECONDS).map(Math.abs).filter(Number.isFinite);
+        return Math.max(most, ...ends);
+      }, 0);
+    const wanted = [nice(Math.max(2e-4, largest("x"))), nice(Math.max(200, largest("y")))];
+    ["x", "y"].forEach((axis, n) => {
+      range[axis] = wanted[n] > range[axis] || wanted[n] < 0.45 * range[axis] ? wanted[n] : range[axis];
+    });
   }
 
   function axes(context, px, py, w, h, height) {
@@ -116,5 +120,6 @@
   }
 
   const height = () => (live.scene && live.sources.isTarget() ? LARGE_PX : HEIGHT_PX);
+  Object.assign(live, { loops: { of: loops, fit, loop } });
   live.drawLoops = () => paint.view("loop", { height, draw, period_ms: 64 });
 }

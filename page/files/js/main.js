@@ -186,7 +186,15 @@
       part.start();
       await pause();
     }
-    for (const view of [live.drawSide, live.drawAbove, live.drawBehind, live.drawContact, live.drawLoops]) view();
+    for (const view of [
+      live.drawSide,
+      live.drawAbove,
+      live.drawBehind,
+      live.drawContact,
+      live.drawLoops,
+      live.drawSlots,
+    ])
+      view();
     requestAnimationFrame(draw);
     const linked = await live.setting.read();
     live.setting.look(linked?.view);
