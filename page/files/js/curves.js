@@ -51,10 +51,8 @@
         if (time > end) break;
         const key = Math.floor(time / width_s);
         const slot = ((key % size) + size) % size;
-        const [low, high] = [
-          history.least[this.signal * frames.ROWS + at],
-          history.greatest[this.signal * frames.ROWS + at],
-        ];
+        const place = history.place(this.signal, row);
+        const [low, high] = [history.least[place], history.greatest[place]];
         // A value that is not known is NaN. A column with NaN only is a gap in the curve.
         if (this.keys[slot] === key && this.least[slot] <= this.greatest[slot]) {
           if (low < this.least[slot]) this.least[slot] = low;

@@ -3,7 +3,7 @@
 // the vehicle as new, or the model of a target.
 {
   const live = (globalThis.live ??= {});
-  const { paint, words, frames } = live;
+  const { paint, words } = live;
 
   const HEIGHT_PX = 250;
   // For a target the loop is the main drawing.
@@ -84,12 +84,11 @@
 
   // Older parts fade, in four steps.
   function loop(context, { history, x, y, style }, px, py) {
-    const { ROWS } = frames;
     const begin = history.after(history.newest.time_s - SECONDS);
     const count = history.end - begin;
     if (count < 1) return;
     const stride = Math.max(1, Math.ceil(count / 600));
-    const at = i => [history.last[x * ROWS + (i % ROWS)], history.last[y * ROWS + (i % ROWS)]];
+    const at = i => [history.last[history.place(x, i)], history.last[history.place(y, i)]];
     context.strokeStyle = context.fillStyle = paint.colours[style.colour];
     context.lineJoin = "round";
     context.lineWidth = style.width;

@@ -9,6 +9,8 @@
   // So many drawings at most for a frame: without a graphics processor, the browser fills their areas after the script.
   const VIEWS = 4;
   const WRITE_MS = 250;
+  // While a burst of frames is taken.
+  const BUSY_MS = 1000;
   const SUMMARY_MS = 2000;
 
   live.setup = JSON.parse(by("setup").textContent);
@@ -106,7 +108,7 @@
     },
     message(message) {
       if (message.type === "scene") scene(message);
-      else if (message.type === "sought") sought();
+      else if (message.type === "sought") sought(message);
       else if (message.type === "status") status(message);
       else if (message.type === "health") live.verdict.health(message);
       else if (message.type === "file") live.files.file(message);
@@ -119,9 +121,9 @@
   };
 
   // Frames before a jump belong to another time.
-  function sought() {
+  function sought(message) {
     live.inbox.clear();
-    live.replay.sought();
+    live.replay.sought(message);
   }
 
   // Number of frames so far, and the recording whose signals are known.
@@ -171,7 +173,7 @@
     const begin = start - live.timing.pending_ms;
     const isBusy = live.scene && live.inbox.drain(take);
     live.replay.write();
-    if (!isBusy && live.scene && now - written.at > WRITE_MS) write(now);
+    if (live.scene && now - written.at > (isBusy ? BUSY_MS : WRITE_MS)) write(now);
     else paint(now, begin);
     live.timing.count(performance.now() - start);
     requestAnimationFrame(draw);

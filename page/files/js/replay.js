@@ -10,9 +10,12 @@
 
   // The time that is wanted but not yet asked for, and the question that is not yet answered.
   let [wanted, asked] = [null, null];
+  // The time to which the source went. The frames before it come first.
+  let sought_s = -Infinity;
 
   const ends = () => live.scene.recording ?? { start_s: 0, end_s: 0 };
-  const now = () => wanted ?? asked ?? live.histories?.[0]?.newest?.time_s ?? ends().start_s;
+  const now = () =>
+    wanted ?? asked ?? Math.max(ends().start_s, sought_s, live.histories?.[0]?.newest?.time_s ?? -Infinity);
   const isAtEnd = () => now() >= ends().end_s - 1.5 * live.scene.step_s;
 
   function inWords(time_s) {
@@ -45,7 +48,8 @@
   }
 
   // What is drawn belongs to another time, so it begins anew.
-  function sought() {
+  function sought({ time_s }) {
+    sought_s = time_s;
     for (const history of live.histories ?? []) history.clear();
     live.curves.reset();
     live.panels.tell();
@@ -55,7 +59,7 @@
 
   function scene() {
     if (!live.sources.isRecording()) return;
-    [wanted, asked] = [null, null];
+    [wanted, asked, sought_s] = [null, null, -Infinity];
     const { start_s, end_s } = ends();
     Object.assign(by("replay-time"), { min: start_s, max: end_s, step: "any", value: start_s });
     by("replay-words").textContent = "";
