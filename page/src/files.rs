@@ -10,7 +10,7 @@ pub(crate) const STYLE: &str = include_str!("../files/live.css");
 pub(crate) const WORKER: &str = include_str!("../files/worker.js");
 
 /// Scripts; the last starts the page.
-pub(crate) const SCRIPTS: [&str; 30] = [
+pub(crate) const SCRIPTS: [&str; 31] = [
     include_str!("../files/js/words.js"),
     include_str!("../files/js/sources.js"),
     include_str!("../files/js/frame.js"),
@@ -33,6 +33,7 @@ pub(crate) const SCRIPTS: [&str; 30] = [
     include_str!("../files/js/target.js"),
     include_str!("../files/js/replay.js"),
     include_str!("../files/js/controls.js"),
+    include_str!("../files/js/tries.js"),
     include_str!("../files/js/quantity.js"),
     include_str!("../files/js/dampers.js"),
     include_str!("../files/js/setting.js"),

@@ -1,5 +1,5 @@
 "use strict";
-// Buttons and sliders for the run: pace, speed, friction, defects, gusts, comparison, the first things to try.
+// Buttons and sliders for the run: pace, speed, friction, defects, gusts, comparison.
 {
   const live = (globalThis.live ??= {});
   const { words } = live;
@@ -42,6 +42,7 @@
     if (isPaused() && live.sources.isRecording() && live.replay.isAtEnd()) await live.replay.toStart();
     return run(isPaused() ? pace : 0);
   }
+  const resume = () => isPaused() && run(pace);
   const step = () => ask({ do: "step", ticks: live.sources.isRecording() ? 1 : 10 });
   const stop = () => ask({ do: "stop" });
 
@@ -63,51 +64,6 @@
     });
     live.defects = live.defects.slice(-8);
     return act({ action: "defect", kind, size });
-  }
-
-  // Clearance at which everyone sees what it does.
-  const WORSE_M = 0.015;
-  const LOOK = {
-    worsen:
-      "From above: the bogies turn further before the dampers hold them. " +
-      "Curves: the wheelsets swing wider, and Y/Q rises.",
-    dip:
-      "A dip comes towards the leading wheelset. " +
-      "Curves, wheel load: the left wheel loses load as it runs in and gains load as it runs out.",
-    gust:
-      "The wind pushes the body to the right for 3 s. " +
-      "From behind: the body leans, and the right wheels carry more.",
-  };
-  // The first things to try; each says where to look.
-  const TRIES = {
-    worsen() {
-      const { scene } = live;
-      const yaw = scene.dampers.filter(({ direction }) => direction === "longitudinal");
-      const worsened = yaw.length > 0 ? yaw : scene.dampers;
-      for (const damper of worsened) {
-        const clearance = damper.quantities.find(({ key }) => key === "mount.clearance_m");
-        if (clearance)
-          act({ action: "damper", damper: damper.name, key: clearance.key, value: Math.min(clearance.max, WORSE_M) });
-      }
-      live.dampers.choose(worsened.map(damper => scene.dampers.indexOf(damper)));
-      const noun = yaw.length > 0 ? "yaw dampers" : "dampers";
-      return `The ${noun} now have ${1000 * WORSE_M} mm of clearance. ${LOOK.worsen}`;
-    },
-    dip() {
-      const known = live.scene.defects.find(({ kind }) => kind === "dip") ?? live.scene.defects[0];
-      defect(known.kind, known.value);
-      return LOOK.dip;
-    },
-    gust() {
-      act({ action: "gust", force_n: 30000, duration_s: 3 });
-      return LOOK.gust;
-    },
-  };
-
-  function tryOut(name) {
-    put("try-look", TRIES[name]());
-    by("try-look").classList.remove("fresh");
-    if (isPaused()) run(pace);
   }
 
   // Connects a slider with its number: `send` after each change, but not more often than each 150 ms.
@@ -245,7 +201,6 @@
     on("defect-put", () => defect(by("defect-kind").value, Number(by("defect-size").value)));
     on("gust-left", () => gust(1));
     on("gust-right", () => gust(-1));
-    for (const name of Object.keys(TRIES)) on(`try-${name}`, () => tryOut(name));
     pair(by("speed"), by("speed-number"), speed_km_h => act({ action: "speed", speed_km_h }));
     pair(by("friction"), by("friction-number"), factor => act({ action: "friction", factor }));
   }
@@ -258,6 +213,23 @@
     });
 
   Object.assign(live, {
-    controls: { start, scene, status, ask, act, note, run, toggle, step, stop, reset, compare, pair, options },
+    controls: {
+      start,
+      scene,
+      status,
+      ask,
+      act,
+      note,
+      run,
+      toggle,
+      resume,
+      defect,
+      step,
+      stop,
+      reset,
+      compare,
+      pair,
+      options,
+    },
   });
 }

@@ -48,7 +48,12 @@
     const py = value => TOP + 0.5 * h * (1 - value / range.y);
     axes(context, px, py, w, h, height);
     for (const one of shown) loop(context, one, px, py);
+    if (!live.sources.isRecording() || shown.some(isKnown)) return;
+    paint.text(context, "not in the recording", LEFT + w / 2, TOP + h / 2 - 8, { align: "center", size: 13 });
   }
+
+  // Is anything of a loop known?
+  const isKnown = ({ history, x, y }) => [x, y].every(signal => Number.isFinite(history.range(signal, SECONDS)[0]));
 
   // Fits the axes to loops. They grow at once and shrink slowly.
   function fit(range, shown) {

@@ -6,6 +6,8 @@
 
   // Drawing stops for this frame after so much time; what is left comes first in the next frame.
   const BUDGET_MS = 3.5;
+  // The same for views that have their turn together.
+  const GROUP_MS = 5;
   // So many drawings at most for a frame: without a graphics processor, the browser fills their areas after the script.
   const VIEWS = 4;
   const WRITE_MS = 250;
@@ -98,6 +100,12 @@
     knownOf = live.scene;
     setTimeout(() => {
       live.choices.scene();
+      const isThere = ({ slug }) => live.panels.isKnown(slug + "_force_n");
+      const { dampers } = live.scene;
+      if (!live.view.dampers.some(number => isThere(dampers[number]))) {
+        const first = dampers.findIndex(isThere);
+        if (first >= 0) live.dampers.choose([first]);
+      }
       if (!live.panels.names().every(live.panels.isKnown)) live.panels.show(live.panels.usual());
     });
   }
@@ -153,7 +161,7 @@
       // Views with a common time have their turn together, so that their times agree.
       const others = view.group ? live.paint.views.filter(other => other.group === view.group) : [];
       for (const other of others)
-        if (other.drawn !== now && other.isSeen && performance.now() - start < 2 * BUDGET_MS) turn(other);
+        if (other.drawn !== now && other.isSeen && performance.now() - start < GROUP_MS) turn(other);
     }
   }
 
@@ -183,8 +191,8 @@
 
   // In tasks of their own, so that none is long.
   async function start() {
-    const { controls, dampers, cases, setting, files, keys, choices, pick, bars, replay, target } = live;
-    for (const part of [controls, dampers, cases, setting, files, keys, choices, pick, bars, replay, target]) {
+    const { controls, dampers, cases, setting, files, keys, choices, pick, bars, tries, replay, target } = live;
+    for (const part of [controls, dampers, cases, setting, files, keys, choices, pick, bars, tries, replay, target]) {
       part.start();
       await pause();
     }

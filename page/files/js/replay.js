@@ -7,15 +7,18 @@
   // A short step of the slider, and a long one.
   const [SHORT_S, LONG_S] = [0.1, 5];
   const DIGITS = 3;
+  const PATIENCE_MS = 300;
 
   // The time that is wanted but not yet asked for, and the question that is not yet answered.
   let [wanted, asked] = [null, null];
+  let going = null;
   // The time to which the source went. The frames before it come first.
   let sought_s = -Infinity;
 
   const ends = () => live.scene.recording ?? { start_s: 0, end_s: 0 };
   const now = () =>
     wanted ?? asked ?? Math.max(ends().start_s, sought_s, live.histories?.[0]?.newest?.time_s ?? -Infinity);
+  const isBehind = () => (live.histories?.[0]?.newest?.time_s ?? -Infinity) < sought_s - 1.5 * live.scene.step_s;
   const isAtEnd = () => now() >= ends().end_s - 1.5 * live.scene.step_s;
 
   function inWords(time_s) {
@@ -34,17 +37,24 @@
     slider.setAttribute("aria-valuetext", words);
   }
 
-  // Goes to a time. While a question is open, only the newest wish waits for its answer.
-  async function seek(time_s) {
+  // Goes to a time. Meanwhile only the newest wish waits for its turn.
+  function seek(time_s) {
     const { start_s, end_s } = ends();
     wanted = Math.min(end_s, Math.max(start_s, time_s));
     write();
-    if (asked !== null) return;
+    going ??= go().finally(() => (going = null));
+    return going;
+  }
+
+  async function go() {
     while (wanted !== null) {
       [asked, wanted] = [wanted, null];
       await live.controls.ask({ do: "seek", time_s: asked });
+      asked = null;
+      // The burst of frames comes first, so that a slow line does not fill with the bursts of a drag.
+      const until = performance.now() + PATIENCE_MS;
+      while (isBehind() && performance.now() < until) await new Promise(resolve => setTimeout(resolve, 16));
     }
-    asked = null;
   }
 
   // What is drawn belongs to another time, so it begins anew.
@@ -91,5 +101,5 @@
     by("to-start").addEventListener("click", toStart);
   }
 
-  Object.assign(live, { replay: { start, scene, write, seek, sought, toStart, isAtEnd } });
+  Object.assign(live, { replay: { start, scene, write, seek, sought, toStart, isAtEnd, isBehind } });
 }

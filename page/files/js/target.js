@@ -119,7 +119,8 @@
     ]);
     slots(now);
     const all = troubles().length;
-    put("target-word", all === 0 ? "✓ all is well" : `▲ ${all === 1 ? "one thing is" : `${all} things are`} not well`);
+    const count = all === 1 ? "one thing is" : `${all} things are`;
+    put("target-word", all === 0 ? "✓ all is well" : `▲ ${count} not well`);
     const isKnown = Number.isFinite(now.difference_n?.[live.view.dampers[0]] ?? NaN);
     put("loop-model", isKnown ? "the model" : "the model (not known)");
   }

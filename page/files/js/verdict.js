@@ -137,7 +137,8 @@
   function measurePace(now) {
     const newest = live.histories?.[0]?.newest;
     if (!newest) return;
-    if (newest.time_s < pace.time_s) Object.assign(pace, { at: now, time_s: newest.time_s });
+    // What is before the time to which a recording went came in a burst.
+    if (newest.time_s < pace.time_s || live.replay.isBehind()) Object.assign(pace, { at: now, time_s: newest.time_s });
     if (now - pace.at < 900) return;
     if (pace.at > 0) pace.reached = (1000 * (newest.time_s - pace.time_s)) / (now - pace.at);
     Object.assign(pace, { at: now, time_s: newest.time_s });
@@ -166,7 +167,8 @@
 
   function readouts() {
     const newest = live.histories?.[0]?.newest;
-    put("speed-now", words.fixed(vehicle.speed() * 3.6, 0));
+    const isKnown = !live.sources.isRecording() || Number.isFinite(newest?.distance_m) || live.status?.speed_km_h > 0;
+    put("speed-now", isKnown ? words.fixed(vehicle.speed() * 3.6, 0) : "–");
     put("time-now", newest ? words.duration(newest.time_s) : "0.0 s");
     put("distance-now", newest ? words.distance(newest.distance_m) : words.distance(vehicle.distance()));
   }

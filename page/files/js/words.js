@@ -39,6 +39,7 @@
   // A number in the written unit of its data.
   const quantity = (value, name, digits) => {
     const { factor, text, digits: usual } = unit(name);
+    if (!Number.isFinite(value)) return "–";
     const number = Number.isFinite(digits ?? usual) ? fixed(value * factor, digits ?? usual) : short(value * factor);
     return text ? `${number} ${text}` : number;
   };
