@@ -10,9 +10,11 @@ pub(crate) const STYLE: &str = include_str!("../files/live.css");
 pub(crate) const WORKER: &str = include_str!("../files/worker.js");
 
 /// Scripts; the last starts the page.
-pub(crate) const SCRIPTS: [&str; 24] = [
+pub(crate) const SCRIPTS: [&str; 31] = [
     include_str!("../files/js/words.js"),
+    include_str!("../files/js/sources.js"),
     include_str!("../files/js/frame.js"),
+    include_str!("../files/js/inbox.js"),
     include_str!("../files/js/source.js"),
     include_str!("../files/js/paint.js"),
     include_str!("../files/js/pick.js"),
@@ -25,9 +27,14 @@ pub(crate) const SCRIPTS: [&str; 24] = [
     include_str!("../files/js/curves.js"),
     include_str!("../files/js/panels.js"),
     include_str!("../files/js/loops.js"),
+    include_str!("../files/js/slots.js"),
     include_str!("../files/js/bars.js"),
     include_str!("../files/js/verdict.js"),
+    include_str!("../files/js/target.js"),
+    include_str!("../files/js/replay.js"),
     include_str!("../files/js/controls.js"),
+    include_str!("../files/js/tries.js"),
+    include_str!("../files/js/quantity.js"),
     include_str!("../files/js/dampers.js"),
     include_str!("../files/js/setting.js"),
     include_str!("../files/js/files.js"),

@@ -6,6 +6,7 @@
 
   const HALF_M = 2.4;
   const COURSE_PX = 46;
+  const NARROW_PX = 440;
   const [BEHIND_M, AHEAD_M] = [60, 300];
   // Half the distance between the middles of the rails.
   const RAIL_M = 0.75;
@@ -142,7 +143,9 @@
     context.fillRect(rear, base - 3, front - rear, 6);
     const words = `${live.words.capital(vehicle.courseInWords(at))}`;
     paint.text(context, words, 8, top + 11, { size: 11.5 });
-    paint.text(context, `the next ${AHEAD_M} m →`, width - 8, top + 11, { size: 11.5, align: "right" });
+    // Not where there is room for one of them only.
+    const isWide = width > NARROW_PX;
+    if (isWide) paint.text(context, `the next ${AHEAD_M} m →`, width - 8, top + 11, { size: 11.5, align: "right" });
   }
 
   function draw({ context, width, height }) {

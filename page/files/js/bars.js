@@ -104,14 +104,14 @@
       const thick = signals.length > 1 ? 8 : 12;
       for (const [side, signal] of signals.entries()) {
         const y = top + (signals.length > 1 ? 3 + side * 11 : 6);
-        const value = frames.value(signal);
+        const value = frames.reading(signal);
         const hold = held.get(name)?.[number]?.[side]?.value;
         const state = stateOf(name, Number.isFinite(hold) ? hold : value, set);
         context.fillStyle = colours.ground;
         context.fillRect(LEFT, y, length, thick);
         context.fillStyle = colours[state];
         context.globalAlpha = side === 0 && signals.length > 1 ? 0.75 : 1;
-        context.fillRect(LEFT, y, x(value, set) - LEFT, thick);
+        if (Number.isFinite(value)) context.fillRect(LEFT, y, x(value, set) - LEFT, thick);
         context.globalAlpha = 1;
         if (Number.isFinite(hold)) paint.line(context, x(hold, set), y - 1, x(hold, set), y + thick + 1, "ink", 2);
       }

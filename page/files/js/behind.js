@@ -110,6 +110,7 @@
   function draw({ context, width, height }) {
     if (!live.scene) return;
     const set = live.scene.wheelsets[live.view.wheelset] ?? live.scene.wheelsets[0];
+    if (!set) return;
     const frame = vehicle.frameAt(set.x_m);
     const body = vehicle.bodyAt(set.x_m);
     const pixels = Math.min(width / (2 * HALF_M), height / (TOP_M + DEPTH_M));

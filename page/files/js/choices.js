@@ -10,6 +10,7 @@
     const parts = [...scene.wheelsets, ...scene.bodies, ...scene.dampers].sort((a, b) => b.slug.length - a.slug.length);
     const found = new Map([...scene.wheelsets, ...scene.bodies, ...scene.dampers].map(({ name }) => [name, []]));
     for (const { name, label } of scene.signals) {
+      if (!live.panels.isKnown(name)) continue;
       const part = parts.find(({ slug }) => name.startsWith(slug + "_"));
       if (!found.has(part?.name)) found.set(part?.name, []);
       found.get(part?.name).push([name, label]);
@@ -27,7 +28,21 @@
         return group;
       });
     select.replaceChildren(new Option("Add a curve …", ""), ...heads);
+    const topics = Object.entries(TITLES).filter(([, [, sources]]) => sources.split(" ").includes(live.scene.source));
+    live.controls.options(
+      by("topic"),
+      topics.map(([topic, [title]]) => [topic, title]),
+    );
   }
+
+  // What can be shown together: title and sources.
+  const TITLES = {
+    usual: ["the usual", "page machine recording target"],
+    wheelset: ["all of the chosen wheelset", "page machine recording"],
+    swing: ["swing of all wheelsets", "page machine recording"],
+    body: ["accelerations", "page machine recording"],
+    damper: ["the chosen damper", "page machine recording target"],
+  };
 
   // Sets of curves with one purpose.
   const TOPICS = {
@@ -54,7 +69,9 @@
       live.view.dampers
         .slice(0, 4)
         .flatMap(number =>
-          ["_force_n", "_displacement_m", "_velocity_m_per_s"].map(name => live.scene.dampers[number].slug + name),
+          ["_force_n", "_model_force_n", "_displacement_m", "_velocity_m_per_s"].map(
+            name => live.scene.dampers[number].slug + name,
+          ),
         ),
   };
 
@@ -64,7 +81,8 @@
       by("add-curve").value = "";
     });
     by("topic").addEventListener("change", () => {
-      if (TOPICS[by("topic").value]) live.panels.show(TOPICS[by("topic").value]());
+      const names = TOPICS[by("topic").value]?.() ?? [];
+      if (names.length > 0) live.panels.show(names.filter(live.panels.isKnown));
     });
     by("curves-live").addEventListener("click", live.panels.follow);
     by("curves-hold").addEventListener("click", () => live.panels.hold(live.curves.from()));

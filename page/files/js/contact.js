@@ -3,7 +3,7 @@
 {
   const live = (globalThis.live ??= {});
   const { paint, words } = live;
-  const { value } = live.frames;
+  const { value, reading } = live.frames;
 
   const [HEIGHT_PX, HEAD_PX, FOOT_PX] = [300, 28, 46];
   // Shown part of the profiles, m from the tread datum, and the depth of the top of the rail in it.
@@ -51,7 +51,7 @@
   function placing(shift, contact) {
     let [best, least] = [table.rows[0], Infinity];
     for (const row of table.rows) {
-      const error = (row.place - contact) ** 2 + 0.02 * (row.shift - shift) ** 2;
+      const error = (contact === null ? 0 : (row.place - contact) ** 2) + 0.02 * (row.shift - shift) ** 2;
       if (error < least) [best, least] = [row, error];
     }
     return best;
@@ -67,12 +67,14 @@
 
   function wheel(context, side, box, set, run) {
     const mirror = side === "right" ? 1 : -1;
-    const of = suffix => value(`${set.slug}_${side}${suffix}`, run);
+    const of = suffix => reading(`${set.slug}_${side}${suffix}`, run);
     const [load, lateral, ratio, contact] = ["_load_n", "_lateral_n", "_derailment", "_contact_m"].map(of);
     const scale = box.width / (OUTER_M - INNER_M);
     const { wheel_m, rail_m } = table;
     const isLifted = live.frames.has(run) && load <= 0;
-    const row = placing(mirror * value(set.slug + "_lateral_m", run), isLifted ? 0 : contact);
+    // Without a known contact the wheel is where its wheelset is.
+    const isKnown = Number.isFinite(contact) && Number.isFinite(load);
+    const row = placing(mirror * value(set.slug + "_lateral_m", run), isLifted ? 0 : isKnown ? contact : null);
     const at = [row.shift, row.sink - (isLifted ? 0.003 : 0)];
     context.save();
     context.beginPath();
@@ -101,7 +103,7 @@
     } else {
       paint.shape(context, rim, true);
     }
-    if (run === 0 && !isLifted) arrows(context, mirror, scale, at, contact, { load, lateral, side });
+    if (run === 0 && !isLifted && isKnown) arrows(context, mirror, scale, at, contact, { load, lateral, side });
     context.restore();
     if (run === 0) labels(context, box, { side, load, lateral, ratio, isLifted });
   }
@@ -146,6 +148,7 @@
   function draw({ context, width }) {
     if (!live.scene?.profiles || table?.of !== live.scene.profiles) return;
     const set = live.scene.wheelsets[live.view.wheelset] ?? live.scene.wheelsets[0];
+    if (!set) return;
     const half = (width - 16) / 2;
     for (const [side, x] of [
       ["left", 0],

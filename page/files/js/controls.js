@@ -1,5 +1,5 @@
 "use strict";
-// Buttons and sliders for the run: pace, speed, friction, defects, gusts, comparison, the first things to try.
+// Buttons and sliders for the run: pace, speed, friction, defects, gusts, comparison.
 {
   const live = (globalThis.live ??= {});
   const { words } = live;
@@ -9,7 +9,7 @@
   // What only an operator may use. A viewer may stop a rig.
   const OPERATED = `.try button, .bar button:not(.emergency), #factor, #quantities input, #fault, #preset, #as-new,
     #all-as-new, #speed, #speed-number, #friction, #friction-number, #defect-put, #gust-left, #gust-right,
-    #loop-compare, #load-button, #record, #start button`;
+    #loop-compare, #load-button, #record, #start button, #replay-time, #motion input, #clear-status`;
   // The factor to which "Run" returns after a pause.
   let pace = 1;
   // The error that is shown, until the next success.
@@ -37,8 +37,13 @@
     if (factor > 0) pace = factor;
     return ask({ do: "run", factor });
   }
-  const toggle = () => run(isPaused() ? pace : 0);
-  const step = () => ask({ do: "step", ticks: 10 });
+  // At the end of a recording it plays from its start.
+  async function toggle() {
+    if (isPaused() && live.sources.isRecording() && live.replay.isAtEnd()) await live.replay.toStart();
+    return run(isPaused() ? pace : 0);
+  }
+  const resume = () => isPaused() && run(pace);
+  const step = () => ask({ do: "step", ticks: live.sources.isRecording() ? 1 : 10 });
   const stop = () => ask({ do: "stop" });
 
   function reset() {
@@ -61,51 +66,6 @@
     return act({ action: "defect", kind, size });
   }
 
-  // Clearance at which everyone sees what it does.
-  const WORSE_M = 0.015;
-  const LOOK = {
-    worsen:
-      "From above: the bogies turn further before the dampers hold them. " +
-      "Curves: the wheelsets swing wider, and Y/Q rises.",
-    dip:
-      "A dip comes towards the leading wheelset. " +
-      "Curves, wheel load: the left wheel loses load as it runs in and gains load as it runs out.",
-    gust:
-      "The wind pushes the body to the right for 3 s. " +
-      "From behind: the body leans, and the right wheels carry more.",
-  };
-  // The first things to try; each says where to look.
-  const TRIES = {
-    worsen() {
-      const { scene } = live;
-      const yaw = scene.dampers.filter(({ direction }) => direction === "longitudinal");
-      const worsened = yaw.length > 0 ? yaw : scene.dampers;
-      for (const damper of worsened) {
-        const clearance = damper.quantities.find(({ key }) => key === "mount.clearance_m");
-        if (clearance)
-          act({ action: "damper", damper: damper.name, key: clearance.key, value: Math.min(clearance.max, WORSE_M) });
-      }
-      live.dampers.choose(worsened.map(damper => scene.dampers.indexOf(damper)));
-      const noun = yaw.length > 0 ? "yaw dampers" : "dampers";
-      return `The ${noun} now have ${1000 * WORSE_M} mm of clearance. ${LOOK.worsen}`;
-    },
-    dip() {
-      const known = live.scene.defects.find(({ kind }) => kind === "dip") ?? live.scene.defects[0];
-      defect(known.kind, known.value);
-      return LOOK.dip;
-    },
-    gust() {
-      act({ action: "gust", force_n: 30000, duration_s: 3 });
-      return LOOK.gust;
-    },
-  };
-
-  function tryOut(name) {
-    put("try-look", TRIES[name]());
-    by("try-look").classList.remove("fresh");
-    if (isPaused()) run(pace);
-  }
-
   // Connects a slider with its number: `send` after each change, but not more often than each 150 ms.
   function pair(range, number, send, { toValue = Number, toPart = Number } = {}) {
     let timer = 0;
@@ -119,6 +79,7 @@
       later(Number(number.value));
     });
     number.addEventListener("change", () => {
+      if (number.value === "") return;
       const value = Math.min(Number(number.max), Math.max(Number(number.min), Number(number.value)));
       if (!Number.isFinite(value)) return;
       number.value = value;
@@ -149,8 +110,8 @@
     put("track-name", live.scene.track);
     const [slowest, fastest] = live.scene.speed_range_km_h ?? [10, 350];
     for (const id of ["speed", "speed-number"]) Object.assign(by(id), { min: slowest, max: fastest });
-    const isFar = live.scene.source === "machine" || live.scene.source === "target";
-    by("emergency").hidden = !(isFar && live.scene.has_rig);
+    const hasRig = live.scene.source === "machine" && live.scene.has_rig;
+    by("emergency").hidden = !(hasRig || live.sources.isTarget());
   }
 
   function defectSize() {
@@ -162,6 +123,15 @@
 
   function lead(speed_km_h) {
     told = live.scene;
+    const { recording, target, vehicle } = live.scene;
+    if (target) {
+      const advice = "Look for a loop of the target that leaves the loop of the model.";
+      return put("lead", `A target with ${target.dampers} dampers at ${target.line}. ${advice}`);
+    }
+    if (recording) {
+      const advice = "Drag the time to where something happens, or play it slowly.";
+      return put("lead", `${recording.name}: a recording of a ${vehicle}. ${advice}`);
+    }
     const article = /^[aeiou]/i.test(live.scene.vehicle) ? "An" : "A";
     const hasYaw = live.scene.dampers.some(({ direction }) => direction === "longitudinal");
     const advice = `Open the clearance of a ${hasYaw ? "yaw damper" : "damper"} and watch the wheels.`;
@@ -172,7 +142,7 @@
     const { factor, speed_km_h, friction_factor, is_comparing, warnings, role, viewers } = live.status;
     if (factor > 0) pace = factor;
     if (told !== live.scene) lead(speed_km_h);
-    put("run-text", factor > 0 ? "Pause" : "Run");
+    put("run-text", factor > 0 ? "Pause" : live.sources.isRecording() ? "Play" : "Run");
     by("run").dataset.state = factor > 0 ? "running" : "paused";
     const select = by("factor");
     if (document.activeElement !== select)
@@ -181,6 +151,7 @@
       ["speed", speed_km_h],
       ["friction", friction_factor],
     ]) {
+      if (!Number.isFinite(value ?? NaN)) continue;
       if ([by(id), by(id + "-number")].includes(document.activeElement)) continue;
       by(id).value = value;
       by(id + "-number").value = Number(value.toPrecision(3));
@@ -194,7 +165,7 @@
     put(
       "role",
       isViewer
-        ? "You are watching. Another page operates this run."
+        ? "You are watching. Another page may operate this run."
         : viewers > 1
           ? `${viewers} pages watch this run.`
           : "",
@@ -203,12 +174,14 @@
   }
 
   function permit(isAllowed) {
-    for (const place of document.querySelectorAll(OPERATED)) place.disabled = !isAllowed;
+    for (const place of document.querySelectorAll(OPERATED))
+      place.disabled = !isAllowed || place.hasAttribute("data-unknown");
   }
 
   function start() {
     // Nothing to operate before the first status; another case may be started at any time.
     permit(false);
+    live.sources.paces();
     by("start").querySelector("button").disabled = false;
     const on = (id, handle, event = "click") => by(id).addEventListener(event, handle);
     on("run", toggle);
@@ -228,7 +201,6 @@
     on("defect-put", () => defect(by("defect-kind").value, Number(by("defect-size").value)));
     on("gust-left", () => gust(1));
     on("gust-right", () => gust(-1));
-    for (const name of Object.keys(TRIES)) on(`try-${name}`, () => tryOut(name));
     pair(by("speed"), by("speed-number"), speed_km_h => act({ action: "speed", speed_km_h }));
     pair(by("friction"), by("friction-number"), factor => act({ action: "friction", factor }));
   }
@@ -241,6 +213,23 @@
     });
 
   Object.assign(live, {
-    controls: { start, scene, status, ask, act, note, run, toggle, step, stop, reset, compare, pair, options },
+    controls: {
+      start,
+      scene,
+      status,
+      ask,
+      act,
+      note,
+      run,
+      toggle,
+      resume,
+      defect,
+      step,
+      stop,
+      reset,
+      compare,
+      pair,
+      options,
+    },
   });
 }

@@ -14,7 +14,8 @@
   const shown = { window_s: 10, from: null, cursor: null };
 
   const newest = () => live.histories?.[0]?.newest?.time_s ?? 0;
-  const from = () => shown.from ?? Math.max(live.scene?.start_s ?? 0, newest() - shown.window_s);
+  const start = () => live.scene?.recording?.start_s ?? live.scene?.start_s ?? 0;
+  const from = () => shown.from ?? Math.max(start(), newest() - shown.window_s);
 
   // Least and greatest of a signal in columns of time. Column n covers [n, n + 1) times the width of a column.
   class Trace {
@@ -50,11 +51,10 @@
         if (time > end) break;
         const key = Math.floor(time / width_s);
         const slot = ((key % size) + size) % size;
-        const [low, high] = [
-          history.least[this.signal * frames.ROWS + at],
-          history.greatest[this.signal * frames.ROWS + at],
-        ];
-        if (this.keys[slot] === key) {
+        const place = history.place(this.signal, row);
+        const [low, high] = [history.least[place], history.greatest[place]];
+        // A value that is not known is NaN. A column with NaN only is a gap in the curve.
+        if (this.keys[slot] === key && this.least[slot] <= this.greatest[slot]) {
           if (low < this.least[slot]) this.least[slot] = low;
           if (high > this.greatest[slot]) this.greatest[slot] = high;
         } else {
@@ -146,23 +146,31 @@
     context.rect(LEFT, 0, width - LEFT - RIGHT + 1, HEIGHT_PX);
     context.clip();
     context.lineJoin = "bevel";
-    for (const { runs, colour } of panel.traces) {
+    // What is compared with lies behind.
+    const models = panel.traces.filter(({ isModel }) => isModel);
+    for (const { runs, colour, isModel } of new Set([...models, ...panel.traces])) {
       for (const trace of [...runs].reverse()) {
         if (trace.run === 1 && !frames.has(1)) continue;
         context.beginPath();
-        let before = NaN;
+        let [before, isGap] = [NaN, true];
         for (let key = first; key <= last; key++) {
           const slot = trace.column(key);
           if (slot < 0) continue;
+          if (!(trace.least[slot] <= trace.greatest[slot])) {
+            isGap = true;
+            continue;
+          }
           const x = LEFT + (key - first) * pixels;
           const [top, bottom] = [y(trace.greatest[slot]), y(trace.least[slot])];
           const isUp = Math.abs(before - top) > Math.abs(before - bottom);
-          context.lineTo(x, isUp ? bottom : top);
+          if (isGap) context.moveTo(x, isUp ? bottom : top);
+          else context.lineTo(x, isUp ? bottom : top);
+          isGap = false;
           if (bottom - top > 0.6) context.lineTo(x, isUp ? top : bottom);
           before = isUp ? top : bottom;
         }
         context.strokeStyle = paint.colours[colour];
-        context.lineWidth = trace.run === 1 ? 1.25 : 1.75;
+        context.lineWidth = trace.run === 1 || isModel ? 1.25 : 1.75;
         context.setLineDash(trace.run === 1 ? [5, 4] : []);
         context.stroke();
       }
@@ -194,7 +202,7 @@
   function endSlot(trace, last) {
     for (let key = last; key > last - COLUMNS; key--) {
       const slot = trace.column(key);
-      if (slot >= 0) return slot;
+      if (slot >= 0) return trace.least[slot] <= trace.greatest[slot] ? slot : -1;
     }
     return -1;
   }
@@ -210,7 +218,7 @@
     if (slot < 0) return "–";
     const digits = words.unit(panel.unit).digits;
     if (shown.cursor === null && shown.from === null)
-      return words.fixed(live.frames.value(trace.name, trace.run) * panel.factor, digits);
+      return words.fixed(live.frames.reading(trace.name, trace.run) * panel.factor, digits);
     const [low, high] = [trace.least[slot], trace.greatest[slot]].map(value =>
       words.fixed(value * panel.factor, digits),
     );
@@ -223,6 +231,6 @@
   }
 
   Object.assign(live, {
-    curves: { panels, shown, Trace, draw, read, reset, from, newest, LETTERS, HEIGHT_PX, LEFT, RIGHT, COLUMNS },
+    curves: { panels, shown, Trace, draw, read, reset, start, from, newest, LETTERS, HEIGHT_PX, LEFT, RIGHT, COLUMNS },
   });
 }

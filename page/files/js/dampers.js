@@ -6,8 +6,7 @@
 
   const by = id => document.getElementById(id);
   const KINDS = { longitudinal: "yaw dampers", lateral: "lateral dampers", vertical: "vertical dampers" };
-  // A logarithmic slider that starts at zero has this many decades above zero.
-  const DECADES = 4;
+  const LOOP = "The loop shows the first.";
   let rows = [];
 
   const chosen = () => live.view.dampers.map(number => live.scene.dampers[number]);
@@ -15,67 +14,21 @@
     for (const { name } of chosen()) live.controls.act({ ...action, damper: name });
   };
 
-  // Position of a slider from 0 to 1000, and the value there.
-  function scale({ min, max, is_logarithmic: isLogarithmic }) {
-    const low = isLogarithmic && min <= 0 ? max / 10 ** DECADES : min;
-    const toValue = isLogarithmic
-      ? part => (Number(part) === 0 ? min : low * (max / low) ** (part / 1000))
-      : part => min + (part / 1000) * (max - min);
-    const toPart = isLogarithmic
-      ? value => (value <= low ? 0 : (1000 * Math.log(value / low)) / Math.log(max / low))
-      : value => (1000 * (value - min)) / (max - min);
-    return { toValue, toPart };
-  }
-
-  function row(quantity) {
-    const { factor, text: unit } = words.unit(quantity.unit);
-    const { toValue, toPart } = scale(quantity);
-    const place = by("quantity").content.firstElementChild.cloneNode(true);
-    const [label, range, number, unitPlace, usual] = [
-      ".name",
-      "input[type=range]",
-      "input[type=number]",
-      ".unit",
-      ".usual",
-    ].map(name => place.querySelector(name));
-    label.textContent = words.capital(quantity.label);
-    range.setAttribute("aria-label", `${quantity.label}, slider`);
-    number.setAttribute("aria-label", `${quantity.label}${unit ? `, ${unit}` : ""}`);
-    range.dataset.key = quantity.key;
-    Object.assign(number, { min: quantity.min * factor, max: quantity.max * factor, step: "any" });
-    unitPlace.textContent = unit;
-    usual.textContent = `as new ${words.short(quantity.value * factor)}${unit ? ` ${unit}` : ""}`;
-    const send = value => each({ action: "damper", key: quantity.key, value: Number((value / factor).toPrecision(5)) });
-    live.controls.pair(range, number, send, {
-      toValue: part => toValue(part) * factor,
-      toPart: value => toPart(value / factor),
-    });
-    range.addEventListener("input", () => range.setAttribute("aria-valuetext", `${number.value} ${unit}`.trim()));
-    const show = value => {
-      if ([range, number].includes(document.activeElement) && !isForced) return;
-      number.value = Number((value * factor).toPrecision(3));
-      range.value = toPart(value);
-      range.setAttribute("aria-valuetext", `${number.value} ${unit}`.trim());
-      place.classList.toggle("changed", Math.abs(value - quantity.value) > 1e-6 * Math.abs(quantity.max));
-    };
-    let isForced = true;
-    show(quantity.value);
-    isForced = false;
-    return { place, key: quantity.key, show };
-  }
-
   // Quantities of the first chosen damper. A preset may be of another kind, whose quantities the status then lists.
   function quantities() {
     const number = live.view.dampers[0];
     const state = live.status?.dampers?.[number];
     const list = state?.quantities ?? live.scene.dampers[number].quantities;
-    return list.filter(({ key }) => !state || key in state.values);
+    return list.filter(({ key }) => !state?.values || key in state.values);
   }
 
   const keys = list => list.map(({ key }) => key).join();
 
   function fill() {
-    rows = quantities().map(row);
+    // Nobody knows whether the dampers of a target are new.
+    const origin = live.sources.isTarget() ? "at the start" : "as new";
+    const change = key => value => each({ action: "damper", key, value });
+    rows = quantities().map(quantity => live.quantity.row(quantity, origin, change(quantity.key)));
     by("quantities").replaceChildren(...rows.map(({ place }) => place));
   }
 
@@ -90,7 +43,7 @@
     by("outside").hidden = !damper.outside;
     const text =
       live.view.dampers.length > 1
-        ? `${live.view.dampers.length} dampers change together. The loop shows the first.`
+        ? `${live.sources.isRecording() ? "" : `${live.view.dampers.length} dampers change together. `}${LOOP}`
         : "";
     live.verdict.put("damper-count", text);
     live.verdict.put("loop-name", words.capital(damper.name));
@@ -101,9 +54,10 @@
   function status() {
     const number = live.view.dampers[0];
     const state = live.status?.dampers?.[number];
-    if (!state) return;
+    if (!state?.values) return;
     if (keys(rows) !== keys(quantities())) fill();
     for (const { key, show } of rows) if (key in state.values) show(state.values[key]);
+    if (!live.sources.isVehicle()) return;
     const changed = live.scene.dampers.filter((_, n) => live.vehicle.changed(n)).length;
     const fault = live.scene.faults.find(({ id }) => id === state.fault);
     live.verdict.put(
@@ -144,13 +98,14 @@
     ]);
     const together = kinds
       .filter(([numbers]) => numbers.length > 0)
-      .map(([numbers, text]) => [numbers, `All ${numbers.length} ${text}`]);
+      .map(([numbers, text]) => [numbers, `All ${numbers.length} ${live.sources.isTarget() ? "dampers" : text}`]);
     const single = dampers.map(({ name }, n) => [[n], words.capital(name)]);
     by("damper").replaceChildren(group("Together", together), group("One damper", single));
-    const first = together[0]?.[0] ?? [0];
+    // A change of all dampers of a target at once must be meant.
+    const first = together[0]?.[0].slice(0, live.sources.isVehicle() ? undefined : 1) ?? [0];
     const isKnown = live.view.dampers.length > 0 && live.view.dampers.every(number => dampers[number]);
     if (dampers.length > 0) choose(isKnown ? live.view.dampers : first);
-    chooseWheelset(Math.min(live.view.wheelset, live.scene.wheelsets.length - 1));
+    chooseWheelset(Math.max(0, Math.min(live.view.wheelset, live.scene.wheelsets.length - 1)));
   }
 
   function start() {

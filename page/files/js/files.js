@@ -53,9 +53,15 @@
     context.scale(2, 2);
     context.fillStyle = colours.paper;
     context.fillRect(0, 0, width, height);
-    text(context, `${live.scene.vehicle}, ${live.scene.case}`, gap, 30, { colour: "ink", size: 17, weight: 600 });
-    const now = `${by("speed-now").textContent} km/h, ${by("time-now").textContent}`;
-    const state = `${by("verdict-text").textContent}. Displacements times ${live.view.exaggeration}.`;
+    const { recording, target, vehicle, case: course } = live.scene;
+    const subject = target
+      ? `Target at ${target.line}`
+      : `${vehicle}, ${course}${recording ? `, ${recording.name}` : ""}`;
+    text(context, subject, gap, 30, { colour: "ink", size: 17, weight: 600 });
+    const speed = target ? "" : `${by("speed-now").textContent} km/h, `;
+    const now = `${speed}${by("time-now").textContent}`;
+    const drawn = target ? "" : ` Displacements times ${live.view.exaggeration}.`;
+    const state = `${by("verdict-text").textContent}.${drawn}`;
     text(context, `${now}. ${state}`, gap, 50);
     let y = head;
     for (const surface of shown) {

@@ -6,6 +6,9 @@
   const HEADER = 48;
   // Frames that are kept: 40 s at 200 frames a second.
   const ROWS = 8192;
+  // Rows of a signal that lie together. So many rows of all signals fit into the cache of a processor: frames are
+  // written fast, which matters in a burst, and a signal is read fast.
+  const BLOCK = 16;
   const FLAGS = { ended: 1, invalid: 2, stopped: 4, slow: 8 };
 
   function decode(buffer) {
@@ -29,7 +32,7 @@
     };
   }
 
-  // Columns of numbers, one for each signal, that overwrite their oldest rows.
+  // Numbers of each signal in rows, of which the newest overwrite the oldest.
   class History {
     constructor(signals) {
       this.signals = signals;
@@ -54,12 +57,18 @@
       const row = this.end++ % ROWS;
       this.times[row] = frame.time_s;
       this.distances[row] = frame.distance_m;
-      for (let signal = 0, at = row; signal < this.signals; signal++, at += ROWS) {
+      for (let signal = 0, at = this.place(0, row); signal < this.signals; signal++, at += BLOCK) {
         this.last[at] = frame.last[signal];
         this.least[at] = frame.least[signal];
         this.greatest[at] = frame.greatest[signal];
       }
       return isBack;
+    }
+
+    // Where a row of a signal is in `last`, `least` and `greatest`.
+    place(signal, row) {
+      const at = row % ROWS;
+      return (Math.floor(at / BLOCK) * this.signals + signal) * BLOCK + (at % BLOCK);
     }
 
     get start() {
@@ -77,28 +86,34 @@
       return from;
     }
 
-    // Least and greatest of a signal in the last seconds.
+    // Least and greatest of a signal in the last seconds; NaN if it is not known.
     range(signal, seconds) {
       let [least, greatest] = [Infinity, -Infinity];
       if (signal === undefined || !this.newest) return [NaN, NaN];
       for (let i = this.after(this.newest.time_s - seconds); i < this.end; i++) {
-        const at = signal * ROWS + (i % ROWS);
-        least = Math.min(least, this.least[at]);
-        greatest = Math.max(greatest, this.greatest[at]);
+        const at = this.place(signal, i);
+        // A comparison with NaN is false, so values that are not known do not count.
+        if (this.least[at] < least) least = this.least[at];
+        if (this.greatest[at] > greatest) greatest = this.greatest[at];
       }
-      return [least, greatest];
+      return least <= greatest ? [least, greatest] : [NaN, NaN];
     }
   }
 
-  // Value of a signal by name in the newest frame of a run; 0 before the first frame.
-  function value(name, run = 0) {
+  // Value of a signal by name in the newest frame of a run; NaN if it is not known.
+  function reading(name, run = 0) {
     const at = live.index?.get(name);
     const frame = live.histories?.[run]?.newest;
-    const found = at === undefined || !frame ? 0 : frame.last[at];
+    return at === undefined || !frame ? NaN : frame.last[at];
+  }
+
+  // The same for drawings of the vehicle: what is not known is at rest.
+  function value(name, run = 0) {
+    const found = reading(name, run);
     return Number.isFinite(found) ? found : 0;
   }
 
   const has = run => Boolean(live.histories?.[run]?.newest);
 
-  Object.assign(live, { frames: { decode, History, value, has, ROWS, FLAGS } });
+  Object.assign(live, { frames: { decode, History, reading, value, has, ROWS, FLAGS } });
 }

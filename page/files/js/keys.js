@@ -13,11 +13,13 @@
   // Without a rig, Space keeps its usual meaning on a button or in a list.
   const takesSpace = ({ target }) => target.matches?.("button, select, summary, a");
 
+  // A target is neither paused nor stepped.
   const KEYS = {
-    k: () => live.controls.toggle(),
-    s: () => live.controls.step(),
-    c: () => live.controls.compare(),
+    k: () => !live.sources.isTarget() && live.controls.toggle(),
+    s: () => !live.sources.isTarget() && live.controls.step(),
+    c: () => live.sources.isVehicle() && live.controls.compare(),
     l: () => live.panels.follow(),
+    0: () => live.sources.isRecording() && live.replay.toStart(),
   };
 
   function press(event) {
@@ -36,7 +38,8 @@
       }
       return;
     }
-    if (/^[1-9]$/.test(event.key) && live.scene.wheelsets[Number(event.key) - 1])
+    if (live.sources.isTarget() && live.scene.dampers[event.key]) live.dampers.choose([Number(event.key)]);
+    else if (/^[1-9]$/.test(event.key) && live.scene.wheelsets[Number(event.key) - 1])
       live.dampers.chooseWheelset(Number(event.key) - 1);
     else if (KEYS[event.key] && !event.target.matches?.("select")) KEYS[event.key]();
   }

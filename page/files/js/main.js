@@ -6,9 +6,13 @@
 
   // Drawing stops for this frame after so much time; what is left comes first in the next frame.
   const BUDGET_MS = 3.5;
+  // The same for views that have their turn together.
+  const GROUP_MS = 5;
   // So many drawings at most for a frame: without a graphics processor, the browser fills their areas after the script.
   const VIEWS = 4;
   const WRITE_MS = 250;
+  // While a burst of frames is taken.
+  const BUSY_MS = 1000;
   const SUMMARY_MS = 2000;
 
   live.setup = JSON.parse(by("setup").textContent);
@@ -37,12 +41,16 @@
   function scene(message) {
     const isSame = JSON.stringify(message.signals) === JSON.stringify(live.scene?.signals);
     live.scene = message;
+    live.inbox.clear();
     live.defects = [];
     live.index = new Map(message.signals.map(({ name }, number) => [name, number]));
     live.histories = [new live.frames.History(message.signals.length)];
     for (const view of live.paint.views) view.fit();
     live.curves.reset();
+    live.sources.scene();
     live.controls.scene();
+    live.replay.scene();
+    live.target.scene();
     live.verdict.restart();
     // In tasks of their own, so that none is long.
     setTimeout(() => live.dampers.scene());
@@ -55,7 +63,6 @@
       setTimeout(() => live.choices.scene());
     }
     live.panels.tell();
-    document.body.dataset.source = message.source;
     by("waiting").hidden = true;
     by("exaggeration").value = live.view.exaggeration;
   }
@@ -67,26 +74,49 @@
     if (!live.scene) return;
     live.controls.status();
     live.dampers.status();
+    live.target.status();
     live.files.status();
     if (live.scene && message.setting?.choice) live.setup.choice = message.setting.choice;
     live.paint.refresh();
   }
 
+  function take(buffer) {
+    const frame = live.frames.decode(buffer);
+    const history = (live.histories[frame.run] ??= new live.frames.History(frame.last.length));
+    const isFirst = !history.newest;
+    const isBack = history.push(frame);
+    if (isBack && frame.run === 0) {
+      live.histories[1]?.clear();
+      live.curves.reset();
+      live.verdict.restart();
+    }
+    if (isFirst && live.sources.isRecording()) known();
+    received++;
+  }
+
+  // The first frame of a recording tells which signals it has.
+  function known() {
+    if (knownOf === live.scene) return;
+    knownOf = live.scene;
+    setTimeout(() => {
+      live.choices.scene();
+      const isThere = ({ slug }) => live.panels.isKnown(slug + "_force_n");
+      const { dampers } = live.scene;
+      if (!live.view.dampers.some(number => isThere(dampers[number]))) {
+        const first = dampers.findIndex(isThere);
+        if (first >= 0) live.dampers.choose([first]);
+      }
+      if (!live.panels.names().every(live.panels.isKnown)) live.panels.show(live.panels.usual());
+    });
+  }
+
   const handlers = {
     frame(buffer) {
-      if (!live.histories) return;
-      const frame = live.frames.decode(buffer);
-      const history = (live.histories[frame.run] ??= new live.frames.History(frame.last.length));
-      const isBack = history.push(frame);
-      if (isBack && frame.run === 0) {
-        live.histories[1]?.clear();
-        live.curves.reset();
-        live.verdict.restart();
-      }
-      received++;
+      if (live.histories) live.inbox.push(buffer, take);
     },
     message(message) {
       if (message.type === "scene") scene(message);
+      else if (message.type === "sought") sought(message);
       else if (message.type === "status") status(message);
       else if (message.type === "health") live.verdict.health(message);
       else if (message.type === "file") live.files.file(message);
@@ -98,8 +128,15 @@
     },
   };
 
-  // Number of frames so far.
+  // Frames before a jump belong to another time.
+  function sought(message) {
+    live.inbox.clear();
+    live.replay.sought(message);
+  }
+
+  // Number of frames so far, and the recording whose signals are known.
   let received = 0;
+  let knownOf = null;
   const written = { at: 0, summary: 0 };
 
   // The views whose turn it is, most overdue first.
@@ -114,14 +151,17 @@
       view.paint();
       Object.assign(view, { drawn: now, frame: received });
     };
+    let count = 0;
     for (const view of due(now).slice(0, VIEWS)) {
-      if (performance.now() - start > BUDGET_MS) break;
+      // One at least, so that a slow machine draws, too.
+      if (count > 0 && performance.now() - start > BUDGET_MS) break;
       if (view.drawn === now) continue;
+      count++;
       turn(view);
       // Views with a common time have their turn together, so that their times agree.
       const others = view.group ? live.paint.views.filter(other => other.group === view.group) : [];
       for (const other of others)
-        if (other.drawn !== now && other.isSeen && performance.now() - start < 2 * BUDGET_MS) turn(other);
+        if (other.drawn !== now && other.isSeen && performance.now() - start < GROUP_MS) turn(other);
     }
   }
 
@@ -137,8 +177,12 @@
   // Texts have a frame of the screen for themselves.
   function draw(now) {
     const start = performance.now();
-    if (live.scene && now - written.at > WRITE_MS) write(now);
-    else paint(now, start);
+    // What arrived since the last frame of the screen has used some of the time of this one.
+    const begin = start - live.timing.pending_ms;
+    const isBusy = live.scene && live.inbox.drain(take);
+    live.replay.write();
+    if (live.scene && now - written.at > (isBusy ? BUSY_MS : WRITE_MS)) write(now);
+    else paint(now, begin);
     live.timing.count(performance.now() - start);
     requestAnimationFrame(draw);
   }
@@ -147,12 +191,20 @@
 
   // In tasks of their own, so that none is long.
   async function start() {
-    const { controls, dampers, cases, setting, files, keys, choices, pick, bars } = live;
-    for (const part of [controls, dampers, cases, setting, files, keys, choices, pick, bars]) {
+    const { controls, dampers, cases, setting, files, keys, choices, pick, bars, tries, replay, target } = live;
+    for (const part of [controls, dampers, cases, setting, files, keys, choices, pick, bars, tries, replay, target]) {
       part.start();
       await pause();
     }
-    for (const view of [live.drawSide, live.drawAbove, live.drawBehind, live.drawContact, live.drawLoops]) view();
+    for (const view of [
+      live.drawSide,
+      live.drawAbove,
+      live.drawBehind,
+      live.drawContact,
+      live.drawLoops,
+      live.drawSlots,
+    ])
+      view();
     requestAnimationFrame(draw);
     const linked = await live.setting.read();
     live.setting.look(linked?.view);

@@ -57,6 +57,8 @@
     };
     // The width comes from the observer, because asking the page for it would force a layout.
     surface.fit = (width = surface.width) => {
+      // A canvas that is not shown has no width.
+      surface.width = width;
       if (width === 0) return;
       const ratio = Math.min(2, devicePixelRatio || 1);
       Object.assign(surface, { width, height: Math.round(height(width)), ratio, isStale: true });

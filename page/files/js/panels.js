@@ -5,6 +5,9 @@
   const { paint, words, curves } = live;
   const { panels, shown } = curves;
 
+  // Dampers of a target whose curves are shown first, and signals of a recording without those of a wheelset.
+  const SLOTS = 3;
+  const SIGNALS = 6;
   const WINDOWS_S = [0.5, 1, 2, 5, 10, 20, 40];
   const place = () => document.getElementById("panels");
   const element = (name, properties = {}, ...children) => {
@@ -27,13 +30,19 @@
     const number = live.index.get(name);
     if (number === undefined || panels.some(panel => panel.traces.some(trace => trace.name === name))) return;
     const signal = live.scene.signals[number];
+    // What a target measures and what the model says are beside each other, each damper by itself.
+    const damper = live.sources.isTarget() ? name.match(/^(.+?)(?:_model)?_force_n$/)?.[1] : null;
+    const isModel = Boolean(damper) && name.endsWith("_model_force_n");
     const kind =
-      signal.unit + (name.match(/_(acceleration|derailment|load_n|contact_m|lateral_force_n|force_n)/)?.[1] ?? "");
+      (damper ?? "") +
+      signal.unit +
+      (name.match(/_(acceleration|derailment|load_n|contact_m|lateral_force_n|force_n)/)?.[1] ?? "");
     let panel = panels.find(panel => panel.kind === kind && panel.traces.length < curves.LETTERS.length);
     if (!panel) panels.push((panel = make(kind, signal.unit)));
     const taken = panel.traces.map(({ colour }) => colour);
-    const colour = [1, 2, 3, 4, 5, 6].map(n => "series-" + n).find(colour => !taken.includes(colour)) ?? "series-1";
-    panel.traces.push({ name, colour, label: signal.label, runs: [0, 1].map(run => new curves.Trace(name, run)) });
+    const usual = [1, 2, 3, 4, 5, 6].map(n => "series-" + n).find(colour => !taken.includes(colour)) ?? "series-1";
+    const runs = [0, 1].map(run => new curves.Trace(name, run));
+    panel.traces.push({ name, colour: usual, isModel, label: signal.label, runs });
     panel.limits = [...new Set(panel.traces.flatMap(({ name }) => limits(name)))];
     legend(panel);
   }
@@ -113,10 +122,29 @@
     list.forEach(add);
   }
 
-  // What tells a beginner most: how the first wheelset swings, its forces, and the force of the first damper.
+  // What a recording lacks is not shown. Before the first frame nobody knows.
+  const isKnown = name =>
+    !live.sources.isRecording() || !live.frames.has(0) || !Number.isNaN(live.frames.reading(name));
+
+  // Of a target: how the first dampers move, and their forces with those of the model.
+  const ofTarget = () =>
+    ["_displacement_m", "_force_n", "_model_force_n"].flatMap(name =>
+      live.scene.dampers.slice(0, SLOTS).map(({ slug }) => slug + name),
+    );
+
   function usual() {
+    if (live.sources.isTarget()) return ofTarget();
+    const known = ofVehicle().filter(isKnown);
+    if (known.length > 0) return known;
+    const measured = live.scene.signals.map(({ name }) => name).filter(name => !/^(time_s|distance_m)$/.test(name));
+    return measured.filter(isKnown).slice(0, SIGNALS);
+  }
+
+  // What tells a beginner most: how the first wheelset swings, its forces, and the force of the first damper.
+  function ofVehicle() {
     const [set, last] = [live.scene.wheelsets[0], live.scene.wheelsets[live.scene.wheelsets.length - 1]];
     const yaw = live.scene.dampers.find(({ direction }) => direction === "longitudinal") ?? live.scene.dampers[0];
+    if (!set) return yaw ? [yaw.slug + "_force_n"] : [];
     const list = [
       set.slug + "_lateral_m",
       last.slug + "_lateral_m",
@@ -142,7 +170,7 @@
   }
 
   function hold(from) {
-    shown.from = Math.max(0, Math.min(from, curves.newest() - 0.2 * shown.window_s));
+    shown.from = Math.max(curves.start(), Math.min(from, curves.newest() - 0.2 * shown.window_s));
     paint.refresh();
     tell();
   }
@@ -156,9 +184,11 @@
   function tell() {
     const isLive = shown.from === null;
     document.getElementById("curves-live").disabled = isLive;
+    document.getElementById("curves-live").textContent = live.sources.isRecording() ? "Now" : "Live";
     document.getElementById("curves-hold").disabled = !isLive;
     document.getElementById("window").textContent = `${shown.window_s} s`;
-    document.getElementById("curves-state").textContent = isLive ? "live" : "held";
+    const now = live.sources.isRecording() ? "up to the time above" : "live";
+    document.getElementById("curves-state").textContent = isLive ? now : "held";
   }
 
   function cursor(part) {
@@ -197,7 +227,7 @@
       ArrowRight: () => cursor((shown.cursor ?? 1) + 0.01),
       PageUp: () => hold(curves.from() - 0.5 * shown.window_s),
       PageDown: () => hold(curves.from() + 0.5 * shown.window_s),
-      Home: () => hold(0),
+      Home: () => hold(curves.start()),
       End: () => (cursor(null), follow()),
       "+": () => zoom(-1),
       "-": () => zoom(1),
@@ -219,5 +249,5 @@
       }
   }
 
-  Object.assign(live, { panels: { add, show, names, usual, zoom, hold, follow, tell, write, clear } });
+  Object.assign(live, { panels: { add, show, names, usual, isKnown, zoom, hold, follow, tell, write, clear } });
 }

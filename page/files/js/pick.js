@@ -8,14 +8,14 @@
 
   // Forgets the places of a drawing before it is drawn again.
   const clear = canvas => places.set(canvas, []);
-  // Notes where a drawing shows something: `choice` is {damper} or {wheelset}.
+  // Notes where a drawing shows something: `choice` is {damper} or {wheelset}, and how far it reaches.
   const note = (context, [x, y], choice) => places.get(context.canvas)?.push({ x, y, ...choice });
 
   function nearest(event) {
-    let [found, least] = [null, REACH_PX];
+    let [found, least] = [null, Infinity];
     for (const place of places.get(event.currentTarget) ?? []) {
       const distance = Math.hypot(place.x - event.offsetX, place.y - event.offsetY);
-      if (distance < least) [found, least] = [place, distance];
+      if (distance < Math.min(least, place.reach ?? REACH_PX)) [found, least] = [place, distance];
     }
     return found;
   }
@@ -27,7 +27,7 @@
   }
 
   function start() {
-    for (const id of ["side", "above"]) {
+    for (const id of ["side", "above", "slots"]) {
       const canvas = document.getElementById(id);
       canvas.addEventListener("click", choose);
       canvas.addEventListener("pointermove", event => (canvas.style.cursor = nearest(event) ? "pointer" : ""));

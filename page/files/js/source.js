@@ -72,7 +72,9 @@
     const token = hash.get("token") ?? query.get("token");
     const place = new URL("/live", location.href);
     place.protocol = location.protocol === "https:" ? "wss:" : "ws:";
-    place.search = token ? `?token=${encodeURIComponent(token)}` : "";
+    // A page that is opened as `?role=viewer` only watches.
+    const asked = { token, role: query.get("role") };
+    place.search = new URLSearchParams(Object.entries(asked).filter(([, value]) => value)).toString();
     place.hash = "";
     let [connection, tries] = [null, 0];
     const connect = () => {

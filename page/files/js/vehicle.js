@@ -44,7 +44,7 @@
   const bodyAt = x => live.scene.bodies.find(body => body.kind === "body" && carries(body, x)) ?? live.scene.bodies[0];
 
   // Ends of a damper in the drawing [x, y, height, middle of the body], moved with their bodies. Ends at one point are
-  // apart along the direction of the damper.
+  // drawn apart, in the direction of the damper around that point, so that one sees and picks the damper.
   const APART = { vertical: [0, 0, 0.62], lateral: [0, 0.55, 0], longitudinal: [0.72, 0, 0] };
   function ends(damper, run = 0) {
     const [first, second] = damper.ends_m;
@@ -56,9 +56,10 @@
         : damper.direction === "longitudinal"
           ? inwards(first[0])
           : 1;
-    const other = gap > 0.25 ? second : first.map((at, axis) => at + side * away[axis]);
+    const apart = sign => first.map((at, axis) => 0.5 * (at + second[axis] + sign * side * away[axis]));
+    const [from, to] = gap > 0.25 ? [first, second] : [apart(-1), apart(1)];
     const [lower, upper] = carriers(damper);
-    return [moved(first, lower, run), moved(other, upper, run)];
+    return [moved(from, lower, run), moved(to, upper, run)];
   }
 
   // The bodies at the ends of a damper; the frame first, then the body, if the source does not tell.
@@ -111,14 +112,19 @@
     return `curve to the ${way}, radius ${radius > 20000 ? "over 20 km" : `${radius} m`}${tilt}`;
   }
 
-  const distance = () => live.histories?.[0]?.newest?.distance_m ?? live.scene?.start_m ?? 0;
+  // A recording may lack the distance; then the vehicle stands at its start.
+  const distance = () => {
+    const known = live.histories?.[0]?.newest?.distance_m;
+    return Number.isFinite(known) ? known : (live.scene?.start_m ?? 0);
+  };
   // Speed over the newest half second of the run, else the wanted one.
   function speed() {
     const history = live.histories?.[0];
     if (history?.newest && history.end - history.start > 10) {
       const from = history.after(history.newest.time_s - 0.5) % live.frames.ROWS;
       const time = history.newest.time_s - history.times[from];
-      if (time > 0.02) return (history.newest.distance_m - history.distances[from]) / time;
+      const way = history.newest.distance_m - history.distances[from];
+      if (time > 0.02 && Number.isFinite(way)) return way / time;
     }
     return (live.status?.speed_km_h ?? 0) / 3.6;
   }

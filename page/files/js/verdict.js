@@ -35,6 +35,7 @@
   };
 
   function verdict() {
+    if (live.sources.isTarget()) return live.target.verdict();
     const found = Object.keys(LONG)
       .map(name => [name, bars.worst(name)])
       .filter(([, worst]) => worst);
@@ -48,7 +49,8 @@
     const rank = { within: 0, near: 1, over: 2 };
     const [name, worst] = found.sort((a, b) => rank[b[1].state] - rank[a[1].state])[0] ?? [];
     if (live.status?.ended) return ["over", `Ended: ${live.status.ended}`];
-    if (!worst) return ["within", "Not started"];
+    const isWithout = live.sources.isRecording() && live.histories?.[0]?.newest;
+    if (!worst) return ["within", isWithout ? "The recording has no forces of wheels" : "Not started"];
     if (worst.state === "within") return ["within", "All wheels are within their limits"];
     const sentence = words.capital(SHORT[name](worst));
     return [worst.state, flags & frames.FLAGS.invalid ? `${sentence}; outside the validity of the model` : sentence];
@@ -67,12 +69,13 @@
   }
 
   function summary() {
+    if (live.sources.isTarget()) return live.target.summary();
     const history = live.histories[0];
     const swings = live.scene.wheelsets.map(set => {
       const [least, greatest] = history.range(live.index.get(set.slug + "_lateral_m"), 2);
       return greatest - least;
     });
-    const most = swings.reduce((best, swing, n) => (swing > swings[best] ? n : best), 0);
+    const most = swings.reduce((best, swing, n) => (swings[best] >= swing ? best : n), 0);
     const sentences = [
       `${words.capital(live.scene.vehicle)}, ${words.fixed(vehicle.speed() * 3.6, 0)} km/h.`,
       `${words.capital(vehicle.courseInWords(vehicle.distance()))}.`,
@@ -85,6 +88,7 @@
       const worst = bars.worst(name);
       if (worst) sentences.push(`${words.capital(LONG[name](worst))}: ${words.STATES[worst.state].word}.`);
     }
+    if (live.sources.isRecording()) return put("summary", sentences.join(" "));
     const worn = live.scene.dampers.filter((_, number) => vehicle.changed(number));
     sentences.push(
       worn.length === 0 ? "All dampers are as new." : `Not as new: ${worn.map(({ name }) => name).join(", ")}.`,
@@ -121,6 +125,8 @@
       return row;
     });
     by("health-rows").replaceChildren(...rows);
+    // A source without health has no place for it.
+    if (rows.length > 0) by("health-table").closest(".card").classList.remove("elsewhere");
     by("health-none").hidden = rows.length > 0;
     by("health-table").hidden = rows.length === 0;
     const alarms = readings.filter(isAlarm).length;
@@ -131,7 +137,8 @@
   function measurePace(now) {
     const newest = live.histories?.[0]?.newest;
     if (!newest) return;
-    if (newest.time_s < pace.time_s) Object.assign(pace, { at: now, time_s: newest.time_s });
+    // What is before the time to which a recording went came in a burst.
+    if (newest.time_s < pace.time_s || live.replay.isBehind()) Object.assign(pace, { at: now, time_s: newest.time_s });
     if (now - pace.at < 900) return;
     if (pace.at > 0) pace.reached = (1000 * (newest.time_s - pace.time_s)) / (now - pace.at);
     Object.assign(pace, { at: now, time_s: newest.time_s });
@@ -144,6 +151,9 @@
     const reached = Number.isFinite(pace.reached) ? `${words.fixed(pace.reached, 2)} times real time` : "–";
     put("reached", wanted === 0 ? "paused" : reached);
     put("slower", newest && newest.flags & frames.FLAGS.slow ? "▲ slower than wanted" : "");
+    const { mean_ms, greatest_ms, frames: count } = live.timing;
+    const page = `${words.fixed(mean_ms, 1)} ms of script a frame, at most ${words.fixed(greatest_ms, 1)} ms`;
+    put("page-timing", `This page: ${page} in ${count} frames.`);
     if (!newest || !(newest.work_us > 0)) return;
     const tick = 1e6 * live.scene.step_s;
     put("work-mean", `${words.short(newest.work_us)} µs`);
@@ -153,16 +163,14 @@
       `${words.fixed((100 * newest.work_us) / tick, 1)} % of the ${words.short(tick / 1000)} ms of a tick.`,
     );
     by("work-bar").value = Math.min(1, newest.work_us / tick);
-    const { mean_ms, greatest_ms, frames: count } = live.timing;
-    const page = `${words.fixed(mean_ms, 1)} ms of script a frame, at most ${words.fixed(greatest_ms, 1)} ms`;
-    put("page-timing", `This page: ${page} in ${count} frames.`);
   }
 
   function readouts() {
     const newest = live.histories?.[0]?.newest;
-    put("speed-now", words.fixed(vehicle.speed() * 3.6, 0));
+    const isKnown = !live.sources.isRecording() || Number.isFinite(newest?.distance_m) || live.status?.speed_km_h > 0;
+    put("speed-now", isKnown ? words.fixed(vehicle.speed() * 3.6, 0) : "–");
     put("time-now", newest ? words.duration(newest.time_s) : "0.0 s");
-    put("distance-now", words.distance(vehicle.distance()));
+    put("distance-now", newest ? words.distance(newest.distance_m) : words.distance(vehicle.distance()));
   }
 
   // Called a few times a second.

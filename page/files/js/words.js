@@ -39,15 +39,20 @@
   // A number in the written unit of its data.
   const quantity = (value, name, digits) => {
     const { factor, text, digits: usual } = unit(name);
+    if (!Number.isFinite(value)) return "–";
     const number = Number.isFinite(digits ?? usual) ? fixed(value * factor, digits ?? usual) : short(value * factor);
     return text ? `${number} ${text}` : number;
   };
 
   const duration = seconds => {
+    if (!Number.isFinite(seconds)) return "–";
     if (seconds < 60) return `${fixed(seconds, 1)} s`;
     return `${Math.floor(seconds / 60)} min ${fixed(seconds % 60, 0)} s`;
   };
-  const distance = metres => (Math.abs(metres) < 1000 ? `${fixed(metres, 0)} m` : `${fixed(metres / 1000, 2)} km`);
+  const distance = metres => {
+    if (!Number.isFinite(metres)) return "–";
+    return Math.abs(metres) < 1000 ? `${fixed(metres, 0)} m` : `${fixed(metres / 1000, 2)} km`;
+  };
 
   const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
 
