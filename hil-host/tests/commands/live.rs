@@ -231,28 +231,26 @@ fn a_viewer_who_never_reads_loses_frames_and_nobody_else_notices() {
 }
 
 #[test]
-fn signals_end_the_run_with_a_whole_report() {
-    for signal in ["-INT", "-TERM"] {
-        let (live, folder) = live(&["--record", "run.mf4"]);
-        let (mut viewer, _) = operator(&live);
-        viewer.status(|status| status["recorded_ticks"].as_u64().unwrap() > 0);
-        live.signal(signal);
-        let texts = viewer.rest();
-        assert!(texts.last().unwrap()["ended"].is_string());
-        let ended = live.end();
-        assert!(ended.status.success());
-        let report = &ended.report;
-        assert_eq!(report["ending"]["reason"], "interrupted");
-        assert_eq!(report["realtime"]["spreads"].as_array().unwrap().len(), 3);
-        assert_eq!(report["viewers"]["came"], 1);
-        let [ticks, recorded] =
-            [&report["ticks"], &report["recording"]["ticks"]].map(|n| n.as_u64().unwrap());
-        let missing = report["unobserved_ticks"].as_u64().unwrap();
-        assert_eq!(recorded + missing, ticks);
-        let channels = ["channels", "run.mf4", "--format", "json"];
-        let channels = json_of(&dashpot(&channels, folder.path()));
-        assert_eq!(rows(&channels), recorded);
-    }
+fn a_signal_ends_the_run_with_a_whole_report() {
+    let (live, folder) = live(&["--record", "run.mf4"]);
+    let (mut viewer, _) = operator(&live);
+    viewer.status(|status| status["recorded_ticks"].as_u64().unwrap() > 0);
+    live.signal("-TERM");
+    let texts = viewer.rest();
+    assert!(texts.last().unwrap()["ended"].is_string());
+    let ended = live.end();
+    assert!(ended.status.success());
+    let report = &ended.report;
+    assert_eq!(report["ending"]["reason"], "interrupted");
+    assert_eq!(report["realtime"]["spreads"].as_array().unwrap().len(), 3);
+    assert_eq!(report["viewers"]["came"], 1);
+    let [ticks, recorded] =
+        [&report["ticks"], &report["recording"]["ticks"]].map(|n| n.as_u64().unwrap());
+    let missing = report["unobserved_ticks"].as_u64().unwrap();
+    assert_eq!(recorded + missing, ticks);
+    let channels = ["channels", "run.mf4", "--format", "json"];
+    let channels = json_of(&dashpot(&channels, folder.path()));
+    assert_eq!(rows(&channels), recorded);
 }
 
 /// Rows of a recording, in the report of `dashpot channels`.

@@ -99,12 +99,12 @@ pub fn wait_for_rows(child: &mut Child, folder: &Path, rows: usize) {
     }
 }
 
-/// Interrupts a command as Ctrl-C does.
+/// Asks a command to end. Ctrl-C does the same, but a test in the background may ignore it.
 #[cfg(unix)]
 pub fn interrupt(child: &Child) {
     let id = child.id().to_string();
     let kill = std::process::Command::new("kill")
-        .args(["-INT", &id])
+        .args(["-TERM", &id])
         .status();
     assert!(kill.unwrap().success());
 }

@@ -425,7 +425,7 @@ fn an_interrupted_run_keeps_what_was_computed() {
         std::thread::yield_now();
     }
     let status = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
+        .args(["-TERM", &child.id().to_string()])
         .status();
     assert!(status.unwrap().success());
     let ended = child.wait_with_output().unwrap();

@@ -94,7 +94,7 @@ impl Live {
         Viewer { socket, asked: 0 }
     }
 
-    /// Sends a signal, such as `-INT`.
+    /// Sends a signal, such as `-TERM`.
     pub fn signal(&self, signal: &str) {
         let mut kill = std::process::Command::new("kill");
         let status = kill.args([signal, &self.child.id().to_string()]).status();

@@ -166,7 +166,7 @@ fn an_interruption_ends_the_watch() {
     use std::os::unix::process::ExitStatusExt;
     use std::process::Command;
 
-    const SIGINT: i32 = 2;
+    const SIGTERM: i32 = 15;
     let rig = running();
     let mut watch = watch(&rig);
     let mut lines = BufReader::new(watch.stdout.take().unwrap()).lines();
@@ -175,12 +175,12 @@ fn an_interruption_ends_the_watch() {
     let id = watch.id().to_string();
     assert!(
         Command::new("kill")
-            .args(["-INT", &id])
+            .args(["-TERM", &id])
             .status()
             .unwrap()
             .success()
     );
     // Keep reading, so that the command does not block.
     lines.for_each(drop);
-    assert_eq!(watch.wait().unwrap().signal(), Some(SIGINT));
+    assert_eq!(watch.wait().unwrap().signal(), Some(SIGTERM));
 }

@@ -6,11 +6,9 @@ use dashpot_recording::Signals;
 /// Time of a frame, s, so that loops are smooth. Faster than real time it grows with the speed.
 const FRAME_S: f64 = 0.005;
 
-/// What a page shows before the time that it is turned to, s.
-const WINDOW_S: f64 = 20.0;
-
-/// Time of a frame of the window, s.
-const WINDOW_FRAME_S: f64 = 0.02;
+/// What a page shows before the time that it is turned to: this long, s, in frames of this time, s. The curves of the
+/// last seconds are as smooth as while it runs.
+const WINDOW: [(f64, f64); 2] = [(20.0, 0.02), (3.0, FRAME_S)];
 
 /// A recording and the time on it.
 pub(super) struct Player {
@@ -74,11 +72,16 @@ impl Player {
     pub fn seek(&mut self, time_s: f64, frames: &mut Vec<Vec<u8>>) {
         let [start_s, end_s] = self.ends_s();
         self.time_s = time_s.clamp(start_s, end_s);
-        let times_s = self.signals.times_s();
-        let begin_s = self.time_s - WINDOW_S;
-        self.next = times_s.partition_point(|row_s| *row_s < begin_s);
+        let begin_s = self.time_s - WINDOW[0].0;
+        self.next = self
+            .signals
+            .times_s()
+            .partition_point(|row_s| *row_s < begin_s);
         self.frame = Frame::new(self.frame.last().len());
-        self.show(WINDOW_FRAME_S, frames);
+        for (place, (_, frame_s)) in WINDOW.iter().enumerate() {
+            let later_s = WINDOW.get(place + 1).map_or(0.0, |(later_s, _)| *later_s);
+            self.show(self.time_s - later_s, *frame_s, frames);
+        }
     }
 
     /// Lets some time pass, s, and makes its frames. Pauses at the end.
@@ -87,7 +90,7 @@ impl Player {
             return;
         }
         self.time_s = (self.time_s + elapsed_s * self.factor).min(self.ends_s()[1]);
-        self.show(FRAME_S * self.factor.max(1.0), frames);
+        self.show(self.time_s, FRAME_S * self.factor.max(1.0), frames);
         if self.is_at_end() {
             self.factor = 0.0;
         }
@@ -98,14 +101,14 @@ impl Player {
         let last = self.next.saturating_add(rows.clamp(1, MAX_STEPS) as usize) - 1;
         let times_s = self.signals.times_s();
         self.time_s = times_s[last.min(times_s.len() - 1)];
-        self.show(FRAME_S, frames);
+        self.show(self.time_s, FRAME_S, frames);
     }
 
-    /// Makes frames of about this time from all rows up to now.
-    fn show(&mut self, frame_s: f64, frames: &mut Vec<Vec<u8>>) {
+    /// Makes frames of about this time from all rows up to another.
+    fn show(&mut self, until_s: f64, frame_s: f64, frames: &mut Vec<Vec<u8>>) {
         let mut begin_s = f64::NAN;
         while let Some(&row_s) = self.signals.times_s().get(self.next)
-            && row_s <= self.time_s
+            && row_s <= until_s
         {
             if self.frame.ticks() == 0 {
                 begin_s = row_s;
@@ -116,7 +119,7 @@ impl Player {
             self.frame.add(self.row.iter().copied());
             self.next += 1;
             let next_s = self.signals.times_s().get(self.next);
-            if next_s.is_none_or(|next_s| *next_s > self.time_s || next_s - begin_s >= frame_s) {
+            if next_s.is_none_or(|next_s| *next_s > until_s || next_s - begin_s >= frame_s) {
                 frames.push(self.written(row_s));
             }
         }
