@@ -104,7 +104,8 @@ pub fn output_of(mut command: Command, line: &str) -> Outcome<String> {
     }
 }
 
-fn cargo_command(arguments: &[&str]) -> Command {
+/// Returns cargo with these arguments, in the repository.
+pub fn cargo_command(arguments: &[&str]) -> Command {
     // Use the cargo that runs this program, or `cargo` if the program was started by hand.
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(repository());

@@ -1,13 +1,16 @@
 //! Runs every test of the repository, then lists those that were skipped.
 
+mod programs;
+mod queue;
+
 use crate::run::{Outcome, cargo_with, repository};
 use crate::setup::install_for_tests;
 use crate::tools::SKIPPED;
 
-/// Runs of cargo: all tests; those of the C library, which is a workspace of its own; and the force bits of the
-/// optimised core, with the dependencies that the first run compiled.
+/// Runs of cargo after the tests of the workspace: its examples in documents; those of the C library, which is a
+/// workspace of its own; and the force bits of the optimised core, with the dependencies that are compiled by then.
 const RUNS: [&[&str]; 3] = [
-    &["test", "--workspace", "--no-fail-fast"],
+    &["test", "--workspace", "--doc", "--no-fail-fast"],
     &["test", "--manifest-path", "capi/Cargo.toml"],
     &[
         "test",
@@ -33,10 +36,9 @@ pub fn test() -> Outcome {
     let path = repository().join("target/skipped_tests.txt");
     let _ = std::fs::remove_file(&path);
     let variables = [(SKIPPED, &*path.to_string_lossy())];
-    let failures: Vec<String> = RUNS
-        .iter()
-        .filter_map(|arguments| cargo_with(arguments, &variables).err())
-        .collect();
+    let mut failures: Vec<String> = queue::run_all(&programs::built()?, &variables)?;
+    let runs = RUNS.iter();
+    failures.extend(runs.filter_map(|arguments| cargo_with(arguments, &variables).err()));
     println!(
         "\n{}",
         summary(&std::fs::read_to_string(&path).unwrap_or_default())
