@@ -36,10 +36,10 @@ pub(super) fn run_all(built: &Built, variables: &[(&str, &str)]) -> Outcome<Vec<
     };
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..AT_ONCE).map(|_| scope.spawn(work)).collect();
-        let joined = threads.into_iter().map(|thread| thread.join());
-        joined
-            .map(|done| done.unwrap_or_else(|_| Err("a thread failed".into())))
-            .collect::<Outcome<()>>()
+        threads.into_iter().try_for_each(|thread| {
+            let done = thread.join();
+            done.unwrap_or_else(|_| Err("a thread failed".into()))
+        })
     })?;
     eprintln!(
         "> {} test programs: {:.0} s",
