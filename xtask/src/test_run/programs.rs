@@ -61,10 +61,7 @@ impl Built {
         }
         let place = |program: &TestProgram| {
             let is_it = |long: &&str| program.name.split(' ').next_back() == Some(*long);
-            LONGEST
-                .iter()
-                .position(|long| is_it(&long))
-                .unwrap_or(LONGEST.len())
+            LONGEST.iter().position(is_it).unwrap_or(LONGEST.len())
         };
         built.programs.sort_by_key(place);
         built
