@@ -2,6 +2,7 @@
 
 mod conversation;
 mod inbox;
+mod linked;
 mod options;
 pub mod page;
 mod recorded;
@@ -11,7 +12,7 @@ mod roles;
 mod serve;
 mod source;
 mod stop;
-mod target;
+
 mod vehicle;
 mod viewers;
 
@@ -37,7 +38,7 @@ pub fn run(arguments: &LiveArguments) -> Outcome<()> {
             Ok(write_bytes(path, page.as_bytes())?)
         }
         (_, Some(recording), _) => replay::run(arguments, recording),
-        (_, _, Some(link)) => target::run(arguments, link),
+        (_, _, Some(link)) => linked::run(arguments, link),
         _ => vehicle::run(arguments),
     }
 }

@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-use super::target::TargetArguments;
+use super::linked::TargetArguments;
 use crate::commands::arguments::{Format, RealtimeArguments, TickLimitArguments};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::vehicle::CaseArguments;

@@ -1,0 +1,24 @@
+//! What the operator's side wants from the thread that talks with the target.
+
+use dashpot_core::Damper;
+
+use super::motion::Sine;
+
+/// Orders that wait.
+pub(super) const ORDERS: usize = 64;
+
+/// Something that the thread does between two ticks.
+#[derive(Debug)]
+pub(super) enum Order {
+    /// Another motion.
+    Motion(Sine),
+    /// Another damper in a slot.
+    Damper {
+        /// Slot, from 0.
+        slot: usize,
+        /// What goes in.
+        damper: Box<Damper<f32>>,
+    },
+    /// Status bits and rejected inputs of all slots to zero.
+    ClearStatus,
+}
