@@ -90,8 +90,11 @@ impl LiveArguments {
     /// Checks the options that need no case.
     ///
     /// # Errors
-    /// The recording is not of a form that a killed process leaves readable.
+    /// A target's dampers without a target, or the recording is not of a form that a killed process leaves readable.
     pub(super) fn check(&self) -> Outcome<()> {
+        if self.target.link.is_none() && !self.target.slot_dampers.is_empty() {
+            return Err(Failure::wrong_use("--slot-damper requires --link"));
+        }
         let Some(path) = &self.record else {
             return Ok(());
         };

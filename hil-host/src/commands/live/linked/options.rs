@@ -22,8 +22,7 @@ pub(in crate::commands::live) struct TargetArguments {
         help = damper_help(" of the target; once for all slots, or once per slot [default: paper]. A target that runs \
             free keeps its own dampers: then without a model beside it, unless this says what they are"),
         long = "slot-damper",
-        value_name = "NAME|FILE",
-        requires = "link"
+        value_name = "NAME|FILE"
     )]
     pub slot_dampers: Vec<String>,
 }

@@ -45,8 +45,9 @@ pub(super) fn run(arguments: &LiveArguments, path: &Path) -> Outcome<()> {
     let run = built.run()?;
     let desk = Desk::new(built.case(), &run)?;
     let names = Observer::new(&desk, &run)?.names().to_vec();
-    let (signals, warnings) = read(path, &names)?;
-    let player = Player::new(signals, &names);
+    // The first name is that of the time, which a recording has in any case.
+    let (signals, warnings) = read(path, &names[1..])?;
+    let player = Player::new(signals, &names[1..]);
     let [start_s, end_s] = player.ends_s();
     let file = path.file_name().unwrap_or(path.as_os_str());
     let shown = json!({"name": file.to_string_lossy(), "start_s": start_s, "end_s": end_s});
@@ -98,8 +99,7 @@ fn read(path: &Path, names: &[String]) -> Outcome<(Signals, Vec<String>)> {
     let names = names.iter().map(String::as_str);
     let wanted: Vec<(&str, &str)> = names.zip(words.iter().map(SignalWords::unit)).collect();
     let signals = Signals::read(path, &wanted)?;
-    // The time is that of the rows, whatever its channel is called.
-    let has = wanted.iter().zip(signals.has()).skip(1);
+    let has = wanted.iter().zip(signals.has());
     let missing: Vec<&str> = has
         .filter(|(_, has)| !has)
         .map(|((name, _), _)| *name)

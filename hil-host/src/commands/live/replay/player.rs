@@ -24,13 +24,14 @@ pub(super) struct Player {
 }
 
 impl Player {
-    /// A recording at its start, at the pace of real time; `names` are those of its signals, the time first.
+    /// A recording at its start, at the pace of real time; `names` are those of its signals, without the time.
     pub fn new(signals: Signals, names: &[String]) -> Self {
         Self {
             time_s: signals.times_s()[0],
             signals,
             distance: names.iter().position(|name| name == "distance_m"),
-            frame: Frame::new(names.len()),
+            // The first signal of a frame is the time.
+            frame: Frame::new(1 + names.len()),
             row: Vec::new(),
             next: 0,
             factor: 1.0,
@@ -114,9 +115,8 @@ impl Player {
                 begin_s = row_s;
             }
             self.signals.row(self.next, &mut self.row);
-            // The first signal is the time.
-            self.row[0] = row_s as f32;
-            self.frame.add(self.row.iter().copied());
+            let values = std::iter::once(row_s as f32).chain(self.row.iter().copied());
+            self.frame.add(values);
             self.next += 1;
             let next_s = self.signals.times_s().get(self.next);
             if next_s.is_none_or(|next_s| *next_s > until_s || next_s - begin_s >= frame_s) {
@@ -157,8 +157,8 @@ mod tests {
             "time_s,distance_m\n".to_owned() + &rows.collect::<String>(),
         )
         .unwrap();
-        let signals = Signals::read(&path, &[("time_s", "s"), ("distance_m", "m")]).unwrap();
-        Player::new(signals, &["time_s", "distance_m"].map(String::from))
+        let signals = Signals::read(&path, &[("distance_m", "m")]).unwrap();
+        Player::new(signals, &["distance_m".into()])
     }
 
     fn number(frame: &[u8], at: usize) -> f64 {
