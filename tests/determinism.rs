@@ -1,6 +1,7 @@
 //! The force bits are the same on every machine, so every damper and motion has one digest.
 
 use std::fmt::Write;
+use std::process::Command;
 
 use dashpot::digest::Digest;
 use dashpot::golden::{MOTIONS, STEP_S, TICKS};
@@ -8,6 +9,7 @@ use dashpot::target::{BANK_STEPS, STEPS, experiments};
 use dashpot::{damper, document};
 use dashpot_core::{Damper, DamperParameters, Real};
 use dashpot_experiment::BANK;
+use xtask::run::{cargo, repository};
 
 /// Digest of the bits of the forces.
 fn digest<T: Real>(parameters: &DamperParameters, motion: fn(f64) -> f64) -> u64 {
@@ -61,6 +63,24 @@ fn a_million_steps_have_the_golden_bits() {
         writeln!(text, "{element}; {excitation}; {digest}").expect("text grows");
     }
     document::compare("tests/golden/target.txt", &text);
+}
+
+/// Tests are hardly optimised; what users run is.
+#[test]
+fn the_optimised_core_has_the_same_bits() {
+    let folder = repository().join("target/optimised");
+    let build = ["build", "--locked", "--release", "--package"];
+    let into = ["dashpot-experiment", "--target-dir"];
+    cargo(&[&build[..], &into, &[&*folder.to_string_lossy()]].concat()).unwrap();
+    for experiment in experiments(0.1) {
+        let mut program = Command::new(folder.join("release/dashpot-experiment"));
+        let (element, excitation) = (experiment.element, experiment.excitation.name());
+        assert_eq!(
+            experiment.digest_by(&mut program),
+            experiment.digest_here(),
+            "{element}, {excitation}"
+        );
+    }
 }
 
 #[test]

@@ -31,9 +31,17 @@ pub fn ci() -> Outcome {
     }
     timings::check_packages()?;
     lint(&["--workspace", "--all-targets"])?;
-    lint(&["--manifest-path", C_LIBRARY, "--all-targets"])?;
+    // In the folder of the workspace, they share its dependencies.
+    let shared = ["--target-dir", "target"];
+    lint(
+        &[
+            &["--manifest-path", C_LIBRARY, "--all-targets"],
+            &shared[..],
+        ]
+        .concat(),
+    )?;
     lint(&["--manifest-path", FIRMWARE, "--target", CORTEX_M7.target])?;
-    lint(&["--manifest-path", FUZZ])?;
+    lint(&[&["--manifest-path", FUZZ], &shared[..]].concat())?;
     cargo_with(
         &["doc", "--workspace", "--no-deps"],
         &[("RUSTDOCFLAGS", "-D warnings")],

@@ -37,12 +37,7 @@ pub const FIRST: RGBColor = LEFT;
 /// The second of two curves of the same kind.
 pub const SECOND: RGBColor = RIGHT;
 /// Up to four curves of the same kind.
-pub const SEVERAL: [RGBColor; 4] = [
-    FIRST,
-    RGBColor(211, 47, 47),
-    SECOND,
-    RGBColor(90, 190, 190),
-];
+pub const SEVERAL: [RGBColor; 4] = [FIRST, RGBColor(211, 47, 47), SECOND, RGBColor(90, 190, 190)];
 /// What a page is about: a computed force, an estimate, the answer of a target.
 pub const RESULT: RGBColor = BLUE_LINE;
 /// What a result is compared with: a measurement, a reference solution, the desired motion.

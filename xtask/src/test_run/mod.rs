@@ -7,24 +7,11 @@ use crate::run::{Outcome, cargo_with, repository};
 use crate::setup::install_for_tests;
 use crate::tools::SKIPPED;
 
-/// Runs of cargo after the tests of the workspace: its examples in documents; those of the C library, which is a
-/// workspace of its own; and the force bits of the optimised core, with the dependencies that are compiled by then.
-const RUNS: [&[&str]; 3] = [
+/// Runs of cargo after the test programs: the examples in documents, and the tests of the C library, which is a
+/// workspace of its own.
+const RUNS: [&[&str]; 2] = [
     &["test", "--workspace", "--doc", "--no-fail-fast"],
     &["test", "--manifest-path", "capi/Cargo.toml"],
-    &[
-        "test",
-        "--workspace",
-        "--test",
-        "determinism",
-        "--config",
-        "profile.dev.package.dashpot-core.opt-level=3",
-        "--config",
-        "profile.dev.package.dashpot-experiment.opt-level=3",
-        // Generic code is compiled in the crate that uses it.
-        "--config",
-        "profile.dev.package.dashpot.opt-level=3",
-    ],
 ];
 
 /// Installs the tools that tests need, runs every test, and lists those that were skipped and why.
