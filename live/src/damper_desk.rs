@@ -106,7 +106,7 @@ impl DamperDesk {
         match action {
             Action::Damper { key, value, .. } if key == WEAR => {
                 within(WEAR, *value, [0.0, 1.0])?;
-                let worn = self.from_new(&worn(&self.as_new, *value))?;
+                let worn = self.new_but(&worn(&self.as_new, *value))?;
                 Ok(Self {
                     wear: *value,
                     ..worn
@@ -127,7 +127,7 @@ impl DamperDesk {
                 })
             }
             Action::AsNew { .. } => {
-                let as_new = self.from_new(&[])?;
+                let as_new = self.new_but(&[])?;
                 Ok(Self {
                     is_changed: false,
                     ..as_new
@@ -137,7 +137,7 @@ impl DamperDesk {
                 let names = || FAULTS.iter().map(|fault| fault.id);
                 let found = FaultKind::find(fault);
                 let found = found.ok_or_else(|| UnknownName::new("fault", fault, names()))?;
-                let faulty = self.from_new(&found.changes(&self.as_new))?;
+                let faulty = self.new_but(&found.changes(&self.as_new))?;
                 Ok(Self {
                     fault: Some(found.id),
                     ..faulty
@@ -148,7 +148,7 @@ impl DamperDesk {
     }
 
     /// As new but for these numbers, without fault and wear.
-    fn from_new(&self, numbers: &[(&str, f64)]) -> Result<Self, ActionError> {
+    fn new_but(&self, numbers: &[(&str, f64)]) -> Result<Self, ActionError> {
         let changed = self.with(&*self.as_new.with(numbers)?)?;
         Ok(Self {
             usual: self.as_new.clone(),

@@ -17,10 +17,9 @@ const MODULE: &str = "page/module/dashpot.wasm";
 const COMPILER: &str = "page/module/compiler.txt";
 
 /// Test that knows the digest of the module's sources.
-const SOURCES_TEST: [&str; 7] = [
+const SOURCES_TEST: [&str; 6] = [
     "test",
-    "-p",
-    "dashpot",
+    "--workspace",
     "--test",
     "repository",
     "module_of_the_page",
