@@ -94,15 +94,20 @@ impl Browser {
 
     /// Opens `page` in a window of `width` pixels, like a phone or a desktop; returns its address.
     pub fn open(&self, page: &str, width: u32) -> String {
+        let path = self.folder.path().join("page.html");
+        std::fs::write(&path, page).unwrap();
+        let address = format!("file://{}", path.display());
+        self.visit(&address, width);
+        address
+    }
+
+    /// Opens the page at an address, this many pixels wide.
+    pub fn visit(&self, address: &str, width: u32) {
         self.tell(
             "Emulation.setDeviceMetricsOverride",
             json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500 }),
         );
-        let path = self.folder.path().join("page.html");
-        std::fs::write(&path, page).unwrap();
-        let address = format!("file://{}", path.display());
-        self.runtime.block_on(self.client().goto(&address)).unwrap();
-        address
+        self.runtime.block_on(self.client().goto(address)).unwrap();
     }
 
     /// Runs the body of a function in the page and returns its result.

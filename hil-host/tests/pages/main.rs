@@ -11,6 +11,7 @@ mod keys;
 mod layout;
 mod legend;
 mod live;
+mod live_served;
 mod loops;
 mod panels;
 #[path = "../link/pil_common/mod.rs"]

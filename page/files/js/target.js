@@ -23,7 +23,7 @@
       ...dampers
         .filter(({ rejected_inputs: count }) => count > 0)
         .map(({ slot, rejected_inputs: count }) => `${name(slot)}: ${count} inputs rejected`),
-      ...counters.filter(({ value }) => value > 0).map(({ label, value }) => `${value} ${label}`),
+      ...counters.filter(({ value }) => value > 0).map(({ label, value }) => `${label}: ${value}`),
     ];
   }
 

@@ -12,7 +12,7 @@ mod roles;
 mod serve;
 mod source;
 mod stop;
-
+mod target_options;
 mod vehicle;
 mod viewers;
 

@@ -3,7 +3,7 @@
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-use super::linked::TargetArguments;
+use super::target_options::TargetArguments;
 use crate::commands::arguments::{Format, RealtimeArguments, TickLimitArguments};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::vehicle::CaseArguments;
@@ -47,8 +47,8 @@ pub struct LiveArguments {
     pub(super) outside: OutsideArguments,
     #[command(flatten)]
     pub(super) target: TargetArguments,
-    /// Show a recording of the vehicle of the case as it ran: MDF4 (of --record), Parquet or text, with signals named as
-    /// in history.csv.
+    /// Show a recording of the vehicle of the case as it ran: MDF4 (of --record), Parquet or text, with signals named
+    /// as in history.csv.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["choices", "record", "page", "link"])]
     pub(super) recording: Option<PathBuf>,
     /// Address and port of the page; port 0 takes a free one.

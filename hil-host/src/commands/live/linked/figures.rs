@@ -73,7 +73,7 @@ impl Figures {
             self.slots.iter().map(|slot| slot.difference_n).collect();
         json!({
             "tick": self.tick,
-            "counters": self.counters.as_ref().map(|of| counters(of, self.lost())).unwrap_or_default(),
+            "counters": self.counters.as_ref().map(|of| counters(of, self)).unwrap_or_default(),
             "dampers": self.slots.iter().enumerate().map(slot).collect::<Vec<_>>(),
             "work_us": self.work_us,
             "round_trip_us": self.round_trip_us,
@@ -83,18 +83,27 @@ impl Figures {
 }
 
 /// Counters of what should not happen.
-fn counters(of: &Counters, lost: u32) -> Vec<Value> {
+fn counters(of: &Counters, figures: &Figures) -> Vec<Value> {
     [
-        ("corrupt", "corrupt frames", of.corrupt),
-        ("unreadable", "unreadable requests", of.unreadable),
-        ("no_session", "requests without a session", of.no_session),
-        ("repeated", "repeated requests", of.repeated),
-        ("out_of_order", "requests out of sequence", of.out_of_order),
-        ("refused", "refused requests", of.refused),
-        ("overruns", "ticks that began late", of.overruns),
-        ("link_losses", "losses of the link", of.link_losses),
-        ("corruptions", "damaged memory", of.corruptions),
-        ("lost", "samples that came too late", lost),
+        ("late", "ticks answered late", figures.late_ticks),
+        ("corrupt", "corrupt frames", of.corrupt.into()),
+        ("unreadable", "unreadable requests", of.unreadable.into()),
+        (
+            "no_session",
+            "requests without a session",
+            of.no_session.into(),
+        ),
+        ("repeated", "repeated requests", of.repeated.into()),
+        (
+            "out_of_order",
+            "requests out of sequence",
+            of.out_of_order.into(),
+        ),
+        ("refused", "refused requests", of.refused.into()),
+        ("overruns", "ticks that began late", of.overruns.into()),
+        ("link_losses", "losses of the link", of.link_losses.into()),
+        ("corruptions", "damaged memory", of.corruptions.into()),
+        ("lost", "samples that came too late", figures.lost().into()),
     ]
     .map(|(name, label, value)| json!({"name": name, "label": label, "value": value}))
     .into()

@@ -3,7 +3,6 @@
 mod driven;
 mod figures;
 mod motion;
-mod options;
 mod order;
 mod report;
 mod scene;
@@ -23,7 +22,6 @@ use dashpot_realtime::pacing::Pacer;
 use driven::Driven;
 use figures::{SharedFigures, Slot};
 use motion::{Motion, Sine};
-pub(super) use options::TargetArguments;
 use order::{ORDERS, Order};
 use report::{Ended, Report};
 use side::TargetSide;
@@ -107,16 +105,12 @@ pub(super) fn run(arguments: &LiveArguments, link: &LinkChoice) -> Outcome<()> {
     };
     let hub = served.server.hub().clone();
     let mut conversation = Conversation::new(hub.clone(), side);
-    let (blocks, to_write) = recorder
-        .map(|recorder| (recorder, sync_channel::<Block>(BLOCKS)))
-        .map_or((None, None), |(recorder, (blocks, to_write))| {
-            (Some(blocks), Some((recorder, to_write)))
-        });
+    let (blocks, to_write) = sync_channel::<Block>(BLOCKS);
     let signals = names(target.greeting.dampers).len();
     let tap = Tap::new(
         hub.clone(),
         Arc::clone(&shared.recording),
-        blocks,
+        recorder.is_some().then_some(blocks),
         (step.step_s(), signals),
     );
     let talk = talking(
@@ -129,7 +123,7 @@ pub(super) fn run(arguments: &LiveArguments, link: &LinkChoice) -> Outcome<()> {
         tap,
     )?;
     let ended = std::thread::scope(|scope| {
-        if let Some((recorder, to_write)) = to_write {
+        if let Some(recorder) = recorder {
             let state = &shared.recording;
             scope.spawn(move || recorder.run(&to_write, state));
         }

@@ -6,7 +6,7 @@ use crate::commands::arguments::damper_help;
 
 /// The target, and the dampers that it runs.
 #[derive(Debug, Clone, clap::Args)]
-pub(in crate::commands::live) struct TargetArguments {
+pub(super) struct TargetArguments {
     /// Show a target in place of a vehicle: tcp:HOST:PORT, serial:DEVICE, qemu (a new emulator) or qemu:IMAGE.
     #[arg(
         long,
