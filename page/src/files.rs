@@ -10,7 +10,7 @@ pub(crate) const STYLE: &str = include_str!("../files/live.css");
 pub(crate) const WORKER: &str = include_str!("../files/worker.js");
 
 /// Scripts; the last starts the page.
-pub(crate) const SCRIPTS: [&str; 31] = [
+pub(crate) const SCRIPTS: [&str; 32] = [
     include_str!("../files/js/words.js"),
     include_str!("../files/js/sources.js"),
     include_str!("../files/js/frame.js"),
@@ -29,6 +29,7 @@ pub(crate) const SCRIPTS: [&str; 31] = [
     include_str!("../files/js/loops.js"),
     include_str!("../files/js/slots.js"),
     include_str!("../files/js/bars.js"),
+    include_str!("../files/js/row.js"),
     include_str!("../files/js/verdict.js"),
     include_str!("../files/js/target.js"),
     include_str!("../files/js/replay.js"),

@@ -78,23 +78,13 @@
     const place = by("target-slots");
     place.replaceChildren(
       ...dampers.map(({ slot, status = [], rejected_inputs: count }) => {
-        const row = document.createElement("tr");
         const wrong = [...status, ...(count > 0 ? [`${count} inputs rejected`] : [])];
-        if (wrong.length > 0) row.className = "alarm";
         const cells = [
           words.capital(name(slot)),
           wrong.length > 0 ? `▲ ${wrong.join(", ")}` : "✓ well",
           difference(differences[slot]),
         ];
-        row.append(
-          ...cells.map((text, n) =>
-            Object.assign(document.createElement(n === 0 ? "th" : "td"), {
-              textContent: text,
-              ...(n === 0 ? { scope: "row" } : {}),
-            }),
-          ),
-        );
-        return row;
+        return live.row(cells, wrong.length > 0);
       }),
     );
   }

@@ -105,8 +105,6 @@
       ...readings.filter(reading => !isAlarm(reading) && chosen.includes(reading.damper)),
     ].slice(0, ROWS);
     const rows = shown.map(({ damper, label, value, low, high, unit, alarm, trusted }) => {
-      const row = document.createElement("tr");
-      if (alarm) row.className = "alarm";
       const { factor, text: written, digits } = words.unit(unit);
       const [middle, least, most] = [value, low, high].map(number => words.fixed(number * factor, digits));
       const cells = [
@@ -114,15 +112,7 @@
         `${middle} ${written}`.trim() + ` (${least} to ${most})`,
         (alarm ? "▲ alarm" : "✓ good") + (trusted === false ? ", unsure" : ""),
       ];
-      row.append(
-        ...cells.map((text, n) =>
-          Object.assign(document.createElement(n === 0 ? "th" : "td"), {
-            textContent: text,
-            ...(n === 0 ? { scope: "row" } : {}),
-          }),
-        ),
-      );
-      return row;
+      return live.row(cells, alarm);
     });
     by("health-rows").replaceChildren(...rows);
     // A source without health has no place for it.
