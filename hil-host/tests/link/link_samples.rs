@@ -9,14 +9,7 @@ use crate::link_common::{Rig, TICKS};
 
 fn running() -> Rig {
     let rig = Rig::new();
-    rig.text(&[
-        "loss-of-link",
-        "--after-ticks",
-        "1000000",
-        "--output",
-        "hold",
-    ]);
-    rig.text(&["run", "--displacement-m", "0"]);
+    rig.run_free();
     rig.text(&["displace", "--displacement-m", "0.002"]);
     rig
 }

@@ -108,14 +108,7 @@ fn slot(status: &Value, slot: usize) -> &Value {
 #[test]
 fn a_free_target_is_watched_beside_the_model() {
     let rig = Rig::with_ticks(1);
-    rig.text(&["run", "--displacement-m", "0"]);
-    rig.text(&[
-        "loss-of-link",
-        "--after-ticks",
-        "1000000",
-        "--output",
-        "hold",
-    ]);
+    rig.run_free();
     let bank = ["reduced-vertical", "in-service", "reduced-lateral"];
     let dampers: Vec<&str> = bank
         .iter()

@@ -18,12 +18,12 @@ pub(in crate::commands) struct Target {
 #[derive(Serialize)]
 pub(in crate::commands) struct Greeting {
     pub(in crate::commands) core_version: String,
-    pub(in crate::commands) protocol: u16,
+    pub(super) protocol: u16,
     pub(in crate::commands) dampers: usize,
     /// Step of every damper (s).
     pub(in crate::commands) step_s: f32,
     /// Last tick.
-    pub(in crate::commands) tick: u32,
+    pub(super) tick: u32,
     /// True if the target is free-running.
     pub(in crate::commands) running: bool,
     /// Frequency of the clock that measures steps (Hz).
@@ -33,13 +33,13 @@ pub(in crate::commands) struct Greeting {
 }
 
 /// Formats the step (s) of a target or an image, in microseconds if it is an allowed step.
-pub(in crate::commands) fn step_in_words(step_s: f32) -> String {
+pub(super) fn step_in_words(step_s: f32) -> String {
     StepSize::from_target(step_s).map_or_else(|| format!("{step_s} s"), |step| format!("{step} us"))
 }
 
 impl Target {
     /// Opens the link and starts a session with a random number.
-    pub(in crate::commands) fn open(line: &LineArguments) -> Outcome<Self> {
+    pub(super) fn open(line: &LineArguments) -> Outcome<Self> {
         let client = Client::new(line.open()?, line.retry_limits(), fastrand::u16(..));
         Self::greeted(client)
     }
@@ -66,7 +66,7 @@ impl Target {
     }
 
     /// Returns the client that sends requests to the target.
-    pub(in crate::commands) fn client(&mut self) -> &mut Client<Box<dyn Link + Send>> {
+    pub(super) fn client(&mut self) -> &mut Client<Box<dyn Link + Send>> {
         &mut self.client
     }
 
@@ -90,11 +90,7 @@ impl Target {
     }
 
     /// Returns one value of `option` per damper, given one value per damper or one value for all.
-    pub(in crate::commands) fn for_each_damper(
-        &self,
-        option: &str,
-        values: &[f32],
-    ) -> Outcome<Reals> {
+    pub(super) fn for_each_damper(&self, option: &str, values: &[f32]) -> Outcome<Reals> {
         let dampers = self.greeting.dampers;
         match values {
             [one] => Ok(vec![*one; dampers].into_iter().collect()),

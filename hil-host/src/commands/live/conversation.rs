@@ -7,6 +7,7 @@ use dashpot_server::{Hub, ViewerId};
 use serde_json::{Value, json};
 
 use super::inbox::Event;
+use super::pace::BURST;
 use super::roles::Roles;
 use super::source::{Source, Told};
 
@@ -16,13 +17,10 @@ const STATUS: Duration = Duration::from_secs(1);
 /// Shortest time between two statuses to all viewers, so that one who writes much does not flood the others.
 const NEWS: Duration = Duration::from_millis(50);
 
-/// How long to wait for an event before looking after the source: a browser draws 60 times a second.
-const POLL: Duration = Duration::from_micros(16_667);
-
 /// The conversation with all viewers.
 pub(super) struct Conversation<S> {
     hub: Hub,
-    /// What the viewers see.
+    /// Where the numbers come from.
     pub source: S,
     roles: Roles,
     told: Instant,
@@ -44,16 +42,17 @@ impl<S: Source> Conversation<S> {
     /// Talks until the run is over.
     pub fn run(&mut self, events: &Receiver<Event>, is_over: impl Fn() -> bool) {
         while !is_over() {
-            match events.recv_timeout(POLL) {
+            match events.recv_timeout(BURST) {
                 Ok(event) => self.hear(event),
                 Err(RecvTimeoutError::Timeout) => {}
                 // The server has failed; the run goes on without viewers.
-                Err(RecvTimeoutError::Disconnected) => std::thread::sleep(POLL),
+                Err(RecvTimeoutError::Disconnected) => std::thread::sleep(BURST),
             }
             self.is_news |= self.source.look_after();
             let since = self.told.elapsed();
             if since >= STATUS {
-                self.tell_health();
+                let viewers = self.hub.viewers().into_iter();
+                self.tell_health(viewers.map(|(viewer, _)| viewer));
             }
             if since >= STATUS || (self.is_news && since >= NEWS) {
                 self.tell_status();
@@ -79,15 +78,12 @@ impl<S: Source> Conversation<S> {
         }
     }
 
-    fn tell_health(&self) {
-        for (viewer, _) in self.hub.viewers() {
-            self.tell_health_to(viewer);
-        }
-    }
-
-    fn tell_health_to(&self, viewer: ViewerId) {
-        if let Some(health) = self.source.health() {
-            self.hub.send(viewer, &health.to_string());
+    fn tell_health(&self, viewers: impl Iterator<Item = ViewerId>) {
+        let Some(health) = self.source.health().map(|health| health.to_string()) else {
+            return;
+        };
+        for viewer in viewers {
+            self.hub.send(viewer, &health);
         }
     }
 
@@ -148,7 +144,7 @@ impl<S: Source> Conversation<S> {
         match message.get("do").and_then(Value::as_str) {
             Some("take-over") => return Ok(self.roles.take_over(viewer)?),
             Some("status") => {
-                self.tell_health_to(viewer);
+                self.tell_health(std::iter::once(viewer));
                 return Ok(());
             }
             // The inbox has already passed it on.

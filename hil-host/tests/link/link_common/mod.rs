@@ -56,6 +56,13 @@ impl Rig {
         }
     }
 
+    /// Lets the target run free without ever losing its link.
+    pub fn run_free(&self) {
+        let after = ["loss-of-link", "--after-ticks", "1000000"];
+        self.text(&[&after[..], &["--output", "hold"]].concat());
+        self.text(&["run", "--displacement-m", "0"]);
+    }
+
     /// `dashpot live` with this target.
     pub fn live(&self, options: &[&str]) -> Live {
         let link = format!("tcp:{}", self.address);

@@ -33,7 +33,7 @@ pub(super) struct Driven {
     pub tap: Tap,
 }
 
-/// What is measured between two figures.
+/// Measurements between two figures.
 #[derive(Default)]
 struct Measured {
     work: Spread,

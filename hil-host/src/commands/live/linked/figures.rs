@@ -1,4 +1,4 @@
-//! What the thread that talks with a target tells the operator's side.
+//! Figures of a target, from the thread that talks with it to the operator's side.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 

@@ -10,6 +10,7 @@ mod side;
 mod tap;
 mod watched;
 
+use std::collections::VecDeque;
 use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -32,6 +33,7 @@ use super::conversation::Conversation;
 use super::options::LiveArguments;
 use super::recorded::RecordingState;
 use super::recorder::{Block, Recorder};
+use super::rows::Rows;
 use super::serve::serve;
 use super::stop::Stop;
 use crate::commands::failure::{Failure, Outcome};
@@ -110,7 +112,7 @@ pub(super) fn run(arguments: &LiveArguments, link: &LinkChoice) -> Outcome<()> {
     let tap = Tap::new(
         hub.clone(),
         Arc::clone(&shared.recording),
-        recorder.is_some().then_some(blocks),
+        Rows::new(recorder.is_some().then_some(blocks)),
         (step.step_s(), signals),
     );
     let talk = talking(
@@ -181,7 +183,7 @@ fn talking(
             stop,
             figures,
             tap,
-            waiting: vec![Vec::new(); slots],
+            waiting: vec![VecDeque::new(); slots],
         };
         return Ok(Box::new(move || {
             let (ticks, is_stopped) = watched.run()?;

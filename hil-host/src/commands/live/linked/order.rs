@@ -1,4 +1,4 @@
-//! What the operator's side wants from the thread that talks with the target.
+//! Orders from the operator's side to the thread that talks with the target.
 
 use dashpot_core::Damper;
 
@@ -16,7 +16,7 @@ pub(super) enum Order {
     Damper {
         /// Slot, from 0.
         slot: usize,
-        /// What goes in.
+        /// The new damper.
         damper: Box<Damper<f32>>,
     },
     /// Status bits and rejected inputs of all slots to zero.

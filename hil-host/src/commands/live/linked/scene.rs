@@ -1,4 +1,4 @@
-//! What a page draws of a target.
+//! The scene of a target.
 
 use dashpot_live::{DamperDesk, FAULTS, SignalWords};
 use serde_json::{Value, json};

@@ -14,7 +14,7 @@ use super::order::Order;
 use crate::commands::live::recorded::RecordingState;
 use crate::commands::live::source::{Source, Told, read};
 
-/// What the operator of a target wants.
+/// A request of the operator of a target.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case")]
 enum Request {

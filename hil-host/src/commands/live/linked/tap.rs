@@ -1,27 +1,14 @@
 //! Frames for viewers and rows for the recording, from the samples of a target.
 
 use std::sync::Arc;
-use std::sync::mpsc::SyncSender;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use dashpot_live::{Frame, FrameHead, flags};
 use dashpot_server::Hub;
 
+use crate::commands::live::pace::{BURST, FRAME_S};
 use crate::commands::live::recorded::RecordingState;
-use crate::commands::live::recorder::{Block, GrowingMdf};
-use crate::commands::nearest_nanosecond;
-
-/// Time of a frame, s, so that loops are smooth.
-const FRAME_S: f64 = 0.005;
-
-/// Time between two bursts of frames: a browser draws 60 times a second.
-const BURST: Duration = Duration::from_micros(16_667);
-
-/// Time between two writes.
-const BLOCK: Duration = Duration::from_millis(100);
-
-/// Most rows between two writes: what a killed process loses.
-const BLOCK_ROWS: u64 = 200;
+use crate::commands::live::rows::Rows;
 
 /// Names of the signals of a target with this number of dampers, the time first.
 pub(super) fn names(dampers: usize) -> Vec<String> {
@@ -37,43 +24,35 @@ pub(super) fn names(dampers: usize) -> Vec<String> {
 pub(super) struct Tap {
     hub: Hub,
     recording: Arc<RecordingState>,
-    blocks: Option<SyncSender<Block>>,
+    rows: Rows,
     step_s: f64,
     frame: Frame,
     work: [f32; 2],
     flags: u32,
     frames: Vec<Vec<u8>>,
     burst_at: Instant,
-    block_at: Instant,
     /// First and last tick of the present file.
     ticks: Option<[u32; 2]>,
-    epoch: u32,
-    rows: u64,
-    block: Vec<u8>,
 }
 
 impl Tap {
     pub fn new(
         hub: Hub,
         recording: Arc<RecordingState>,
-        blocks: Option<SyncSender<Block>>,
+        rows: Rows,
         (step_s, signals): (f64, usize),
     ) -> Self {
         Self {
             hub,
             recording,
-            blocks,
+            rows,
             step_s,
             frame: Frame::new(signals),
             work: [0.0; 2],
             flags: 0,
             frames: Vec::new(),
             burst_at: Instant::now(),
-            block_at: Instant::now(),
             ticks: None,
-            epoch: 1,
-            rows: 0,
-            block: Vec::new(),
         }
     }
 
@@ -83,8 +62,7 @@ impl Tap {
             Some([start, last]) if tick > last => start,
             Some(_) => {
                 self.end_frame();
-                self.send_block();
-                self.epoch += 1;
+                self.rows.begin(self.rows.epoch() + 1, &self.recording);
                 tick
             }
             None => tick,
@@ -98,13 +76,7 @@ impl Tap {
         if f64::from(self.frame.ticks()) * self.step_s >= FRAME_S * (1.0 - 1e-9) {
             self.end_frame();
         }
-        if self.blocks.is_some() && self.recording.is_on() {
-            GrowingMdf::add_row(nearest_nanosecond(time_s), values, &mut self.block);
-            self.rows += 1;
-            if self.rows >= BLOCK_ROWS {
-                self.send_block();
-            }
-        }
+        self.rows.add(time_s, values, &self.recording);
     }
 
     /// Sends what there is, if it is time for it.
@@ -118,16 +90,14 @@ impl Tap {
         }
         self.hub.frames(self.frames.iter().map(Vec::as_slice));
         self.frames.clear();
-        if self.rows > 0 && self.block_at.elapsed() >= BLOCK {
-            self.send_block();
-        }
+        self.rows.send_if_due(&self.recording);
     }
 
     /// Sends everything: the run is over.
     pub fn finish(mut self) {
         self.end_frame();
         self.hub.frames(self.frames.iter().map(Vec::as_slice));
-        self.send_block();
+        self.rows.send(&self.recording);
     }
 
     fn end_frame(&mut self) {
@@ -148,24 +118,5 @@ impl Tap {
         let mut bytes = Vec::new();
         self.frame.write(&head, &mut bytes);
         self.frames.push(bytes);
-    }
-
-    fn send_block(&mut self) {
-        let (rows, bytes) = (
-            std::mem::take(&mut self.rows),
-            std::mem::take(&mut self.block),
-        );
-        self.block_at = Instant::now();
-        let Some(blocks) = self.blocks.as_ref().filter(|_| rows > 0) else {
-            return;
-        };
-        let block = Block {
-            epoch: self.epoch,
-            rows,
-            bytes,
-        };
-        if blocks.try_send(block).is_err() {
-            self.recording.leave_out(rows);
-        }
     }
 }

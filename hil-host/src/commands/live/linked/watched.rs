@@ -1,5 +1,6 @@
 //! A target that runs free: its samples are fetched, and its dampers run beside it if it is said what they are.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
@@ -33,7 +34,7 @@ pub(super) struct Watched {
     pub figures: Arc<SharedFigures>,
     pub tap: Tap,
     /// Samples of each slot that wait for those of the others.
-    pub waiting: Vec<Vec<Sample>>,
+    pub waiting: Vec<VecDeque<Sample>>,
 }
 
 /// A damper that runs beside that of a slot.
@@ -56,7 +57,8 @@ impl Model {
         }
     }
 
-    /// Force at a sample of the target, N; NaN while its beginning still matters. It begins anew behind a gap.
+    /// Force at a sample of the target, N. The model starts at rest, also after a gap; until it has forgotten that, the
+    /// force is NaN.
     fn force_n(&mut self, sample: &Sample, step_s: f64) -> f32 {
         if self
             .tick
@@ -120,29 +122,24 @@ impl Watched {
         }
         let mut ticks = 0;
         let mut values = Vec::new();
-        // A slot whose oldest samples were overwritten waits for the others to come to the same tick.
-        while let Some(newest) = self
-            .waiting
-            .iter()
-            .map(|waiting| waiting.first().map(|sample| sample.tick))
-            .max()
-            .flatten()
-            && self.waiting.iter().all(|waiting| !waiting.is_empty())
-        {
-            if let Some(behind) = self
-                .waiting
-                .iter_mut()
-                .find(|waiting| waiting[0].tick < newest)
-            {
-                behind.remove(0);
+        while let Some(samples) = self.oldest() {
+            let newest = samples.iter().map(|sample| sample.tick).max();
+            let newest = newest.unwrap_or_default();
+            // A slot whose oldest samples were overwritten waits for the others to come to the same tick.
+            let is_gap = samples.iter().any(|sample| sample.tick < newest);
+            for waiting in &mut self.waiting {
+                if !is_gap || waiting[0].tick < newest {
+                    waiting.pop_front();
+                }
+            }
+            if is_gap {
                 continue;
             }
             values.clear();
             let mut figures = self.figures.lock();
-            for (slot, waiting) in self.waiting.iter_mut().enumerate() {
-                let sample = waiting.remove(0);
+            for (slot, sample) in samples.iter().enumerate() {
                 let model = self.models.as_mut().map(|models| &mut models[slot]);
-                let model_n = model.map_or(f32::NAN, |model| model.force_n(&sample, self.step_s));
+                let model_n = model.map_or(f32::NAN, |model| model.force_n(sample, self.step_s));
                 values.extend([sample.displacement_m, sample.force_n, model_n]);
                 let told = &mut figures.slots[slot];
                 told.status |= sample.status;
@@ -157,6 +154,12 @@ impl Watched {
             ticks += 1;
         }
         Ok(ticks)
+    }
+
+    /// The oldest sample of each slot; `None` if a slot has none.
+    fn oldest(&self) -> Option<Vec<Sample>> {
+        let slots = self.waiting.iter();
+        slots.map(|waiting| waiting.front().copied()).collect()
     }
 
     /// Tells counters and status, and sees whether the target still runs.

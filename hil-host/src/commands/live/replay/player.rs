@@ -3,8 +3,7 @@
 use dashpot_live::{Frame, FrameHead, MAX_STEPS};
 use dashpot_recording::Signals;
 
-/// Time of a frame, s, so that loops are smooth. Faster than real time it grows with the speed.
-const FRAME_S: f64 = 0.005;
+use crate::commands::live::pace::FRAME_S;
 
 /// What a page shows before the time that it is turned to: this long, s, in frames of this time, s. The curves of the
 /// last seconds are as smooth as while it runs.
@@ -91,6 +90,7 @@ impl Player {
             return;
         }
         self.time_s = (self.time_s + elapsed_s * self.factor).min(self.ends_s()[1]);
+        // Faster than real time, a frame grows with the speed.
         self.show(self.time_s, FRAME_S * self.factor.max(1.0), frames);
         if self.is_at_end() {
             self.factor = 0.0;

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::player::Player;
 use crate::commands::live::source::{Source, Told, read};
 
-/// What the operator of a recording wants.
+/// A request of the operator of a recording.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "kebab-case")]
 enum Request {

@@ -29,6 +29,7 @@ use super::conversation::Conversation;
 use super::inbox::Event;
 use super::options::LiveArguments;
 use super::recorder::{Block, Recorder};
+use super::rows::Rows;
 use super::serve::{Served, serve};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::paced::Paced;
@@ -186,7 +187,7 @@ fn follow(
             hub: server.hub().clone(),
             control: &control,
             observed: &observed,
-            blocks: blocks.transpose()?,
+            rows: Rows::new(blocks.transpose()?),
             step_s,
         };
         spawn(scope, "frames", move || watching.run(&taker))?;

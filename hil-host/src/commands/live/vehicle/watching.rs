@@ -1,6 +1,5 @@
 //! Makes frames and rows from every tick, on a thread of its own.
 
-use std::sync::mpsc::SyncSender;
 use std::time::{Duration, Instant};
 
 use dashpot_live::Observer;
@@ -10,19 +9,8 @@ use dashpot_server::Hub;
 use super::control::Control;
 use super::observed::Observed;
 use super::tick::Tick;
-use crate::commands::live::recorder::{Block, GrowingMdf};
-
-/// Simulated time of a frame, s, so that loops are smooth. Faster than real time it grows with the speed.
-const FRAME_S: f64 = 0.005;
-
-/// Time between two bursts of frames: a browser draws 60 times a second.
-const BURST: Duration = Duration::from_micros(16_667);
-
-/// Most rows between two writes: what a killed process loses.
-const BLOCK_ROWS: u64 = 200;
-
-/// Time between two writes.
-const BLOCK: Duration = Duration::from_millis(100);
+use crate::commands::live::pace::{BURST, FRAME_S};
+use crate::commands::live::rows::Rows;
 
 /// Time to sleep if there is no tick.
 const POLL: Duration = Duration::from_millis(1);
@@ -33,22 +21,17 @@ pub(super) struct Watching<'a> {
     pub hub: Hub,
     pub control: &'a Control,
     pub observed: &'a Observed,
-    /// `None` without a recording.
-    pub blocks: Option<SyncSender<Block>>,
+    pub rows: Rows,
     pub step_s: f64,
 }
 
-/// Frames and rows that have not gone out yet.
+/// Frames that have not gone out yet.
 struct Pending {
-    epoch: u32,
     /// Frames of the burst; those behind `frame_count` are kept for their memory.
     frames: Vec<Vec<u8>>,
     frame_count: usize,
     frame: FrameWork,
-    block: Vec<u8>,
-    rows: u64,
     burst_at: Instant,
-    block_at: Instant,
 }
 
 /// Work of the ticks in a frame.
@@ -63,16 +46,11 @@ struct FrameWork {
 impl Watching<'_> {
     /// Takes all ticks until the real-time thread has ended.
     pub fn run(mut self, ticks: &Receiver<Tick>) {
-        let now = Instant::now();
         let mut pending = Pending {
-            epoch: 1,
             frames: Vec::new(),
             frame_count: 0,
             frame: FrameWork::default(),
-            block: Vec::new(),
-            rows: 0,
-            burst_at: now,
-            block_at: now,
+            burst_at: Instant::now(),
         };
         loop {
             match ticks.try_receive(|tick| self.add(tick, &mut pending)) {
@@ -89,20 +67,18 @@ impl Watching<'_> {
                 }
                 self.send_burst(&mut pending);
             }
-            if now - pending.block_at >= BLOCK {
-                pending.block_at = now;
-                self.send_block(&mut pending);
+            if self.rows.send_if_due(&self.observed.recording) {
                 self.observed.read(&self.observer);
             }
         }
         self.end_frame(&mut pending);
         self.send_burst(&mut pending);
-        self.send_block(&mut pending);
+        self.rows.send(&self.observed.recording);
         self.observed.read(&self.observer);
     }
 
     fn add(&mut self, tick: &Tick, pending: &mut Pending) {
-        if tick.epoch != pending.epoch {
+        if tick.epoch != self.rows.epoch() {
             self.begin(tick.epoch, pending);
         }
         self.observer.add(tick.ticks, &tick.record);
@@ -111,27 +87,21 @@ impl Watching<'_> {
         frame.sum_ns += tick.work_ns;
         frame.greatest_ns = frame.greatest_ns.max(tick.work_ns);
         frame.flags |= tick.flags;
+        // Faster than real time, a frame grows with the speed.
         let wanted_s = FRAME_S * self.control.factor().max(1.0);
         if frame.ticks as f64 * self.step_s >= wanted_s * (1.0 - 1e-9) {
             self.end_frame(pending);
         }
-        if self.blocks.is_some() && self.observed.recording.is_on() {
-            let time_s = crate::commands::nearest_nanosecond(tick.record.time_s);
-            // The first signal is the time, in single precision.
-            let values = self.observer.values().get(1..).unwrap_or_default();
-            GrowingMdf::add_row(time_s, values, &mut pending.block);
-            pending.rows += 1;
-            if pending.rows >= BLOCK_ROWS {
-                self.send_block(pending);
-            }
-        }
+        // The first signal is the time, in single precision.
+        let values = self.observer.values().get(1..).unwrap_or_default();
+        let recording = &self.observed.recording;
+        self.rows.add(tick.record.time_s, values, recording);
     }
 
     /// Begins with the first tick of another run.
     fn begin(&mut self, epoch: u32, pending: &mut Pending) {
         self.end_frame(pending);
-        self.send_block(pending);
-        pending.epoch = epoch;
+        self.rows.begin(epoch, &self.observed.recording);
         if let Some(observer) = self.observed.take_next(epoch) {
             self.observer = observer;
         }
@@ -163,21 +133,5 @@ impl Watching<'_> {
         let count = std::mem::take(&mut pending.frame_count);
         let frames = pending.frames[..count].iter();
         self.hub.frames(frames.map(Vec::as_slice));
-    }
-
-    fn send_block(&self, pending: &mut Pending) {
-        let rows = std::mem::take(&mut pending.rows);
-        let bytes = std::mem::take(&mut pending.block);
-        let Some(blocks) = self.blocks.as_ref().filter(|_| rows > 0) else {
-            return;
-        };
-        let block = Block {
-            epoch: pending.epoch,
-            rows,
-            bytes,
-        };
-        if blocks.try_send(block).is_err() {
-            self.observed.recording.leave_out(rows);
-        }
     }
 }
