@@ -1,5 +1,6 @@
 //! Starts the server of a page.
 
+use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
 
@@ -15,7 +16,22 @@ use crate::commands::failure::Outcome;
 pub(super) struct Served {
     pub server: Server,
     pub to_hear: Receiver<Event>,
-    pub told: String,
+    told: String,
+}
+
+impl Served {
+    /// Prints the address of the page.
+    pub fn announce(&self) {
+        // If standard error is closed, the page is served all the same.
+        let _ = io::stderr().lock().write_all(self.told.as_bytes());
+    }
+
+    /// Ends the server, after all viewers have what waits for them.
+    pub fn end(self) {
+        // Viewers who still write must not delay the end.
+        drop(self.to_hear);
+        self.server.stop();
+    }
 }
 
 /// Starts the server of a page about `subject`; `name` is that of the run.

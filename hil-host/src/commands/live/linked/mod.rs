@@ -11,7 +11,6 @@ mod tap;
 mod watched;
 
 use std::collections::VecDeque;
-use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
 
@@ -90,7 +89,7 @@ pub(super) fn run(arguments: &LiveArguments, link: &LinkChoice) -> Outcome<()> {
         &shared.stop,
     )?;
     let _ends_gently = interruption::end_gently();
-    let _ = io::stderr().lock().write_all(served.told.as_bytes());
+    served.announce();
     let (to_target, orders) = sync_channel(ORDERS);
     let core_version = target.greeting.core_version.clone();
     let side = TargetSide {
@@ -139,9 +138,7 @@ pub(super) fn run(arguments: &LiveArguments, link: &LinkChoice) -> Outcome<()> {
         Err(error) => error.to_string(),
     };
     conversation.end(ending);
-    // Nobody listens to viewers any more, so that none of them delays the end.
-    drop(served.to_hear);
-    served.server.stop();
+    served.end();
     let ended = ended?;
     let report = Report {
         link: line,

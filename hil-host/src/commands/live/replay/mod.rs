@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &LiveArguments, path: &Path) -> Outcome<()> {
         &Arc::<Stop>::default(),
     )?;
     let _ends_gently = interruption::end_gently();
-    let _ = io::stderr().lock().write_all(served.told.as_bytes());
+    served.announce();
     let rows = player.rows();
     let source = ReplaySide {
         player,
@@ -78,9 +78,7 @@ pub(super) fn run(arguments: &LiveArguments, path: &Path) -> Outcome<()> {
     let mut conversation = Conversation::new(hub.clone(), source);
     conversation.run(&served.to_hear, interruption::is_wanted);
     conversation.end("the recording is no longer shown".into());
-    // Nobody listens to viewers any more, so that none of them delays the end.
-    drop(served.to_hear);
-    served.server.stop();
+    served.end();
     let report = Report {
         recording: path.to_owned(),
         case: case.name.clone(),

@@ -13,9 +13,8 @@ mod tick;
 mod ticking;
 mod watching;
 
-use std::io::{self, Write};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::mpsc::sync_channel;
 
 use control::Control;
 use desk_side::{DeskSide, OutsideFacts};
@@ -26,7 +25,6 @@ use ticking::{Ticked, Ticking};
 use watching::Watching;
 
 use super::conversation::Conversation;
-use super::inbox::Event;
 use super::options::LiveArguments;
 use super::recorder::{Block, Recorder};
 use super::rows::Rows;
@@ -40,7 +38,6 @@ use dashpot_live::{Built, Desk, Observer, Simulation, WheelOnRail};
 use dashpot_realtime::budget;
 use dashpot_realtime::handover::handover;
 use dashpot_realtime::pacing::{Pacer, PacingReport};
-use dashpot_server::Server;
 use dashpot_vehicle_run::{Ending, Run};
 
 /// Blocks of rows that wait for the disk: several seconds.
@@ -71,11 +68,6 @@ pub(super) fn run(arguments: &LiveArguments) -> Outcome<()> {
     let case = prepared.built.case();
     let (name, vehicle) = (case.name.clone(), case.vehicle.name.clone());
     let served = serve(arguments, &name, &vehicle, &prepared.control.stop)?;
-    let Served {
-        server,
-        to_hear,
-        told,
-    } = served;
     let _ends_gently = interruption::end_gently();
     let mut facts = OutsideFacts::default();
     if let Some(outside) = &mut outside {
@@ -91,13 +83,11 @@ pub(super) fn run(arguments: &LiveArguments) -> Outcome<()> {
             is_real: outside.is_real(),
         };
     }
-    let _ = io::stderr().lock().write_all(told.as_bytes());
+    served.announce();
     let case = prepared.built.case().clone();
     let observed = Arc::clone(&prepared.observed);
     let lines = outside.as_mut().map(|outside| outside.parts().0);
-    let followed = follow(
-        arguments, prepared, lines, facts, recorder, &server, &to_hear,
-    );
+    let followed = follow(arguments, prepared, lines, facts, recorder, &served);
     let (ticked, pacing, mut conversation) = followed?;
     let mut ending = ticked.ending;
     let run = ticked.simulation.run();
@@ -106,10 +96,8 @@ pub(super) fn run(arguments: &LiveArguments) -> Outcome<()> {
         None => None,
     };
     conversation.end(ending.to_string());
-    // Nobody listens to viewers any more, so that none of them delays the end.
-    drop(to_hear);
-    let viewers = server.hub().clone();
-    server.stop();
+    let viewers = served.server.hub().clone();
+    served.end();
     let report = Report {
         case: case.name.clone(),
         vehicle: case.vehicle.name.clone(),
@@ -151,8 +139,7 @@ fn follow(
     lines: Option<&mut Lines>,
     facts: OutsideFacts,
     recorder: Option<Recorder>,
-    server: &Server,
-    to_hear: &Receiver<Event>,
+    served: &Served,
 ) -> Outcome<(Ticked, PacingReport, Conversation<DeskSide>)> {
     let Prepared {
         built,
@@ -184,7 +171,7 @@ fn follow(
         });
         let watching = Watching {
             observer,
-            hub: server.hub().clone(),
+            hub: served.server.hub().clone(),
             control: &control,
             observed: &observed,
             rows: Rows::new(blocks.transpose()?),
@@ -208,8 +195,8 @@ fn follow(
             }
         };
         desk.can_record = can_record;
-        let mut conversation = Conversation::new(server.hub().clone(), desk);
-        conversation.run(to_hear, || stepping.is_finished());
+        let mut conversation = Conversation::new(served.server.hub().clone(), desk);
+        conversation.run(&served.to_hear, || stepping.is_finished());
         let joined = stepping.join();
         let (ticked, pacing) = joined.map_err(|_| Failure::new("the stepping thread failed"))??;
         Ok((ticked, pacing, conversation))
