@@ -13,6 +13,9 @@ pub const TARGET: &str = "wasm32-unknown-unknown";
 /// The committed module.
 const MODULE: &str = "page/module/dashpot.wasm";
 
+/// Where cargo builds it.
+const FOLDER: &str = "target/web";
+
 /// The compiler that built the committed module, as it prints its version.
 const COMPILER: &str = "page/module/compiler.txt";
 
@@ -31,6 +34,13 @@ const SOURCES_TEST: [&str; 6] = [
 /// # Errors
 /// It cannot be built or written.
 pub fn web() -> Outcome {
+    // What an earlier state of the sources left there has given other bytes than a new folder.
+    match fs::remove_dir_all(repository().join(FOLDER)) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            return Err(format!("{FOLDER}: {error}"));
+        }
+        _ => {}
+    }
     let built = build("dashpot-browser")?;
     let failed = |error: std::io::Error| format!("{MODULE}: {error}");
     fs::copy(&built, repository().join(MODULE)).map_err(failed)?;
@@ -91,7 +101,7 @@ pub fn build(package: &str) -> Outcome<PathBuf> {
         registries
             .map(|folder| format!("--remap-path-prefix={}=registry", folder.path().display())),
     );
-    let folder = repository().join("target/web");
+    let folder = repository().join(FOLDER);
     let mut cargo = Command::new("cargo");
     cargo
         .args(["rustc", "--locked", "--profile", "web", "--target", TARGET])
