@@ -240,12 +240,18 @@ impl Desk {
     }
 
     /// Returns the changes that make every damper of the desk as new.
-    pub(crate) fn dampers_as_new(&self) -> Result<Vec<Change>, ActionError> {
+    ///
+    /// # Errors
+    /// None are known: every damper was built before.
+    pub fn dampers_as_new(&self) -> Result<Vec<Change>, ActionError> {
         self.changed_dampers(DamperDesk::parameters_as_new)
     }
 
     /// Returns the changes that bring a vehicle as new to the state of the desk, without speed, friction and gusts.
-    pub(crate) fn changes(&self) -> Result<Vec<Change>, ActionError> {
+    ///
+    /// # Errors
+    /// None are known: every damper and the track were built before.
+    pub fn changes(&self) -> Result<Vec<Change>, ActionError> {
         let mut changes = self.changed_dampers(DamperDesk::parameters)?;
         changes.push(self.track_with(&self.defects)?);
         Ok(changes)

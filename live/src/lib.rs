@@ -43,6 +43,7 @@ pub use observer::Observer;
 pub use outline::{Outline, wheelbase};
 pub use quantity::Quantity;
 pub use reference::{REFERENCE_DIGEST, reference_digest};
+pub use saved::{Saved, Subject};
 pub use scene::Scene;
 /// A message to a page.
 pub use serde_json::Value as Json;

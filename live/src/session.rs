@@ -13,7 +13,7 @@ use crate::error::within;
 use crate::frame::flags;
 use crate::message::{FACTOR, MAX_STEPS};
 use crate::recording::Recording;
-use crate::saved::Saved;
+use crate::saved::{Saved, Subject};
 use crate::{
     Action, ActionError, Built, Choice, Desk, Message, Observer, Request, Scene, Simulation,
     Status, reference_digest,
@@ -318,27 +318,19 @@ impl Session {
     }
 
     fn save(&self) -> Result<String, ActionError> {
-        let simulation = &self.main.simulation;
-        let saved = Saved::new(
-            self.choice.clone(),
-            self.desk.actions().to_vec(),
-            self.desk.defects().to_vec(),
-            simulation.run().state(),
-            simulation.inputs(),
-        )?;
-        serde_json::to_string(&saved).map_err(|_| ActionError::State("the state cannot be written"))
+        let subject = Subject::Choice(self.choice.clone());
+        Saved::new(subject, &self.desk, &self.main.simulation)?.text()
     }
 
     fn load(&mut self, text: &str) -> Result<(), ActionError> {
         let saved = Saved::read(text)?;
-        let (state, inputs) = saved.state()?;
-        let mut loaded = self.started(saved.choice.clone(), Vec::new())?;
-        loaded.desk.replay(&saved.actions, &saved.defects)?;
-        let simulation = &mut loaded.main.simulation;
-        simulation.restore(state, inputs)?;
-        for change in loaded.desk.changes()? {
-            simulation.apply(&change)?;
-        }
+        let Subject::Choice(choice) = saved.subject() else {
+            return Err(ActionError::State(
+                "the state is of a run of `dashpot live` and can be loaded there",
+            ));
+        };
+        let mut loaded = self.started(choice.clone(), Vec::new())?;
+        saved.restore(&mut loaded.desk, &mut loaded.main.simulation)?;
         self.replace_by(loaded)
     }
 }

@@ -158,6 +158,14 @@ impl Simulation {
         self.ending = None;
     }
 
+    /// Goes on from where another run of the same vehicle on the same track is, with the dampers of this one. Does not
+    /// allocate.
+    pub fn follow(&mut self, other: &Self) {
+        self.run.state_mut().clone_from(other.run.state());
+        self.inputs = other.inputs;
+        self.ending = None;
+    }
+
     /// What the operator moves.
     pub(crate) fn inputs(&self) -> Inputs {
         self.inputs

@@ -135,10 +135,10 @@ impl Run {
         if !start.vehicle.can_step(&state) {
             return Err(VehicleError::OtherVehicle.into());
         }
-        // The next tick applies all earlier faults again. Replacing a damper by the one it already has changes nothing.
         self.clone_from(start);
         self.state = state;
-        Ok(())
+        // Replacing a damper by the one that it already has changes nothing.
+        self.apply_faults(self.time_s() - self.vehicle.step_s())
     }
 
     /// Replaces a damper from the next tick on; its force stays continuous.
@@ -188,17 +188,23 @@ impl Run {
         if self.is_over() {
             return Ok(Some(Ending::Completed));
         }
+        let time_s = self.time_s();
+        self.apply_faults(time_s)?;
+        self.influences.apply(time_s, &mut self.state)?;
+        self.vehicle.step(&mut self.state, &self.track);
+        Ok(self.ending())
+    }
+
+    /// Applies the faults that are due in ticks that begin until `time_s`.
+    fn apply_faults(&mut self, time_s: f64) -> Result<(), VehicleRunError> {
         while let Some(fault) = self.faults.get(self.next_fault) {
-            if fault.time_s > self.time_s() + 0.5 * self.vehicle.step_s() {
+            if fault.time_s > time_s + 0.5 * self.vehicle.step_s() {
                 break;
             }
             self.vehicle.replace_damper(fault.damper, &fault.built)?;
             self.next_fault += 1;
         }
-        let time_s = self.time_s();
-        self.influences.apply(time_s, &mut self.state)?;
-        self.vehicle.step(&mut self.state, &self.track);
-        Ok(self.ending())
+        Ok(())
     }
 
     /// Ending of a run that the user interrupts now.

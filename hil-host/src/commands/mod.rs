@@ -27,6 +27,7 @@ mod paced;
 pub mod pil;
 pub mod print;
 pub mod progress;
+mod raw_name;
 pub mod recording;
 pub mod remedy;
 pub mod replay;

@@ -34,6 +34,7 @@ mod lifted_wheel_without_a_word;
 #[cfg(unix)]
 mod live;
 mod live_replay;
+mod live_runs;
 mod modes;
 mod modes_coach;
 mod modes_freight_wagon;

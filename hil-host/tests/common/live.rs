@@ -129,8 +129,11 @@ pub struct Viewer {
 /// Numbers of a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
+    /// 0, or 1 for the vehicle as new.
+    pub run: u32,
     pub signals: usize,
     pub time_s: f64,
+    pub distance_m: f64,
     pub ticks: f64,
     pub ticks_in_frame: u32,
     pub flags: u32,
@@ -150,8 +153,10 @@ impl Frame {
             numbers.map(|at| f32::from_bits(u32_at(at))).collect()
         };
         Self {
+            run: u32_at(0),
             signals,
             time_s: f64_at(8),
+            distance_m: f64_at(16),
             ticks: f64_at(24),
             ticks_in_frame: u32_at(40),
             flags: u32_at(44),
@@ -218,13 +223,18 @@ impl Viewer {
     }
 
     /// Sends a message and returns the error of its answer.
-    pub fn ask(&mut self, mut message: Value) -> Option<String> {
+    pub fn ask(&mut self, message: Value) -> Option<String> {
+        self.answer(message)["error"].as_str().map(str::to_owned)
+    }
+
+    /// Sends a message and returns its answer.
+    pub fn answer(&mut self, mut message: Value) -> Value {
         self.asked += 1;
         message["id"] = json!(self.asked);
         self.tell(message);
         let answer = self.text("answer");
         assert_eq!(answer["id"], self.asked);
-        answer["error"].as_str().map(str::to_owned)
+        answer
     }
 
     /// Reads all texts until the server closes the connection.

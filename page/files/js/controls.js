@@ -9,7 +9,7 @@
   // What only an operator may use. A viewer may stop a rig.
   const OPERATED = `.try button, .bar button:not(.emergency), #factor, #quantities input, #fault, #preset, #as-new,
     #all-as-new, #speed, #speed-number, #friction, #friction-number, #defect-put, #gust-left, #gust-right,
-    #loop-compare, #load-button, #record, #start button, #replay-time, #motion input, #clear-status`;
+    #loop-compare, #save, #load-button, #record, #start button, #replay-time, #motion input, #clear-status`;
   // The factor to which "Run" returns after a pause.
   let pace = 1;
   // The error that is shown, until the next success.
@@ -165,11 +165,12 @@
     put(
       "role",
       isViewer
-        ? "You are watching. Another page may operate this run."
+        ? "You are watching. Another page may operate this run; when it has left, you can."
         : viewers > 1
           ? `${viewers} pages watch this run.`
           : "",
     );
+    by("take-over").hidden = !isViewer;
     permit(!isViewer);
   }
 
@@ -190,6 +191,7 @@
     on("compare", compare);
     on("loop-compare", compare);
     on("emergency", stop);
+    on("take-over", () => ask({ do: "take-over" }));
     on("factor", () => run(Number(by("factor").value)), "change");
     on("wheelset", () => live.dampers.chooseWheelset(Number(by("wheelset").value)), "change");
     on(

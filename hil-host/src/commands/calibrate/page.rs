@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::report::{Loop, Number, Report};
 use crate::commands::failure::Outcome;
+use crate::commands::raw_name::in_words;
 use dashpot_calibration::{Calibrated, Calibration, LoopFit, LoopTest, Profile, RISE_95};
 use dashpot_report::DrawError;
 use dashpot_report::page::{Figure, document, figure, footer, panel, tiles};
@@ -64,7 +65,7 @@ fn headline(report: &Report) -> Markup {
     let mut shown: Vec<(Markup, String)> = report
         .numbers
         .iter()
-        .map(|number| (html! { (digits(number.found)) }, number.key.clone()))
+        .map(|number| (html! { (digits(number.found)) }, in_words(&number.key)))
         .collect();
     if let Some(row) = worst {
         let share = 100.0 * row.missed_after_n / row.peak_force_n;
@@ -87,7 +88,7 @@ fn numbers(report: &Report) -> Markup {
                 }
                 @for number in &report.numbers {
                     tr {
-                        td { (number.key) }
+                        td { (in_words(&number.key)) br; code { (number.key) } }
                         td { (digits(number.before)) }
                         td { b { (digits(number.found)) } }
                         td { (end(number.least)) " to " (end(number.greatest)) }
@@ -146,7 +147,7 @@ fn profiles(report: &Report, found: &Calibrated) -> Result<Markup, DrawError> {
                 Curve::new("", RESULT, points).dotted(),
             ],
         );
-        panel.title.clone_from(&number.key);
+        panel.title = in_words(&number.key);
         panel.sides = true;
         panel
     };

@@ -140,30 +140,43 @@ impl<S: Source> Conversation<S> {
         }
     }
 
-    fn message(&mut self, viewer: ViewerId, message: Value) -> Result<(), String> {
+    /// Returns the fields of the answer.
+    fn message(&mut self, viewer: ViewerId, message: Value) -> Result<Value, String> {
+        let none = json!({});
         match message.get("do").and_then(Value::as_str) {
-            Some("take-over") => return Ok(self.roles.take_over(viewer)?),
+            Some("take-over") => {
+                self.roles.take_over(viewer)?;
+                return Ok(none);
+            }
             Some("status") => {
                 self.tell_health(std::iter::once(viewer));
-                return Ok(());
+                return Ok(none);
             }
             // The inbox has already passed it on.
-            Some("stop") => return Ok(()),
+            Some("stop") => return Ok(none),
             _ => {}
         }
         if !self.roles.is_operator(viewer) {
             return Err("you watch: only the operator acts; allowed: stop, take-over".into());
         }
-        if self.source.operate(message)? == Told::Scene {
-            for (viewer, _) in self.hub.viewers() {
-                self.hub.send(viewer, &self.scene_of(viewer));
+        match self.source.operate(message)? {
+            Told::Status => {}
+            Told::Scene => {
+                for (viewer, _) in self.hub.viewers() {
+                    self.hub.send(viewer, &self.scene_of(viewer));
+                }
             }
+            Told::Answer(fields) => return Ok(fields),
         }
-        Ok(())
+        Ok(none)
     }
 }
 
 /// The answer to a message.
-fn answer(id: Option<Value>, result: Result<(), String>) -> String {
-    json!({"type": "answer", "id": id, "error": result.err()}).to_string()
+fn answer(id: Option<Value>, result: Result<Value, String>) -> String {
+    let mut answer = json!({"type": "answer", "id": id, "error": result.as_ref().err()});
+    if let (Some(answer), Ok(Value::Object(fields))) = (answer.as_object_mut(), result) {
+        answer.extend(fields);
+    }
+    answer.to_string()
 }

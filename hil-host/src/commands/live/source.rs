@@ -32,12 +32,14 @@ pub(super) trait Source {
 }
 
 /// What all viewers are told after a message of the operator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Told {
     /// The status.
     Status,
     /// The scene, too: everything begins anew.
     Scene,
+    /// The status; the operator's answer has these fields.
+    Answer(Value),
 }
 
 /// Reads a message.

@@ -4,6 +4,8 @@
 //! writes the recording (`recorder`), and the one that talks with viewers (`conversation`); each connection has two
 //! more in `dashpot_server`. The real-time thread shares nothing with them but rings and atomic numbers.
 
+mod beside;
+mod burst;
 mod control;
 mod desk_side;
 mod observed;
@@ -171,6 +173,7 @@ fn follow(
         });
         let watching = Watching {
             observer,
+            as_new: None,
             hub: served.server.hub().clone(),
             control: &control,
             observed: &observed,

@@ -22,7 +22,12 @@ pub(super) enum Order {
     Factor(f64),
     /// A few ticks while paused.
     Steps(u32),
-    /// Another vehicle at its start.
+    /// The vehicle as new, which goes on from where the vehicle is, beside it; or none any more. Returns the one that
+    /// was there before.
+    Compare(Option<Box<Simulation>>),
+    /// Brings this one to where the vehicle is.
+    Copy(Box<Simulation>),
+    /// Another vehicle.
     Start {
         /// Number of the run, from 1.
         epoch: u32,

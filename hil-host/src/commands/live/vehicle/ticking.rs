@@ -9,6 +9,7 @@ use dashpot_realtime::handover::Sender;
 use dashpot_realtime::pacing::{Clock, Pacer};
 use dashpot_vehicle_run::{Ending, VehicleRunError};
 
+use super::beside::Beside;
 use super::control::Control;
 use super::order::{Note, Order};
 use super::tick::Tick;
@@ -29,6 +30,7 @@ pub(super) struct Ticking<'a> {
     pub orders: Receiver<Order>,
     pub notes: SyncSender<Note>,
     pub ticks: Sender<Tick>,
+    beside: Beside,
     pending: Option<Order>,
     factor: f64,
     /// Simulated ticks that are due; below 1 in slow motion.
@@ -70,6 +72,7 @@ impl<'a> Ticking<'a> {
             orders,
             notes,
             ticks,
+            beside: Beside::default(),
             pending: None,
             factor: 1.0,
             due: 0.0,
@@ -185,6 +188,7 @@ impl<'a> Ticking<'a> {
         match order {
             Order::Change { ref change, .. } => {
                 self.simulation.apply(change)?;
+                self.beside.apply(change)?;
                 Ok(order)
             }
             Order::Factor(factor) => {
@@ -195,6 +199,14 @@ impl<'a> Ticking<'a> {
             Order::Steps(steps) => {
                 self.steps = self.steps.saturating_add(steps);
                 Ok(order)
+            }
+            Order::Compare(simulation) => {
+                let before = self.beside.replace(simulation, &self.simulation);
+                Ok(Order::Compare(before))
+            }
+            Order::Copy(mut simulation) => {
+                simulation.follow(&self.simulation);
+                Ok(Order::Copy(simulation))
             }
             Order::Start {
                 epoch,
@@ -251,6 +263,7 @@ impl<'a> Ticking<'a> {
         if let Some(lines) = &mut self.lines {
             lines.before(run)?;
         }
+        self.beside.step(self.epoch, &mut self.ticks)?;
         self.simulation.step()?;
         let mut ending = self.simulation.ending().cloned();
         if let (Some(lines), None) = (&mut self.lines, &ending) {
@@ -271,14 +284,9 @@ impl<'a> Ticking<'a> {
             found |= if is_set { flag } else { 0 };
         }
         let work_ns = started.elapsed().as_nanos() as u64;
-        let epoch = self.epoch;
-        let sent = self.ticks.send_or_skip(|tick| {
-            tick.epoch = epoch;
-            tick.ticks = run.state().ticks();
-            tick.work_ns = work_ns;
-            tick.flags = found;
-            tick.record.copy(run.time_s(), run.state());
-        });
+        let epoch = (self.epoch, self.beside.comparison());
+        let put = |tick: &mut Tick| tick.put(epoch, 0, run, work_ns, found);
+        let sent = self.ticks.send_or_skip(put);
         self.control.set_place(self.simulation.place());
         // Without the thread that makes frames nobody sees the run any more.
         if sent.is_err() {

@@ -6,6 +6,7 @@ use dashpot_live::Observer;
 use dashpot_realtime::handover::{Received, Receiver};
 use dashpot_server::Hub;
 
+use super::burst::Burst;
 use super::control::Control;
 use super::observed::Observed;
 use super::tick::Tick;
@@ -18,6 +19,8 @@ const POLL: Duration = Duration::from_millis(1);
 /// Where frames and rows go to.
 pub(super) struct Watching<'a> {
     pub observer: Observer,
+    /// The vehicle as new beside it.
+    pub as_new: Option<AsNew>,
     pub hub: Hub,
     pub control: &'a Control,
     pub observed: &'a Observed,
@@ -25,11 +28,16 @@ pub(super) struct Watching<'a> {
     pub step_s: f64,
 }
 
+/// The vehicle as new in one comparison.
+pub(super) struct AsNew {
+    comparison: u32,
+    observer: Observer,
+    flags: u32,
+}
+
 /// Frames that have not gone out yet.
 struct Pending {
-    /// Frames of the burst; those behind `frame_count` are kept for their memory.
-    frames: Vec<Vec<u8>>,
-    frame_count: usize,
+    burst: Burst,
     frame: FrameWork,
     burst_at: Instant,
 }
@@ -47,8 +55,7 @@ impl Watching<'_> {
     /// Takes all ticks until the real-time thread has ended.
     pub fn run(mut self, ticks: &Receiver<Tick>) {
         let mut pending = Pending {
-            frames: Vec::new(),
-            frame_count: 0,
+            burst: Burst::default(),
             frame: FrameWork::default(),
             burst_at: Instant::now(),
         };
@@ -62,7 +69,7 @@ impl Watching<'_> {
             if now - pending.burst_at >= BURST {
                 pending.burst_at = now;
                 // A paused or slow run does not fill its frame.
-                if pending.frame_count == 0 {
+                if pending.burst.is_empty() {
                     self.end_frame(&mut pending);
                 }
                 self.send_burst(&mut pending);
@@ -81,6 +88,17 @@ impl Watching<'_> {
         if tick.epoch != self.rows.epoch() {
             self.begin(tick.epoch, pending);
         }
+        if self
+            .as_new
+            .as_ref()
+            .is_some_and(|as_new| as_new.comparison != tick.comparison)
+        {
+            self.as_new = None;
+        }
+        if tick.run > 0 {
+            self.add_as_new(tick);
+            return;
+        }
         self.observer.add(tick.ticks, &tick.record);
         let frame = &mut pending.frame;
         frame.ticks += 1;
@@ -98,10 +116,22 @@ impl Watching<'_> {
         self.rows.add(tick.record.time_s, values, recording);
     }
 
+    /// Takes a tick of the vehicle as new, which was the vehicle until the tick before its first.
+    fn add_as_new(&mut self, tick: &Tick) {
+        let as_new = self.as_new.get_or_insert_with(|| AsNew {
+            comparison: tick.comparison,
+            observer: self.observer.clone(),
+            flags: 0,
+        });
+        as_new.observer.add(tick.ticks, &tick.record);
+        as_new.flags |= tick.flags;
+    }
+
     /// Begins with the first tick of another run.
     fn begin(&mut self, epoch: u32, pending: &mut Pending) {
         self.end_frame(pending);
         self.rows.begin(epoch, &self.observed.recording);
+        self.as_new = None;
         if let Some(observer) = self.observed.take_next(epoch) {
             self.observer = observer;
         }
@@ -121,17 +151,15 @@ impl Watching<'_> {
             1e-3 * sum_ns as f32 / ticks as f32,
             1e-3 * greatest_ns as f32,
         ];
-        if pending.frames.len() <= pending.frame_count {
-            pending.frames.push(Vec::new());
+        let to = pending.burst.next();
+        self.observer.frame(0, work_us, flags, to);
+        if let Some(as_new) = &mut self.as_new {
+            let to = pending.burst.next();
+            as_new.observer.frame(1, [0.0; 2], as_new.flags, to);
         }
-        let bytes = &mut pending.frames[pending.frame_count];
-        self.observer.frame(0, work_us, flags, bytes);
-        pending.frame_count += 1;
     }
 
     fn send_burst(&self, pending: &mut Pending) {
-        let count = std::mem::take(&mut pending.frame_count);
-        let frames = pending.frames[..count].iter();
-        self.hub.frames(frames.map(Vec::as_slice));
+        self.hub.frames(pending.burst.take());
     }
 }

@@ -1,7 +1,8 @@
 //! An observed index in a figure: its name in words, its meaning and its values.
 
 use super::Drawn;
-use super::words::{Words, of_index, of_name};
+use super::words::{Words, of_index};
+use crate::commands::raw_name::in_words;
 use dashpot_files::study::Sweep;
 
 /// An observed index in a figure.
@@ -42,7 +43,7 @@ pub(super) fn meanings(drawn: &Drawn<'_>, observed: &[Index]) -> String {
         let first: String = first.into_iter().flatten().collect();
         let observed = &drawn.study.observed[index.number];
         // The label has the unit, perhaps another one.
-        let raw = of_name(observed.name);
+        let raw = in_words(observed.name);
         let unit = raw.rsplit_once(", ").map(|(_, unit)| format!(", {unit}"));
         let meaning = observed.meaning;
         let meaning = unit.map_or(meaning, |unit| meaning.trim_end_matches(&*unit));

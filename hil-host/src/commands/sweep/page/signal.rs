@@ -2,9 +2,10 @@
 
 use maud::{Markup, html};
 
-use super::words::{of_first, of_name};
+use super::words::of_first;
 use super::{Drawn, HEIGHT};
 use crate::commands::failure::Outcome;
+use crate::commands::raw_name::in_words;
 use dashpot_files::study::{Sweep, Value};
 use dashpot_report::page::{Figure, figure, panel};
 use dashpot_report::plot::curves::{Curve, ramp};
@@ -24,7 +25,7 @@ pub(super) fn part(
     signal: &str,
     caption: &str,
 ) -> Outcome<Markup> {
-    let what = of_name(signal);
+    let what = in_words(signal);
     let mut time_panel = panel("time, s", &what, Vec::new());
     let mut frequency_panel = Panel {
         x_scale: Scale::Decades,

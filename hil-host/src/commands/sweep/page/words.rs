@@ -2,6 +2,8 @@
 
 use dashpot_files::study::{Axis, Sweep, Value, format_number};
 
+use crate::commands::raw_name::in_words;
+
 /// Words of an observed index.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Words {
@@ -89,32 +91,12 @@ const INDICES: [(&str, &str, f64); 26] = [
     ),
 ];
 
-/// Endings of names with their units; longer endings before those that they end in.
-const UNITS: [(&str, &str); 16] = [
-    ("_m_per_s2", ", m/s²"),
-    ("_n_s_per_m", ", N s/m"),
-    ("_s_per_m", ", s/m"),
-    ("_n_per_m", ", N/m"),
-    ("_m_per_s", ", m/s"),
-    ("_km_h", ", km/h"),
-    ("_rad", ", rad"),
-    ("_pa", ", Pa"),
-    ("_kg", ", kg"),
-    ("_hz", ", Hz"),
-    ("_us", ", µs"),
-    ("_c", ", °C"),
-    ("_m", ", m"),
-    ("_n", ", N"),
-    ("_s", ", s"),
-    ("_derailment", " Y/Q"),
-];
-
 /// Returns the words of an observed index.
 pub(super) fn of_index(name: &str) -> Words {
     let known = INDICES.iter().find(|(known, ..)| *known == name);
     known.map_or_else(
         || Words {
-            label: of_name(name),
+            label: in_words(name),
             scale: 1.0,
         },
         |(_, label, scale)| Words {
@@ -124,19 +106,10 @@ pub(super) fn of_index(name: &str) -> Words {
     )
 }
 
-/// Returns a raw name of a signal or parameter as words with its unit.
-pub(super) fn of_name(name: &str) -> String {
-    let found = UNITS
-        .into_iter()
-        .find_map(|(ending, unit)| Some((name.strip_suffix(ending)?, unit)));
-    let (name, unit) = found.unwrap_or((name, ""));
-    name.replace(['_', '.'], " ") + unit
-}
-
 /// Returns the label of an axis; a raw name in place of one as words.
 pub(super) fn of_axis(axis: &Axis) -> String {
     if axis.label == axis.parameter {
-        of_name(&axis.parameter)
+        in_words(&axis.parameter)
     } else {
         axis.label.clone()
     }
@@ -183,7 +156,7 @@ mod tests {
                 index.name
             );
             assert!(!words.label.contains("_n") && !words.label.contains("greatest n"));
-            let unit = of_name(index.name);
+            let unit = in_words(index.name);
             let unit = unit.rsplit_once(", ").map(|(_, unit)| unit);
             let expected = match (unit, words.scale) {
                 (Some("N"), 1e-3) => "kN",
@@ -194,23 +167,6 @@ mod tests {
             };
             let ends = words.label.ends_with(&format!(", {expected}"));
             assert!(ends, "{}: {}", index.name, words.label);
-        }
-    }
-
-    #[test]
-    fn a_raw_name_becomes_words_with_a_unit() {
-        for (name, words) in [
-            ("vertical.mount.clearance_m", "vertical mount clearance, m"),
-            ("speed_km_h", "speed, km/h"),
-            ("normal_damping_s_per_m", "normal damping, s/m"),
-            (
-                "lateral.reduced.damping_n_s_per_m",
-                "lateral reduced damping, N s/m",
-            ),
-            ("wheelset_1_left_derailment", "wheelset 1 left Y/Q"),
-            ("friction", "friction"),
-        ] {
-            assert_eq!(of_name(name), words);
         }
     }
 }

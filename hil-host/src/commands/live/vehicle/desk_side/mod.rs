@@ -4,12 +4,14 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender};
 
 use dashpot_live::{
-    Action, Built, Change, Desk, FACTOR, MAX_STEPS, Message, Observer, Place, Request, Scene,
-    Simulation, Status, within,
+    Action, Built, Change, Desk, FACTOR, MAX_STEPS, Message, Place, Request, Scene, Simulation,
+    Status, within,
 };
 use dashpot_rail::track::Track;
 use dashpot_vehicle_run::Run;
 use serde_json::{Value, json};
+
+mod runs;
 
 use super::control::Control;
 use super::observed::Observed;
@@ -21,8 +23,8 @@ use crate::commands::live::source::{Source, Told, read};
 const AHEAD_S: f64 = 0.05;
 
 /// Answer to a message that only the engine of a page knows.
-const ALLOWED: &str = "not possible with dashpot live; allowed: act, run, step, reset, record, stop, status, \
-                       take-over";
+const ALLOWED: &str = "not possible with dashpot live; allowed: act, run, step, reset, compare, save, load, record, \
+                       stop, status, take-over";
 
 /// The dampers outside, as far as the operator's side needs to know.
 #[derive(Debug, Clone, Default)]
@@ -48,6 +50,10 @@ pub(super) struct DeskSide {
     scene: Value,
     epoch: u32,
     ended: Option<String>,
+    /// True while the vehicle as new runs beside.
+    is_comparing: bool,
+    /// A run that the real-time thread has brought to where the vehicle is.
+    copied: Option<Box<Simulation>>,
     /// Tracks that the real-time thread may still use. It must not be the one that frees them.
     tracks: Vec<Arc<Track>>,
     actions: u64,
@@ -79,6 +85,8 @@ impl DeskSide {
             scene,
             epoch: 1,
             ended: None,
+            is_comparing: false,
+            copied: None,
             tracks: Vec::new(),
             actions: 0,
         })
@@ -169,35 +177,6 @@ impl DeskSide {
         }
         self.order(Order::Steps(ticks.min(MAX_STEPS)))
     }
-
-    /// Returns to the start, without actions.
-    ///
-    /// # Errors
-    /// A damper is outside, or the vehicle cannot run.
-    pub fn reset(&mut self) -> Result<(), String> {
-        if !self.outside.dampers.is_empty() {
-            return Err(
-                "a reset is not possible with a damper outside; start dashpot live again".into(),
-            );
-        }
-        let run = self.built.run().map_err(|error| error.to_string())?;
-        let case = self.built.case();
-        let desk = Desk::new(case, &run).map_err(|error| error.to_string())?;
-        let observer = Observer::new(&desk, &run).map_err(|error| error.to_string())?;
-        let simulation = Box::new(Simulation::new(case, run));
-        self.epoch += 1;
-        self.observed.set_next(self.epoch, observer);
-        self.order(Order::Start {
-            epoch: self.epoch,
-            simulation,
-        })?;
-        self.desk = desk;
-        // The end had paused the run; the operator may have paused it too, and then it stays so.
-        match self.ended.take() {
-            Some(_) => self.set_factor(1.0),
-            None => Ok(()),
-        }
-    }
 }
 
 impl Source for DeskSide {
@@ -210,6 +189,7 @@ impl Source for DeskSide {
         status.factor = self.control.factor();
         status.ended.clone_from(&self.ended);
         status.warnings = self.observed.warnings();
+        status.is_comparing = self.is_comparing;
         status.is_recording = self.observed.recording.is_on();
         status.recorded_ticks = self.observed.recording.ticks();
         let mut status = json!(status);
@@ -226,6 +206,7 @@ impl Source for DeskSide {
         let mut is_news = false;
         while let Ok(note) = self.notes.try_recv() {
             match note {
+                Note::Spent(Order::Copy(copied)) => self.copied = Some(copied),
                 Note::Spent(order) => drop(order),
                 Note::Stopped => is_news = true,
                 Note::Ended(ending) => {
@@ -246,6 +227,12 @@ impl Source for DeskSide {
             Request::Record { on } => self.observed.recording.operate(on, self.can_record)?,
             Request::Reset => {
                 self.reset()?;
+                return Ok(Told::Scene);
+            }
+            Request::Compare { on } => self.compare(on)?,
+            Request::Save => return Ok(Told::Answer(json!({"state": self.save()?}))),
+            Request::Load { state } => {
+                self.load(&state)?;
                 return Ok(Told::Scene);
             }
             Request::Start { .. } => {
