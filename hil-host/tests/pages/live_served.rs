@@ -39,6 +39,40 @@ fn a_recording_is_turned_by_the_slider_of_its_page() {
 }
 
 #[test]
+fn who_watches_a_machine_takes_over_and_sees_the_vehicle_as_new() {
+    let Some(browser) = Browser::start("a machine on the live page") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let live = Live::start(&["--case", "straight-180"], folder.path());
+    browser.visit(&format!("http://{}/?role=viewer", live.address), 1280);
+    browser.wait_for("live.scene?.source === 'machine' && live.histories[0].newest?.time_s > 0.2");
+    let is_operable = "return !document.getElementById('compare').disabled;";
+    assert_eq!(browser.find(is_operable), false);
+    browser.click("#take-over");
+    browser.wait_for("live.status.role === 'operator'");
+    assert_eq!(browser.find(is_operable), true);
+    browser.click("#compare");
+    browser.wait_for("live.status.is_comparing && live.histories[1]?.newest?.ticks > 0");
+    // A saved state is a file of the browser; the page hands it back to the program.
+    browser.find(
+        "live.controls.ask({ do: 'save' }).then(({ state }) => (live.saved = state)); return null;",
+    );
+    browser.wait_for("live.saved");
+    browser.find(
+        "live.controls.ask({ do: 'load', state: live.saved }).then(({ error }) => (live.loaded = { error }));
+         return null;",
+    );
+    browser.wait_for("live.loaded");
+    assert_eq!(
+        browser.find("return live.loaded.error;"),
+        serde_json::Value::Null
+    );
+    browser.wait_for("live.status.is_comparing && live.histories[1]?.newest?.ticks > 0");
+    assert_eq!(browser.find(NOTICES), serde_json::json!([]));
+}
+
+#[test]
 fn a_target_moves_as_its_page_says() {
     let Some(browser) = Browser::start("a target on the live page") else {
         return;
