@@ -79,6 +79,7 @@ fn check(vehicle: &str, km_h: f64, name: &str) {
     );
     let below = growth(&case, name, (0.92 * ticks).floor() as usize);
     let above = growth(&case, name, (1.08 * ticks).ceil() as usize);
+    println!("{vehicle}, {name}: {below:.3}, {above:.3}");
     assert!(below < 0.95, "{vehicle}, {name}: grows by {below}");
     assert!(above > 1.05, "{vehicle}, {name}: grows by {above}");
 }
@@ -95,7 +96,15 @@ fn rails_that_give_way_change_the_delay_near_the_critical_speed() {
 
 #[test]
 fn motion_grows_above_the_critical_delay_and_decays_below_it() {
-    check("coach", 160.0, "front vertical damper 1");
-    check("locomotive", 400.0, "front lateral damper 1");
-    check("locomotive", 400.0, "front yaw damper 1");
+    for end in ["front", "rear"] {
+        check("coach", 160.0, &format!("{end} vertical damper 1"));
+        check("locomotive", 400.0, &format!("{end} yaw damper 1"));
+        for number in [1, 2] {
+            check(
+                "locomotive",
+                400.0,
+                &format!("{end} lateral damper {number}"),
+            );
+        }
+    }
 }

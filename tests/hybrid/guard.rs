@@ -49,7 +49,7 @@ proptest! {
     fn no_command_ever_steps(ticks in proptest::collection::vec(tick(), 1..60), releases: bool) {
         let action = if releases { GuardAction::ZeroForce } else { GuardAction::Hold };
         let mut system = system(action);
-        let mut last = 0.0_f32;
+        let (mut last, mut last_force_n, mut had_ended) = (0.0_f32, 0.0_f32, false);
         for (motion, measured, repeats) in ticks {
             let desired = Motion {
                 displacement_m: motion[0],
@@ -68,10 +68,13 @@ proptest! {
                 }
                 prop_assert!(system.energy().added_j().is_finite() && system.energy().added_share().is_finite());
                 prop_assert!(system.compensator().coefficients().iter().all(|a| a.is_finite()));
-                last = out.command_m;
+                // After the end the force for the vehicle only fades, whatever the rig measures.
+                prop_assert!(!had_ended || out.force_n.abs() <= last_force_n.abs(), "{last_force_n} {out:?}");
+                (last, last_force_n, had_ended) = (out.command_m, out.force_n, system.guard().has_ended());
             }
             if repeats == 7 {
                 system.guard().clear();
+                had_ended = system.guard().has_ended();
             }
         }
     }
@@ -210,4 +213,35 @@ fn an_ended_test_rests_and_can_start_again() {
     for pair in commands.windows(2) {
         assert!((pair[1] - pair[0]).abs() <= 0.5 * STEP_S * 1.0001);
     }
+}
+
+/// A host that is suspended finds the rig at rest. Its late reading does not make the fading force jump.
+#[test]
+fn the_force_for_the_vehicle_fades_evenly_after_a_gap() {
+    let mut system = system(GuardAction::Hold);
+    let (mut last_n, mut fading) = (None, 0);
+    for tick in 0..3400 {
+        let (desired, measured) = sine(tick);
+        let measured = match tick {
+            ..3000 => Some(measured),
+            3000..3060 => None,
+            _ => Some(Measured {
+                force_n: 0.0,
+                ..measured
+            }),
+        };
+        let force_n = system.tick(&desired, measured).force_n;
+        if system.guard().has_ended() {
+            let last_n: f32 = last_n.expect("the test ran before it ended");
+            let change_n = (force_n - last_n).abs();
+            assert!(
+                change_n < 0.006 * 3141.6,
+                "tick {tick}: {last_n} then {force_n}"
+            );
+            fading += 1;
+        }
+        last_n = Some(force_n);
+    }
+    assert!(fading > 300);
+    assert_eq!(last_n, Some(0.0));
 }

@@ -84,7 +84,7 @@ fn run(fault: &Fault) -> Outcome {
     let mut coupling = Coupling::new(compensator, &limits, case.step_s).unwrap();
     let rig = VirtualRig::new(&servo, &parameters, case.step_s, 1).unwrap();
     let keeper = KeeperSettings {
-        extrapolated_ticks: 5,
+        extrapolated_ticks: 10,
         ramp_s: 0.2,
         velocity_m_per_s: servo.limits.velocity_m_per_s,
         stroke_m: servo.limits.stroke_m,

@@ -73,6 +73,8 @@ pub struct TransferSystem<C> {
     fading_ticks: u32,
     fading_left: u32,
     share_of_tick: f32,
+    /// The last measured force before the end (N).
+    force_n: f32,
     was_running: bool,
     tracking_error: f32,
     least_error_m: f32,
@@ -107,6 +109,7 @@ impl<C: Compensator> TransferSystem<C> {
             fading_ticks,
             fading_left: fading_ticks,
             share_of_tick: 1.0 / fading_ticks as f32,
+            force_n: 0.0,
             was_running: false,
             tracking_error: settings.tracking_error,
             least_error_m: 0.01 * settings.guard.error_m,
@@ -154,13 +157,17 @@ impl<C: Compensator> TransferSystem<C> {
         if is_running && !found.is_empty() {
             self.guard.end(found);
         }
-        self.fading_left = match self.guard.has_ended() {
-            true => self.fading_left.saturating_sub(1),
-            false => (self.fading_left + 1).min(self.fading_ticks),
-        };
+        // What a rig measures while it comes to rest is no force of the test: after a gap it would jump.
+        match self.guard.has_ended() {
+            true => self.fading_left = self.fading_left.saturating_sub(1),
+            false => {
+                self.fading_left = (self.fading_left + 1).min(self.fading_ticks);
+                self.force_n = force_n;
+            }
+        }
         Command {
             command_m,
-            force_n: self.fading_left as f32 * self.share_of_tick * force_n,
+            force_n: self.fading_left as f32 * self.share_of_tick * self.force_n,
             status: self.guard.status(),
         }
     }

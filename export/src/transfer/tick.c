@@ -155,11 +155,13 @@ prefix_command prefix_tick(prefix_system *system, const prefix_motion *desired, 
         prefix_end_for(system, found);
     }
     if (prefix_has_ended(system)) {
+        /* What a rig measures while it comes to rest is no force of the test: after a gap it would jump. */
         system->fading_left -= system->fading_left > 0;
     } else {
         system->fading_left += system->fading_left < system->fading_ticks;
+        system->vehicle_force_n = system->force_n;
     }
-    command.force_n = (float)system->fading_left * system->share_of_tick * system->force_n;
+    command.force_n = (float)system->fading_left * system->share_of_tick * system->vehicle_force_n;
     command.status = (uint16_t)system->status;
     command.phase = (uint16_t)system->phase;
     return command;

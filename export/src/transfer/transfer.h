@@ -134,7 +134,7 @@ typedef struct prefix_system {
     uint32_t ticks_left;
     /* Guard. */
     uint32_t phase, status, age, limited, off;
-    float command_m, change_m, displacement_m, force_n, displacement_same_m, force_same_m;
+    float command_m, change_m, displacement_m, force_n, vehicle_force_n, displacement_same_m, force_same_m;
     float without_force_m;
     float from_m, from_change_m, release_m, ending_s, duration_s;
     uint32_t fading_left, was_running, tracking_left;

@@ -31,7 +31,7 @@ pub const ACTUATORS: [(&str, &str); 4] = [
 
 const SHIPPED: Shipped = Shipped {
     kind: "actuator",
-    built_in: "actuator",
+    built_in: "shipped actuator",
     texts: &ACTUATORS,
 };
 
