@@ -35,6 +35,7 @@ pub mod response;
 pub mod rig;
 pub mod sensors;
 pub mod shims;
+pub mod shipped;
 pub mod step_size;
 mod streams;
 pub mod sweep;
@@ -46,6 +47,7 @@ mod wheel_rail;
 use arguments::{DamperArguments, Format, RealtimeArguments, TickLimitArguments};
 use failure::Outcome;
 use print::{counted, nearest_nanosecond, print_report, print_report_beside};
+use shipped::Kind;
 
 /// A command with its options; the documentation of the arguments is the help text.
 #[allow(missing_docs)]
@@ -69,6 +71,21 @@ pub enum Command {
     Merge(merge::MergeArguments),
     Pil(pil::PilArguments),
     Link(link::LinkArguments),
+    /// List the dampers that ship.
+    Dampers(shipped::ListArguments),
+    /// List the vehicles that ship.
+    Vehicles(shipped::ListArguments),
+    /// List the tracks that ship.
+    Tracks(shipped::ListArguments),
+    /// List the cases that ship: a vehicle on a track at a speed.
+    Cases(shipped::ListArguments),
+    /// List the studies that ship: many cases.
+    Studies(shipped::ListArguments),
+    /// List the actuators of rigs that ship.
+    Actuators(shipped::ListArguments),
+    /// List the sheets of rig tests that ship.
+    Sheets(shipped::ListArguments),
+    Show(shipped::ShowArguments),
 }
 
 impl Command {
@@ -96,6 +113,14 @@ impl Command {
             Self::Merge(arguments) => merge::run(arguments),
             Self::Pil(arguments) => pil::run(arguments),
             Self::Link(arguments) => link::run(arguments),
+            Self::Dampers(arguments) => shipped::list(Kind::Damper, arguments),
+            Self::Vehicles(arguments) => shipped::list(Kind::Vehicle, arguments),
+            Self::Tracks(arguments) => shipped::list(Kind::Track, arguments),
+            Self::Cases(arguments) => shipped::list(Kind::Case, arguments),
+            Self::Studies(arguments) => shipped::list(Kind::Study, arguments),
+            Self::Actuators(arguments) => shipped::list(Kind::Actuator, arguments),
+            Self::Sheets(arguments) => shipped::list(Kind::Sheet, arguments),
+            Self::Show(arguments) => shipped::show(arguments),
         }
     }
 }

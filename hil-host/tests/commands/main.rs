@@ -49,6 +49,7 @@ mod rig_sheet;
 mod rows_of_other_physics;
 mod shims;
 mod shims_plates;
+mod shipped;
 mod short_runs_without_ride;
 mod standard_streams;
 mod step_size;
