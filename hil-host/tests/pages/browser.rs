@@ -33,6 +33,11 @@ pub struct Browser {
 impl Browser {
     /// Starts a browser; returns `None` with a message if it is not installed.
     pub fn start(skipped: &str) -> Option<Self> {
+        Self::tracing(skipped, None)
+    }
+
+    /// Starts a browser whose performance log also has its own events of this category.
+    pub fn tracing(skipped: &str, category: Option<&str>) -> Option<Self> {
         if !have(&[CHROMIUM, CHROMEDRIVER], skipped) {
             return None;
         }
@@ -64,8 +69,12 @@ impl Browser {
                 folder.path().join("profile").display()
             ),
         ];
+        let mut options = json!({ "args": arguments });
+        if let Some(category) = category {
+            options["perfLoggingPrefs"] = json!({ "traceCategories": category });
+        }
         let capabilities = json!({
-            "goog:chromeOptions": { "args": arguments },
+            "goog:chromeOptions": options,
             "goog:loggingPrefs": { "browser": "ALL", "performance": "ALL" },
         });
         let runtime = Builder::new_current_thread().enable_all().build().unwrap();
@@ -222,12 +231,21 @@ impl Browser {
         entries.as_array().unwrap().clone()
     }
 
-    /// Returns the addresses requested by the page since the last call, including its own.
-    pub fn requests(&self, page: &str) -> Vec<String> {
-        let messages = self.log("performance").into_iter().map(|entry| {
+    /// Returns the messages of the performance log since the last call.
+    pub fn messages(&self) -> Vec<Value> {
+        let message_of = |entry: Value| {
             let message: Value = serde_json::from_str(entry["message"].as_str().unwrap()).unwrap();
             message["message"].clone()
-        });
+        };
+        self.log("performance")
+            .into_iter()
+            .map(message_of)
+            .collect()
+    }
+
+    /// Returns the addresses requested by the page since the last call, including its own.
+    pub fn requests(&self, page: &str) -> Vec<String> {
+        let messages = self.messages().into_iter();
         messages
             .filter(|message| message["method"] == "Network.requestWillBeSent")
             .filter(|message| message["params"]["documentURL"] == page)
