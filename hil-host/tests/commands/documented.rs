@@ -57,8 +57,12 @@ fn commands(line: &str) -> Vec<Vec<String>> {
 }
 
 fn documents() -> Vec<PathBuf> {
-    let pages = fs::read_dir(repository().join("docs")).unwrap();
-    let pages = pages.map(|entry| entry.unwrap().path());
+    let folders = ["docs", "docs/tutorials", "docs/reference"];
+    let pages = folders.map(|folder| fs::read_dir(repository().join(folder)).unwrap());
+    let pages = pages
+        .into_iter()
+        .flatten()
+        .map(|entry| entry.unwrap().path());
     let pages = pages.filter(|path| path.extension().is_some_and(|end| end == "md"));
     let others = ["README.md", "capi/README.md", "CONTRIBUTING.md"];
     pages
