@@ -1,5 +1,5 @@
-//! Rules for the repository as a whole: crates, modules, the architecture drawing, the book, licences, packages, and seeds of the
-//! fuzz targets.
+//! Rules for the repository as a whole: crates, modules, the architecture drawing, the book, licences, packages, and
+//! seeds of the fuzz targets.
 
 mod architecture;
 mod book;

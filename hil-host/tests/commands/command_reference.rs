@@ -50,7 +50,12 @@ fn describe(page: &mut String, command: &[String]) {
     };
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     let text = lines.join("\n");
-    write!(page, "\n{heading} {name}\n\n```text\n{}\n```\n", text.trim_end()).unwrap();
+    write!(
+        page,
+        "\n{heading} {name}\n\n```text\n{}\n```\n",
+        text.trim_end()
+    )
+    .unwrap();
     for name in listed(&text) {
         describe(page, &[command, &[name]].concat());
     }
@@ -71,7 +76,10 @@ fn the_reference_has_the_help_of_every_command() {
     let differ = |(_, (found, expected)): &(usize, (&str, &str))| found != expected;
     let lines = found.lines().zip(page.lines()).enumerate();
     if let Some((at, (found, expected))) = lines.into_iter().find(differ) {
-        panic!("{PAGE}:{}: `{found}` should be `{expected}`; rewrite it with DASHPOT_BLESS=1", at + 1);
+        panic!(
+            "{PAGE}:{}: `{found}` should be `{expected}`; rewrite it with DASHPOT_BLESS=1",
+            at + 1
+        );
     }
     assert_eq!(found, page, "{PAGE}: rewrite it with DASHPOT_BLESS=1");
 }

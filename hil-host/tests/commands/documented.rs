@@ -18,10 +18,15 @@ const EXPORTS: [&str; 5] = [
     "twincat.md",
 ];
 
+/// A line of a document without its indentation, and without the `$` of a console.
+fn typed(line: &str) -> &str {
+    line.trim().trim_start_matches("$ ")
+}
+
 /// Command lines of a document, with lines continued by a backslash joined.
 fn lines(text: &str) -> Vec<String> {
     let mut found = Vec::new();
-    let mut lines = text.lines().map(str::trim);
+    let mut lines = text.lines().map(typed);
     while let Some(line) = lines.next() {
         let mut whole = line.to_owned();
         while let Some(begun) = whole.strip_suffix('\\') {

@@ -1,5 +1,6 @@
 //! Follows each page of docs/tutorials literally: writes its files and runs its commands in order, in an empty folder,
-//! and compares what they print with what the page shows. `...` on a page stands for any text.
+//! and compares what they print with what the page shows. `...` on a page stands for any text. The quick start of
+//! README.md is followed in the same way.
 #![cfg(unix)]
 
 use std::path::Path;
@@ -78,10 +79,35 @@ fn follow(page: &str) {
                 }
             }
             (_, Some(file)) => std::fs::write(folder.path().join(file), content).unwrap(),
-            (language, None) => panic!("{page}: a block of {language} without the name of its file"),
+            (language, None) => {
+                panic!("{page}: a block of {language} without the name of its file")
+            }
         }
     }
     assert!(commands > 2, "{page}: {commands} commands");
+}
+
+/// Runs the commands of README.md after `$`, except the installation, and compares their output.
+#[test]
+fn the_quick_start() {
+    let text = std::fs::read_to_string(repository().join("README.md")).unwrap();
+    let blocks = blocks(&text);
+    let console = blocks.iter().find(|block| block.language == "console");
+    let folder = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink(repository().join("data"), folder.path().join("data")).unwrap();
+    let content = format!("\n{}", console.unwrap().content);
+    let mut followed = 0;
+    for part in content.split("\n$ ").skip(1) {
+        let (line, shown) = part.split_once('\n').unwrap_or((part, ""));
+        if line.starts_with("cargo install") {
+            continue;
+        }
+        let line = line.replace("cargo run --release", "dashpot");
+        let printed = run(&format!("{line} 2>&1"), folder.path());
+        assert_eq!(difference(&printed, shown), None, "README.md: {line}");
+        followed += 1;
+    }
+    assert_eq!(followed, 2);
 }
 
 #[test]
@@ -135,10 +161,22 @@ fn every_tutorial_is_followed() {
 #[test]
 fn other_output_than_shown_is_found() {
     let printed = "a 1 \nb 2\nc 3\n";
-    for same in ["a 1\nb 2\nc 3\n", "a 1\n...\n", "...\nb 2\n...", "a ...\nc 3", "a 1\n...\nc ..."] {
+    for same in [
+        "a 1\nb 2\nc 3\n",
+        "a 1\n...\n",
+        "...\nb 2\n...",
+        "a ...\nc 3",
+        "a 1\n...\nc ...",
+    ] {
         assert_eq!(difference(printed, same), None, "{same}");
     }
-    for other in ["b 2\n...", "a 1\n", "a 1\n...\nb 3\n...", "...\nc 3\nb 2", "...\nc"] {
+    for other in [
+        "b 2\n...",
+        "a 1\n",
+        "a 1\n...\nb 3\n...",
+        "...\nc 3\nb 2",
+        "...\nc",
+    ] {
         assert!(difference(printed, other).is_some(), "{other}");
     }
 }

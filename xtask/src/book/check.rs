@@ -171,7 +171,11 @@ mod tests {
                 "docs/a.md:4: ../../x.md: no such file in the repository",
             ]
         );
-        let pages: Vec<_> = sources.pages.iter().map(|page| page.display().to_string()).collect();
+        let pages: Vec<_> = sources
+            .pages
+            .iter()
+            .map(|page| page.display().to_string())
+            .collect();
         assert_eq!(pages, ["README.md", "docs/a.md"]);
         assert_eq!(sources.files.len(), 1);
     }

@@ -70,7 +70,12 @@ pub fn links(page: &str) -> Vec<Link> {
             continue;
         }
         let line = without_code(line);
-        for (start, end) in [("](", ")"), ("src=\"", "\""), ("srcset=\"", "\""), ("href=\"", "\"")] {
+        for (start, end) in [
+            ("](", ")"),
+            ("src=\"", "\""),
+            ("srcset=\"", "\""),
+            ("href=\"", "\""),
+        ] {
             for rest in line.split(start).skip(1) {
                 add(rest.split(end).next().unwrap_or(""));
             }
@@ -136,7 +141,8 @@ mod tests {
 
     #[test]
     fn anchors_are_those_of_the_headings() {
-        let page = "# The damper, 2a\n## `--check` _it_\n```\n# none\n```\n## Twice\n## Twice\n#hash\n";
+        let page =
+            "# The damper, 2a\n## `--check` _it_\n```\n# none\n```\n## Twice\n## Twice\n#hash\n";
         assert_eq!(
             anchors(page),
             ["the-damper-2a", "--check-_it_", "twice", "twice-1"]

@@ -13,6 +13,8 @@ pub use check::{Sources, read_sources};
 
 /// Version of mdBook that is installed if there is none on the path.
 const VERSION: &str = "0.4.52";
+/// What of mdBook is built: the search, not its server, which has most of its dependencies.
+const FEATURES: [&str; 3] = ["--no-default-features", "--features", "search"];
 /// Folder into which mdBook is installed.
 const PROGRAM: &str = "target/mdbook";
 /// Folder of the pages for mdBook. They are copies in the same folders as in the repository, so links between `docs/`
@@ -34,13 +36,17 @@ pub fn book() -> Outcome {
     let mut mdbook = Command::new(program()?);
     mdbook.arg("build").current_dir(repository());
     run(mdbook, "mdbook build")?;
-    println!("the book is in {}", repository().join(BOOK).join("index.html").display());
+    println!(
+        "the book is in {}",
+        repository().join(BOOK).join("index.html").display()
+    );
     Ok(())
 }
 
 /// Copies pages and files into `folder`, which is emptied first, and writes the summary with paths from there.
 fn copy(sources: &Sources, folder: &Path) -> Outcome {
-    let failed = |path: &Path, error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let failed =
+        |path: &Path, error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
     if folder.exists() {
         fs::remove_dir_all(folder).map_err(|error| failed(folder, &error))?;
     }
@@ -72,7 +78,8 @@ fn program() -> Outcome<PathBuf> {
         }
     }
     let root = folder.display().to_string();
-    cargo(&["install", "--locked", "mdbook", "--version", VERSION, "--root", &root])?;
+    let package = ["install", "--locked", "mdbook", "--version", VERSION];
+    cargo(&[&package[..], &["--root", &root], &FEATURES].concat())?;
     Ok(installed)
 }
 
