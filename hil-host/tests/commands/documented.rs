@@ -43,7 +43,7 @@ fn commands(line: &str) -> Vec<Vec<String>> {
     let of_one = |words: &[String]| {
         let words: Vec<String> = words
             .iter()
-            .take_while(|word| ![">", "|"].contains(&&***word))
+            .take_while(|word| ![">", "2>&1", "|", "||"].contains(&&***word))
             .cloned()
             .collect();
         let words = match words.iter().position(|word| word == "--") {

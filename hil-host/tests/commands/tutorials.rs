@@ -63,6 +63,10 @@ fn follow(page: &str) {
     let path = repository().join("docs/tutorials").join(page);
     let text = std::fs::read_to_string(path).unwrap();
     let folder = tempfile::tempdir().unwrap();
+    // Packages that a page compiles are kept, so that only the first run compiles them.
+    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tutorials");
+    std::fs::create_dir_all(&kept).unwrap();
+    std::os::unix::fs::symlink(kept, folder.path().join("target")).unwrap();
     let (mut commands, mut printed) = (0, String::new());
     for block in blocks(&text) {
         let content = block
