@@ -78,12 +78,16 @@ fn documents() -> Vec<PathBuf> {
 /// Indented lines of a document and lines of its shell blocks.
 fn indented(document: &Path) -> String {
     let text = fs::read_to_string(document).unwrap();
-    let mut is_shell = false;
+    // Within a block: whether it is one of the shell.
+    let mut block = None;
     let mut found = String::new();
     for line in text.lines() {
         if let Some(language) = line.strip_prefix("```") {
-            is_shell = !is_shell && ["sh", "bash", "console"].contains(&language);
-        } else if is_shell || line.starts_with("    ") {
+            block = match block {
+                None => Some(["sh", "bash", "console"].contains(&language)),
+                Some(_) => None,
+            };
+        } else if block.unwrap_or(line.starts_with("    ")) {
             found += line;
             found.push('\n');
         }
