@@ -1,11 +1,11 @@
 #!/bin/sh
-# Runs the README's two commands on a machine with only Rust and a linker: a minimal Debian in a folder, with a copy of
-# this machine's default Rust toolchain without additional targets.
+# Runs the demonstration and all tests on a machine with only Rust and a linker: a minimal Debian in a folder, with a
+# copy of this machine's default Rust toolchain without additional targets.
 #
 #   sudo xtask/fresh_machine.sh FOLDER [COMMAND]
 #
-# Creates FOLDER (10 GB) and keeps it; an existing one is reused. COMMAND replaces the two commands and runs in a copy of the
-# last commit. Needs Debian's debootstrap, rustup and a network.
+# Creates FOLDER (10 GB) and keeps it; an existing one is reused. COMMAND replaces both and runs in a copy of the last
+# commit. Needs Debian's debootstrap, rustup and a network.
 set -eu
 
 folder=${1:?"usage: sudo xtask/fresh_machine.sh FOLDER [COMMAND]"}

@@ -1,6 +1,7 @@
 //! Tests of the damper: its laws, accuracy, safety and encodings.
 
 mod accuracy;
+mod accuracy_figure;
 mod bank;
 mod changed_image;
 mod contract;

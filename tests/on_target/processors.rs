@@ -311,7 +311,7 @@ fn compare_documents(measured: &[(&Column, Figures)]) {
             let line = format!(
                 "On a Cortex-M7 a step takes {} instructions ({version}), every step the same, {} bytes of stack and \
                  {} \
-                 bytes of state:\n",
+                 bytes of state.\n",
                 figure("physical_most_instructions"),
                 figure("stack_bytes"),
                 figure("state_bytes"),

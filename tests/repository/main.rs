@@ -1,7 +1,8 @@
-//! Rules for the repository as a whole: crates, modules, the architecture drawing, licences, packages, and seeds of the
-//! fuzz targets.
+//! Rules for the repository as a whole: crates, modules, the architecture drawing, the book, licences, packages, and
+//! seeds of the fuzz targets.
 
 mod architecture;
+mod book;
 mod crates;
 mod files;
 mod fuzz_seeds;

@@ -135,3 +135,18 @@ fn included_files_are_found() {
     assert_eq!(paths[1], format!("{}c.bin", "../".repeat(99)));
     assert_eq!(paths.len(), 2);
 }
+
+#[test]
+fn the_citation_has_the_version_and_the_licences() {
+    let citation = read("CITATION.cff");
+    let package = &published()["core"];
+    let version = format!("\nversion: {}\n", package.version);
+    assert!(
+        citation.contains(&version),
+        "CITATION.cff: expected{version}"
+    );
+    let licence = package.license.as_deref().expect("a licence");
+    for name in licence.split(" OR ") {
+        assert!(citation.contains(&format!("\n  - {name}\n")), "{name}");
+    }
+}

@@ -1,5 +1,6 @@
 //! Runs all checks; those that fail soonest come first.
 
+use crate::book::book;
 use crate::firmware;
 use crate::packages::{rehearse_publishing, with_features};
 use crate::processor::CORTEX_M7;
@@ -46,6 +47,7 @@ pub fn ci() -> Outcome {
         &["doc", "--workspace", "--no-deps"],
         &[("RUSTDOCFLAGS", "-D warnings")],
     )?;
+    book()?;
     check_interfaces()?;
     rehearse_publishing()?;
     rust_version::check()?;

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use xtask::book::book;
 use xtask::c_library::{self, Options, Platform};
 use xtask::ci::ci;
 use xtask::run::{Outcome, cargo, repository};
@@ -43,6 +44,8 @@ Commands:
   kalker-book            compute the tables of the recommended creep law from exact theory (about fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md and write it (about six minutes)
   web                    build the engine of the live page as WebAssembly into page/module (three minutes)
+  book                   check the links of the documents and build them as a book in target/book (installs mdBook into
+                         target/mdbook if there is none)
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
   python                 install into target/python the Python packages that tests need, and maturin into target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
@@ -92,6 +95,7 @@ fn main() -> ExitCode {
         ["vehicle-validation"] => vehicle_validation(),
         ["python"] => python::install(),
         ["web"] => web(),
+        ["book"] => book(),
         ["wheel"] => build_wheel(),
         ["miri"] => nightly::miri(),
         ["fuzz"] => nightly::fuzz(60),

@@ -1,6 +1,6 @@
-//! The four commands of README: from a recorded bench test to a damper file, a firmware constant and a page, and the
-//! detection of a worn damper in a replay; and the inputs they reject. The recordings are synthetic
-//! (hil-host/examples/make_bench.rs), so the right values are known.
+//! The four commands of docs/tutorials/recording.md: from a recorded bench test to a damper file, a firmware constant
+//! and a page, and the detection of a worn damper in a replay; and the inputs they reject. The recordings are
+//! synthetic (hil-host/examples/make_bench.rs), so the right values are known.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

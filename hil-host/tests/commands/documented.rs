@@ -18,10 +18,15 @@ const EXPORTS: [&str; 5] = [
     "twincat.md",
 ];
 
+/// A line of a document without its indentation, and without the `$` of a console.
+fn typed(line: &str) -> &str {
+    line.trim().trim_start_matches("$ ")
+}
+
 /// Command lines of a document, with lines continued by a backslash joined.
 fn lines(text: &str) -> Vec<String> {
     let mut found = Vec::new();
-    let mut lines = text.lines().map(str::trim);
+    let mut lines = text.lines().map(typed);
     while let Some(line) = lines.next() {
         let mut whole = line.to_owned();
         while let Some(begun) = whole.strip_suffix('\\') {
@@ -38,7 +43,7 @@ fn commands(line: &str) -> Vec<Vec<String>> {
     let of_one = |words: &[String]| {
         let words: Vec<String> = words
             .iter()
-            .take_while(|word| ![">", "|"].contains(&&***word))
+            .take_while(|word| ![">", "2>&1", "|", "||"].contains(&&***word))
             .cloned()
             .collect();
         let words = match words.iter().position(|word| word == "--") {
@@ -57,8 +62,12 @@ fn commands(line: &str) -> Vec<Vec<String>> {
 }
 
 fn documents() -> Vec<PathBuf> {
-    let pages = fs::read_dir(repository().join("docs")).unwrap();
-    let pages = pages.map(|entry| entry.unwrap().path());
+    let folders = ["docs", "docs/tutorials", "docs/reference"];
+    let pages = folders.map(|folder| fs::read_dir(repository().join(folder)).unwrap());
+    let pages = pages
+        .into_iter()
+        .flatten()
+        .map(|entry| entry.unwrap().path());
     let pages = pages.filter(|path| path.extension().is_some_and(|end| end == "md"));
     let others = ["README.md", "capi/README.md", "CONTRIBUTING.md"];
     pages
@@ -69,12 +78,16 @@ fn documents() -> Vec<PathBuf> {
 /// Indented lines of a document and lines of its shell blocks.
 fn indented(document: &Path) -> String {
     let text = fs::read_to_string(document).unwrap();
-    let mut is_shell = false;
+    // Within a block: whether it is one of the shell.
+    let mut block = None;
     let mut found = String::new();
     for line in text.lines() {
         if let Some(language) = line.strip_prefix("```") {
-            is_shell = !is_shell && ["sh", "bash", "console"].contains(&language);
-        } else if is_shell || line.starts_with("    ") {
+            block = match block {
+                None => Some(["sh", "bash", "console"].contains(&language)),
+                Some(_) => None,
+            };
+        } else if block.unwrap_or(line.starts_with("    ")) {
             found += line;
             found.push('\n');
         }

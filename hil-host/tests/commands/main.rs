@@ -12,6 +12,7 @@ mod calibrate_start_from_another_preset_was_not_named;
 mod calibrate_wrong_sign_and_unit_were_not_named;
 mod case_options;
 mod clock_jumps_filled_disks;
+mod command_reference;
 #[path = "../common/mod.rs"]
 mod common;
 mod contact;
@@ -54,6 +55,7 @@ mod short_runs_without_ride;
 mod standard_streams;
 mod step_size;
 mod sweep;
+mod tutorials;
 mod vehicle;
 mod vehicle_contact;
 mod vehicle_events;
