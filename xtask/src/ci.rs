@@ -1,6 +1,5 @@
 //! Runs all checks; those that fail soonest come first.
 
-use crate::book::book;
 use crate::firmware;
 use crate::packages::{rehearse_publishing, with_features};
 use crate::processor::CORTEX_M7;
@@ -47,7 +46,6 @@ pub fn ci() -> Outcome {
         &["doc", "--workspace", "--no-deps"],
         &[("RUSTDOCFLAGS", "-D warnings")],
     )?;
-    book()?;
     check_interfaces()?;
     rehearse_publishing()?;
     rust_version::check()?;
