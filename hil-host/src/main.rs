@@ -3,38 +3,20 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::Parser;
-use dashpot_hil::commands::Command;
-use dashpot_hil::commands::demonstrate::{self, DemonstrateArguments};
+use clap::FromArgMatches;
+use dashpot_hil::cli::{self, Cli};
 use dashpot_hil::commands::failure::Kind;
-use dashpot_hil::commands::interruption;
-
-/// Desktop tools for the Dashpot damper model. Without a command, runs the demo on a synthetic ride.
-#[derive(Parser)]
-#[command(
-    name = "dashpot",
-    version,
-    args_conflicts_with_subcommands = true,
-    after_help = "Examples:
-  dashpot
-  dashpot --output damper.html
-  dashpot rig --damper paper --amplitude-m 24.875e-3 --frequency-hz 0.64
-
-The file name `-` means standard input or standard output; reports then go to standard error.
-Exit code: 0 success, 1 failure, 2 usage error."
-)]
-struct Cli {
-    #[command(flatten)]
-    demonstration: DemonstrateArguments,
-    #[command(subcommand)]
-    command: Option<Command>,
-}
+use dashpot_hil::commands::{demonstrate, interruption};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let given = cli::command().get_matches();
+    let cli = match Cli::from_arg_matches(&given) {
+        Ok(cli) => cli,
+        Err(error) => error.format(&mut cli::command()).exit(),
+    };
     let outcome = interruption::clean_up().and_then(|()| match &cli.command {
         None => demonstrate::run(&cli.demonstration),
-        Some(command) => command.run(),
+        Some(command) => command.run(cli::command),
     });
     let Err(failure) = outcome else {
         return ExitCode::SUCCESS;

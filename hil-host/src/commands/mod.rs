@@ -34,6 +34,7 @@ pub mod replay;
 pub mod response;
 pub mod rig;
 pub mod sensors;
+pub mod shell;
 pub mod shims;
 pub mod shipped;
 pub mod step_size;
@@ -86,14 +87,16 @@ pub enum Command {
     /// List the sheets of rig tests that ship.
     Sheets(shipped::ListArguments),
     Show(shipped::ShowArguments),
+    Completions(shell::CompletionsArguments),
+    Man(shell::ManArguments),
 }
 
 impl Command {
-    /// Runs the command.
+    /// Runs the command; `whole` is the command line that it is part of.
     ///
     /// # Errors
     /// Returns the error of the command's own `run`.
-    pub fn run(&self) -> Outcome<()> {
+    pub fn run(&self, whole: fn() -> clap::Command) -> Outcome<()> {
         match self {
             Self::Replay(arguments) => replay::run(arguments),
             Self::Channels(arguments) => channels::run(arguments),
@@ -121,6 +124,8 @@ impl Command {
             Self::Actuators(arguments) => shipped::list(Kind::Actuator, arguments),
             Self::Sheets(arguments) => shipped::list(Kind::Sheet, arguments),
             Self::Show(arguments) => shipped::show(arguments),
+            Self::Completions(arguments) => shell::completions(arguments, whole()),
+            Self::Man(arguments) => shell::man(arguments, whole()),
         }
     }
 }

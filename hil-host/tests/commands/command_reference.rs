@@ -21,27 +21,16 @@ fn help(command: &[String]) -> String {
     let output = Command::new(program())
         .arg("help")
         .args(command)
-        .env_remove("COLUMNS")
+        // As on a wide terminal.
+        .env("COLUMNS", "120")
         .output()
         .unwrap();
     assert!(output.status.success(), "{command:?}");
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Names of the commands that a help lists.
-fn listed(help: &str) -> Vec<String> {
-    let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1);
-    lines
-        .take_while(|line| !line.is_empty())
-        .filter(|line| !line.starts_with("   "))
-        .filter_map(|line| line.split_whitespace().next())
-        .filter(|name| *name != "help")
-        .map(str::to_owned)
-        .collect()
-}
-
 /// Appends the help of a command, then that of the commands below it.
-fn describe(page: &mut String, command: &[String]) {
+fn describe(page: &mut String, command: &[String], known: &clap::Command) {
     let text = help(command);
     let (heading, name) = match command {
         [] => ("##", "dashpot".to_owned()),
@@ -56,15 +45,17 @@ fn describe(page: &mut String, command: &[String]) {
         text.trim_end()
     )
     .unwrap();
-    for name in listed(&text) {
-        describe(page, &[command, &[name]].concat());
+    let below = known.get_subcommands();
+    for known in below.filter(|known| known.get_name() != "help") {
+        let name = known.get_name().to_owned();
+        describe(page, &[command, &[name]].concat(), known);
     }
 }
 
 #[test]
 fn the_reference_has_the_help_of_every_command() {
     let mut page = INTRODUCTION.to_owned();
-    describe(&mut page, &[]);
+    describe(&mut page, &[], &dashpot_hil::cli::command());
     let count = page.matches("\n## ").count();
     assert!(count > 15, "{count} commands");
     let path = repository().join(PAGE);

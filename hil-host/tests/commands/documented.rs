@@ -97,7 +97,7 @@ fn indented(document: &Path) -> String {
 
 #[test]
 fn every_command_line_is_valid() {
-    let whole = dashpot_hil::commands::Command::augment_subcommands(clap::Command::new("dashpot"));
+    let whole = dashpot_hil::cli::command();
     let helps = whole.get_subcommands().map(|command| {
         let help = command.get_after_help().map(ToString::to_string);
         (

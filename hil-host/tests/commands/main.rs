@@ -48,6 +48,7 @@ mod rig_protocol;
 mod rig_report;
 mod rig_sheet;
 mod rows_of_other_physics;
+mod shell;
 mod shims;
 mod shims_plates;
 mod shipped;

@@ -8,7 +8,7 @@ mod rig;
 
 use super::failure::Outcome;
 
-/// Hybrid tests: an actuator moves a real damper, and the rest is simulated.
+/// Move a real damper under a simulated vehicle: plan of a test, virtual rig, published benchmark.
 #[derive(Debug, Clone, clap::Args)]
 pub struct HybridArguments {
     #[command(subcommand)]

@@ -17,7 +17,7 @@ use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::{cannot_write, write_whole_if};
 use dashpot_testbench::response::frequencies;
 
-/// Compute dynamic stiffness, loss angle and damping over frequency and amplitude, also for the linearised damper.
+/// Compute dynamic stiffness, loss angle and damping over frequency and amplitude; also for the linearised damper.
 #[derive(Debug, Clone, clap::Args)]
 #[command(
     allow_negative_numbers = true,
