@@ -4,7 +4,6 @@
 use std::path::{Path, PathBuf};
 use std::{fs, iter};
 
-use clap::Subcommand;
 use xtask::run::repository;
 
 use crate::common::dashpot;
