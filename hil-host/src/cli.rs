@@ -41,7 +41,7 @@ const FEATURES: [(&str, bool); 3] = [
     ("serial", cfg!(feature = "serial")),
 ];
 
-/// Real-time model of a rail vehicle's hydraulic damper. Without a command, runs the demonstration.
+/// Real-time model of a rail vehicle's hydraulic damper. Without a command, runs a demonstration on a synthetic ride.
 #[derive(Debug, Clone, Parser)]
 #[command(
     name = "dashpot",
@@ -176,10 +176,12 @@ mod tests {
 
     #[test]
     fn lines_of_a_paragraph_are_joined_and_examples_stay() {
-        let text = "Examples:\n  dashpot a\n  dashpot b\n\nOne sentence that\ngoes on. And\nends.\nAnother.\n\nList:\n  x";
+        let examples = "Examples:\n  dashpot a\n  dashpot b\n\n";
+        let text =
+            format!("{examples}One sentence that\ngoes on. And\nends.\nAnother.\n\nList:\n  x");
         assert_eq!(
-            joined(text),
-            "Examples:\n  dashpot a\n  dashpot b\n\nOne sentence that goes on. And ends.\nAnother.\n\nList:\n  x"
+            joined(&text),
+            format!("{examples}One sentence that goes on. And ends.\nAnother.\n\nList:\n  x")
         );
     }
 }

@@ -36,7 +36,7 @@ class Documentation(unittest.TestCase):
         self.assertEqual(dashpot.__all__, sorted(dashpot.__all__, key=lambda name: (name[0].islower(), name)))
 
     def test_the_version_is_that_of_the_command(self):
-        self.assertEqual(command("--version").split()[-1], dashpot.__version__)
+        self.assertEqual(command("-V").split()[-1], dashpot.__version__)
 
     def test_python_files_parse_with_the_oldest_supported_version(self):
         oldest = importlib.metadata.metadata("dashpot")["Requires-Python"].removeprefix(">=")
