@@ -10,7 +10,7 @@ fn main() {
     println!("cargo:rustc-env=DASHPOT_COMMIT={commit}");
 }
 
-/// The commit of the checkout, for a build with optimisation: other builds would begin anew after each commit.
+/// The commit of the checkout, in a release build only: a development build would be compiled again after each commit.
 fn commit() -> Option<String> {
     if std::env::var("PROFILE").ok()? != "release" {
         return Some("of a development build".into());

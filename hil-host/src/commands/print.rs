@@ -9,6 +9,7 @@ use super::arguments::Format;
 use super::failure::{Failure, Outcome};
 use dashpot_files::input;
 pub(super) use dashpot_files::nearest_nanosecond;
+use dashpot_files::output::{cannot_write, write_whole};
 
 /// Formats a count with its noun: `1 tick`, `2 ticks`.
 pub(super) fn counted(count: u64, what: &str) -> String {
@@ -44,6 +45,18 @@ pub fn print_report_beside<R: Serialize>(
     } else {
         print_report(format, report, text)
     }
+}
+
+/// Prints a text that is data, such as a file, to standard output.
+///
+/// # Errors
+/// Standard output cannot be written.
+pub(super) fn print_data(text: &[u8]) -> Outcome<()> {
+    let out = Path::new("-");
+    write_whole(out, |file| {
+        let written = file.write_all(text);
+        Ok(written.map_err(|error| cannot_write(out, error))?)
+    })
 }
 
 fn print_to<R: Serialize>(

@@ -1,11 +1,12 @@
 //! `dashpot completions` and `dashpot man`: what shells and `man` know about the command.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap_complete::Shell;
-use dashpot_files::output::{cannot_write, write_whole};
+use dashpot_files::output::cannot_write;
 
 use super::failure::{Failure, Outcome};
+use super::print::print_data;
 
 /// Print what a shell needs to complete commands and options.
 #[derive(Debug, Clone, clap::Args)]
@@ -36,11 +37,7 @@ pub struct ManArguments {
 pub fn completions(arguments: &CompletionsArguments, mut command: clap::Command) -> Outcome<()> {
     let mut text = Vec::new();
     clap_complete::generate(arguments.shell, &mut command, "dashpot", &mut text);
-    let out = Path::new("-");
-    write_whole(out, |file| {
-        let written = file.write_all(&text);
-        Ok(written.map_err(|error| cannot_write(out, error))?)
-    })
+    print_data(&text)
 }
 
 /// Writes the pages of `command`, the whole command line.

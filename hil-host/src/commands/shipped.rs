@@ -2,18 +2,17 @@
 //! `dashpot show` prints one, to copy it and change the copy.
 
 use std::io::{self, Write};
-use std::path::Path;
 
+use clap::ValueEnum;
 use serde::Serialize;
 
 use super::Format;
 use super::failure::{Failure, Outcome};
-use super::print::print_report;
+use super::print::{print_data, print_report};
 use dashpot_files::actuator::ACTUATORS;
 use dashpot_files::case::CASES;
 use dashpot_files::damper::PRESETS;
 use dashpot_files::did_you_mean;
-use dashpot_files::output::{self, cannot_write};
 use dashpot_files::sheet::SHEETS;
 use dashpot_files::study::STUDIES;
 use dashpot_files::track::TRACKS;
@@ -62,16 +61,10 @@ impl Kind {
         }
     }
 
-    fn word(self) -> &'static str {
-        match self {
-            Self::Damper => "damper",
-            Self::Vehicle => "vehicle",
-            Self::Track => "track",
-            Self::Case => "case",
-            Self::Study => "study",
-            Self::Actuator => "actuator",
-            Self::Sheet => "sheet",
-        }
+    /// Name in an option and in messages.
+    fn word(self) -> String {
+        let value = self.to_possible_value();
+        value.map_or_else(String::new, |value| value.get_name().to_owned())
     }
 }
 
@@ -151,14 +144,10 @@ pub fn show(arguments: &ShowArguments) -> Outcome<()> {
             did_you_mean(name, names())
         )));
     };
-    let out = Path::new("-");
-    output::write_whole(out, |file| {
-        let written = file.write_all(text.as_bytes());
-        Ok(written.map_err(|error| cannot_write(out, error))?)
-    })
+    print_data(text.as_bytes())
 }
 
-/// What the comment at the head of a file says first: its first sentence, or what stands before the colon in it.
+/// Describes a file by the comment at its head: the first sentence, or the part of it before a colon.
 fn description(text: &str) -> String {
     let lines = text.lines().map_while(|line| line.strip_prefix('#'));
     let words: Vec<&str> = lines

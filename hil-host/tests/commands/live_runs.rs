@@ -72,7 +72,7 @@ fn the_vehicle_as_new_runs_beside_the_vehicle() {
     let worn = step(&mut viewer, 1, 0, 2001.0);
     assert_eq!(worn.last[force], 0.0);
 
-    // What is not of a damper changes both.
+    // A change of speed acts on both vehicles.
     let slower = json!({"action": "speed", "speed_km_h": 20.0});
     done(&mut viewer, json!({"do": "act", "action": slower}));
     let [main, as_new] = both(&mut viewer, 500, 2501.0);

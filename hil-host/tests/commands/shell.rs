@@ -1,4 +1,4 @@
-//! What shells and `man` know about the command, its help and its version.
+//! Completions, manual pages, help and version of the command.
 
 use crate::common::{dashpot, error_of, text_of};
 

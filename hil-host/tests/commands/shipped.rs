@@ -34,7 +34,7 @@ fn every_list_names_files_that_can_be_shown() {
     }
 }
 
-/// What the lists are for: a copy is a file that commands take.
+/// The copy of a shipped file is a file that commands accept.
 #[test]
 fn a_copy_of_a_shipped_damper_can_be_used() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,7 +5,7 @@ use crate::common::dashpot;
 use crate::common::live::Live;
 use crate::pil_common::{desk, serve_tcp};
 
-/// What a page says is wrong: its own notices, and canvases that lack their size.
+/// Texts of the notices that a page shows.
 const NOTICES: &str =
     "return [...document.querySelectorAll('.notice:not([hidden])')].map(note => note.textContent);";
 

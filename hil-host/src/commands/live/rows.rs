@@ -7,7 +7,7 @@ use super::recorded::RecordingState;
 use super::recorder::{Block, GrowingMdf};
 use crate::commands::nearest_nanosecond;
 
-/// Most rows between two writes. A killed process loses them.
+/// Largest number of rows between two writes. A killed process loses so many.
 const BLOCK_ROWS: u64 = 200;
 
 /// Time between two writes.

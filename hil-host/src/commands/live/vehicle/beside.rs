@@ -32,7 +32,7 @@ impl Beside {
         self.simulation.as_ref().map_or(0, |_| self.comparisons)
     }
 
-    /// Takes over a change that is none of dampers: those stay as new.
+    /// Takes over a change, unless it changes a damper: the dampers of this vehicle stay as new.
     ///
     /// # Errors
     /// See [`Simulation::apply`].
@@ -54,7 +54,7 @@ impl Beside {
         {
             let ended = simulation.ending().map_or(0, |_| flags::ENDED);
             let put = |tick: &mut Tick| tick.put(epoch, 1, simulation.run(), 0, ended);
-            // Whether anybody is there is seen at the tick of the vehicle.
+            // If nobody receives ticks any more, the tick of the vehicle, which follows, notices it.
             let _sent = ticks.send_or_skip(put);
         }
         Ok(())

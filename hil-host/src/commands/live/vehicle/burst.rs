@@ -22,7 +22,7 @@ impl Burst {
         &mut self.frames[self.count - 1]
     }
 
-    /// Returns all frames, and begins anew.
+    /// Returns all frames and empties the burst.
     pub fn take(&mut self) -> impl ExactSizeIterator<Item = &[u8]> {
         let count = std::mem::take(&mut self.count);
         self.frames[..count].iter().map(Vec::as_slice)
