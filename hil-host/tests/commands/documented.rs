@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::{fs, iter};
 
+use xtask::book::read_sources;
 use xtask::run::repository;
 
 use crate::common::dashpot;
@@ -61,17 +62,8 @@ fn commands(line: &str) -> Vec<Vec<String>> {
 }
 
 fn documents() -> Vec<PathBuf> {
-    let folders = ["docs", "docs/tutorials", "docs/reference"];
-    let pages = folders.map(|folder| fs::read_dir(repository().join(folder)).unwrap());
-    let pages = pages
-        .into_iter()
-        .flatten()
-        .map(|entry| entry.unwrap().path());
-    let pages = pages.filter(|path| path.extension().is_some_and(|end| end == "md"));
-    let others = ["README.md", "capi/README.md", "CONTRIBUTING.md"];
-    pages
-        .chain(others.map(|name| repository().join(name)))
-        .collect()
+    let pages = read_sources(repository()).unwrap().pages;
+    pages.iter().map(|page| repository().join(page)).collect()
 }
 
 /// Indented lines of a document and lines of its shell blocks.
