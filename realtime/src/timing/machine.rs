@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
+use chrono::{DateTime, SecondsFormat, Utc};
 use serde::Serialize;
 
 /// Description of the machine on which times are measured. Properties that the system does not report, for example in a
@@ -42,7 +43,7 @@ impl Machine {
             kernel: text("proc/sys/kernel/osrelease").and_then(|release| trimmed(&release)),
             governor: governor(root, core),
             load_average: text("proc/loadavg").and_then(|loads| load_average(&loads)),
-            date: humantime::format_rfc3339_seconds(now).to_string(),
+            date: DateTime::<Utc>::from(now).to_rfc3339_opts(SecondsFormat::Secs, true),
         }
     }
 }
