@@ -1,84 +1,36 @@
-//! Checks that the licences of all dependencies are compatible with our own, MIT or Apache-2.0.
+//! Checks licences where cargo-deny does not: lists that must agree, code of others in the repository, our packages.
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use spdx::{Expression, ParseMode};
+use toml::Table;
 
-use crate::workspaces::{WORKSPACES, packages};
+use crate::workspaces::packages;
 
-/// Licences that require no more than ours does: that their text is kept.
-const ALLOWED: [&str; 7] = [
-    "Apache-2.0",
-    "BSD-2-Clause",
-    "BSD-3-Clause",
-    "ISC",
-    "MIT",
-    "Unicode-3.0",
-    "Zlib",
-];
+/// Reads one list of licences of a file in the top folder.
+fn licences(file: &str, keys: &[&str]) -> Vec<String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let text = fs::read_to_string(path).unwrap();
+    let table: Table = text.parse().unwrap();
+    let (last, sections) = keys.split_last().unwrap();
+    let section = sections
+        .iter()
+        .fold(&table, |table, key| table[*key].as_table().unwrap());
+    let list = section[*last].as_array().unwrap();
+    list.iter()
+        .map(|name| name.as_str().unwrap().to_owned())
+        .collect()
+}
 
-/// Packages with other licences: package, licence, and why we may use it.
-const EXCEPTIONS: [(&str, &str, &str); 6] = [
-    (
-        "serialport",
-        "MPL-2.0",
-        "behind the optional feature `serial`",
-    ),
-    (
-        "cbindgen",
-        "MPL-2.0",
-        "generates the C header; not part of any product",
-    ),
-    (
-        "tiny-keccak",
-        "CC0-1.0",
-        "requires nothing; behind the optional feature `parquet`; used at compile time only",
-    ),
-    (
-        "target-lexicon",
-        "Apache-2.0 WITH LLVM-exception",
-        "Apache-2.0 with more permissions; finds Python at compile time only",
-    ),
-    ("libfuzzer-sys", "NCSA", "part of fuzz targets only"),
-    ("webdriver", "MPL-2.0", "drives a browser in tests only"),
-];
-
-/// The only registry that packages come from.
-const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
-
+/// The licences that cargo-deny allows are those whose texts the archives have.
 #[test]
-fn every_package_may_be_used_under_our_licences() {
-    let mut excepted = BTreeSet::new();
-    for workspace in &*WORKSPACES {
-        for package in &workspace.packages {
-            let name: &str = package.name.as_ref();
-            let Some(source) = &package.source else {
-                continue; // our own
-            };
-            assert_eq!(source.repr, REGISTRY, "{name}: only crates.io is allowed");
-            let licence = package.license.as_deref().unwrap_or_default();
-            let expression = Expression::parse_mode(licence, ParseMode::LAX)
-                .unwrap_or_else(|error| panic!("{name}: licence `{licence}`: {error}"));
-            let may_be_used = expression.evaluate(|required| {
-                let id = required.license.id().map(|id| id.name);
-                let required_text = required.to_string();
-                let exception = EXCEPTIONS
-                    .iter()
-                    .find(|(package, licence, _)| *package == name && *licence == required_text);
-                excepted.extend(exception.map(|(package, ..)| package));
-                required.addition.is_none() && id.is_some_and(|id| ALLOWED.contains(&id))
-                    || exception.is_some()
-            });
-            assert!(
-                may_be_used,
-                "{name}: licence `{licence}`; allowed: {ALLOWED:?}, or an exception with its reason"
-            );
-        }
-    }
-    let listed = EXCEPTIONS.iter().map(|(package, ..)| package).collect();
-    assert_eq!(excepted, listed, "exceptions that are not needed");
+fn both_lists_of_licences_are_equal() {
+    let allowed = licences("deny.toml", &["licenses", "allow"]);
+    assert_eq!(licences("about.toml", &["accepted"]), allowed);
+    assert_eq!(
+        licences("about.toml", &["serialport", "accepted"]),
+        ["MPL-2.0"]
+    );
 }
 
 /// Third-party code in the repository: folder, package, licence.
@@ -87,8 +39,9 @@ const VENDORED: [(&str, &str, &str); 1] = [("report/src/page/uplot", "uplot", "M
 /// The folder contains the licence, and its README names the package and the licence.
 #[test]
 fn vendored_code_keeps_its_licence() {
+    let allowed = licences("deny.toml", &["licenses", "allow"]);
     for (folder, package, licence) in VENDORED {
-        assert!(ALLOWED.contains(&licence), "{folder}");
+        assert!(allowed.iter().any(|other| other == licence), "{folder}");
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
         let read = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
         let text = read("LICENSE");

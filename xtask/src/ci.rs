@@ -1,5 +1,6 @@
 //! Runs all checks; those that fail soonest come first.
 
+use crate::dependencies;
 use crate::firmware;
 use crate::packages::{rehearse_publishing, with_features};
 use crate::processor::CORTEX_M7;
@@ -30,6 +31,7 @@ pub fn ci() -> Outcome {
         cargo(&["fmt", "--manifest-path", manifest, "--check"])?;
     }
     timings::check_packages()?;
+    dependencies::check()?;
     lint(&["--workspace", "--all-targets"])?;
     // In the folder of the workspace, they share its dependencies.
     let shared = ["--target-dir", "target"];

@@ -12,7 +12,9 @@ use xtask::timings::{Build, timings};
 use xtask::vehicle_validation::vehicle_validation;
 use xtask::web::web;
 use xtask::wheel::wheel;
-use xtask::{bench, firmware, mutants, nightly, python, slurm, timings as compiler};
+use xtask::{
+    bench, dependencies, dist, firmware, mutants, nightly, python, slurm, timings as compiler,
+};
 
 const HELP: &str = "\
 Developer commands of Dashpot
@@ -47,10 +49,15 @@ Commands:
   book                   check the links of the documents and build them as a book in target/book (installs mdBook into
                          target/mdbook if there is none)
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
+  dist [--platform NAME]... [--output FOLDER] [--allow-changes]
+                         build what users install: archives, Debian packages, wheels, and the list of their digests,
+                         for x86-64-linux, aarch64-linux and x86-64-windows, into target/dist (half an hour; installs
+                         zig into target/dist_tools, cargo-about, and the targets)
   python                 install into target/python the Python packages that tests need, and maturin into target/maturin
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target for N seconds, 60 by default, starting from its kept seeds (needs a
                          nightly compiler)
+  advisories             ask for published weaknesses of all dependencies (needs a network; installs cargo-deny)
   slurm                  start a Slurm with one node, and run shards of a study on it and on GNU parallel (two minutes;
                          installs Debian's slurm-wlm, munge and parallel, or prints how to)
   help                   print this text
@@ -93,6 +100,10 @@ fn main() -> ExitCode {
             "kalker_book",
         ]),
         ["vehicle-validation"] => vehicle_validation(),
+        ["dist", ref options @ ..] => match dist::Options::parse(options) {
+            Ok(options) => dist::dist(&options),
+            Err(message) => return usage_error(&message),
+        },
         ["python"] => python::install(),
         ["web"] => web(),
         ["book"] => book(),
@@ -107,6 +118,7 @@ fn main() -> ExitCode {
                 ));
             }
         },
+        ["advisories"] => dependencies::advisories(),
         ["slurm"] => slurm::slurm(),
         ["ci"] => ci(),
         ["timings"] => timings(Build::Command),

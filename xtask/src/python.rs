@@ -19,6 +19,13 @@ const TEST_PACKAGES: [&str; 6] = [
 /// Packages that build wheels.
 const WHEEL_PACKAGES: [&str; 1] = ["maturin==1.16.0"];
 
+/// Packages that build what a user installs: zig is the C compiler and linker for other platforms and for old Linux.
+const DIST_PACKAGES: [&str; 3] = [
+    "cargo-zigbuild==0.24.1",
+    "maturin==1.16.0",
+    "ziglang==0.17.1",
+];
+
 /// The only dependency of the package `dashpot`. Its wheel is kept, so that a test can install both packages without a
 /// network.
 const DEPENDENCY: &str = "numpy==2.4.6";
@@ -42,6 +49,11 @@ const TESTS: Environment = Environment {
 const WHEELS: Environment = Environment {
     folder: "target/maturin",
     packages: &WHEEL_PACKAGES,
+};
+
+const DIST: Environment = Environment {
+    folder: "target/dist_tools",
+    packages: &DIST_PACKAGES,
 };
 
 impl Environment {
@@ -155,4 +167,14 @@ pub fn install() -> Outcome {
 pub fn builder() -> Outcome<PathBuf> {
     WHEELS.install()?;
     Ok(interpreter(&WHEELS.folder()))
+}
+
+/// Returns the Python interpreter with zig and what cargo needs to compile with it; installs its environment if that is
+/// missing.
+///
+/// # Errors
+/// There is no Python with the module `venv`, or a package cannot be installed.
+pub fn cross_builder() -> Outcome<PathBuf> {
+    DIST.install()?;
+    Ok(interpreter(&DIST.folder()))
 }

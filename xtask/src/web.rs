@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Outcome, output_of, repository, run};
+use crate::reproducible::path_flags;
+use crate::run::{Outcome, repository, run};
 use crate::target_toolchain::TargetToolchain;
 
 /// Target of the module; rustup has its library.
@@ -79,28 +80,8 @@ pub fn build(package: &str) -> Outcome<PathBuf> {
     TargetToolchain::installed(TARGET).ok_or_else(|| {
         format!("a page's engine needs its target: run `rustup target add {TARGET}`")
     })?;
-    // Texts of panics have the places of sources; they must not depend on this machine.
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home
-        .or_else(|| Some(std::env::home_dir()?.join(".cargo")))
-        .unwrap_or_default();
-    let mut rustc = Command::new("rustc");
-    rustc.args(["--print", "sysroot"]);
-    let sysroot = output_of(rustc, "rustc --print sysroot")?;
-    let mut flags = vec![
-        "-Ctarget-feature=+simd128".to_owned(),
-        format!("--remap-path-prefix={}=dashpot", repository().display()),
-        format!("--remap-path-prefix={}=rust", sysroot.trim()),
-    ];
-    // A registry's folder is named after its address.
-    let registries = fs::read_dir(home.join("registry/src"))
-        .into_iter()
-        .flatten()
-        .flatten();
-    flags.extend(
-        registries
-            .map(|folder| format!("--remap-path-prefix={}=registry", folder.path().display())),
-    );
+    let mut flags = vec!["-Ctarget-feature=+simd128".to_owned()];
+    flags.extend(path_flags()?);
     let folder = repository().join(FOLDER);
     let mut cargo = Command::new("cargo");
     cargo

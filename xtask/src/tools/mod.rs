@@ -9,4 +9,6 @@ mod subcommand;
 pub use apt::install;
 pub use program::*;
 pub use skip::{SKIPPED, have, have_library, have_target, skip};
-pub use subcommand::{CARGO_FUZZ, CARGO_HACK, CARGO_MUTANTS, CARGO_SEMVER_CHECKS, Subcommand};
+pub use subcommand::{
+    CARGO_ABOUT, CARGO_DENY, CARGO_FUZZ, CARGO_HACK, CARGO_MUTANTS, CARGO_SEMVER_CHECKS, Subcommand,
+};

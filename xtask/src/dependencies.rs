@@ -1,0 +1,47 @@
+//! Checks of all packages that ours depend on, by cargo-deny with `deny.toml`.
+
+use crate::run::{Outcome, cargo};
+use crate::tools::CARGO_DENY;
+
+/// Manifests of the workspaces, each with a lock file.
+const MANIFESTS: [&str; 5] = [
+    "Cargo.toml",
+    "capi/Cargo.toml",
+    "firmware/Cargo.toml",
+    "fuzz/Cargo.toml",
+    "tests/no_std_consumer/Cargo.toml",
+];
+
+/// Checks licences, sources and duplicate versions. Needs no network.
+///
+/// # Errors
+/// A package is not allowed, or cargo-deny cannot be installed.
+pub fn check() -> Outcome {
+    deny(
+        &["--offline"],
+        &["--show-stats", "licenses", "sources", "bans"],
+    )
+}
+
+/// Asks the RustSec database for published weaknesses.
+///
+/// # Errors
+/// A package has one, or the database cannot be reached.
+pub fn advisories() -> Outcome {
+    deny(&[], &["advisories"])
+}
+
+fn deny(options: &[&str], checks: &[&str]) -> Outcome {
+    CARGO_DENY.install()?;
+    for manifest in MANIFESTS {
+        let of = ["deny", "--locked", "--manifest-path", manifest];
+        let check = [
+            "check",
+            "--hide-inclusion-graph",
+            "--allow",
+            "unmatched-skip",
+        ];
+        cargo(&[&of[..], options, &["--config", "deny.toml"], &check, checks].concat())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,88 @@
+//! A Debian package of the command.
+
+use std::path::Path;
+use std::process::Command;
+
+use super::tree::Tree;
+use crate::run::{Outcome, run};
+
+/// Folders of the archive and where Debian has them.
+const PLACES: [(&str, &str); 5] = [
+    ("bin", "usr"),
+    ("share/man", "usr/share"),
+    ("share/bash-completion", "usr/share"),
+    ("share/dashpot", "usr/share"),
+    ("share/doc/dashpot", "usr/share/doc"),
+];
+
+/// Completions, whose folders have other names on Debian.
+const COMPLETIONS: [(&str, &str); 2] = [
+    (
+        "share/zsh/site-functions/_dashpot",
+        "usr/share/zsh/vendor-completions/_dashpot",
+    ),
+    (
+        "share/fish/vendor_completions.d/dashpot.fish",
+        "usr/share/fish/vendor_completions.d/dashpot.fish",
+    ),
+];
+
+/// Packs the tree of an archive into `package` for the processor `architecture`, with files of the time `time`.
+///
+/// # Errors
+/// A file cannot be copied, or dpkg-deb fails.
+pub fn debian(
+    archive: &Path,
+    work: &Tree,
+    architecture: &str,
+    package: &Path,
+    time: &str,
+) -> Outcome {
+    for (folder, parent) in PLACES {
+        let name = folder.rsplit('/').next().unwrap_or(folder);
+        work.copy_folder(&archive.join(folder), &format!("{parent}/{name}"))?;
+    }
+    for (from, to) in COMPLETIONS {
+        work.copy(&archive.join(from), to)?;
+    }
+    work.write("usr/share/doc/dashpot/copyright", copyright())?;
+    work.write("DEBIAN/control", control(architecture))?;
+    // The modes of files must not depend on this machine.
+    let mut modes = Command::new("chmod");
+    modes
+        .args(["--recursive", "u=rwX,go=rX"])
+        .arg(work.folder());
+    run(modes, &format!("chmod {}", work.folder().display()))?;
+    let mut build = Command::new("dpkg-deb");
+    build
+        .args(["--build", "--root-owner-group", "-Zxz"])
+        .arg(work.folder())
+        .arg(package)
+        .env("SOURCE_DATE_EPOCH", time);
+    run(build, &format!("dpkg-deb {}", package.display()))
+}
+
+fn control(architecture: &str) -> String {
+    format!(
+        "Package: dashpot\n\
+         Version: {}\n\
+         Architecture: {architecture}\n\
+         Maintainer: {}\n\
+         Section: science\n\
+         Priority: optional\n\
+         Description: real-time model of a rail vehicle's hydraulic damper\n \
+         Replays recordings, tests and calibrates dampers, watches their health, and runs\n \
+         them under a locomotive in real time, with a page in the browser. Writes\n \
+         constants for firmware, portable C and FMUs.\n",
+        env!("CARGO_PKG_VERSION"),
+        env!("CARGO_PKG_AUTHORS"),
+    )
+}
+
+fn copyright() -> String {
+    format!(
+        "Copyright: {}\nLicense: MIT or Apache-2.0; the texts are LICENSE-MIT and LICENSE-APACHE in this folder.\n\
+         LICENCES-OF-DEPENDENCIES.txt has those of the packages that the command contains.\n",
+        env!("CARGO_PKG_AUTHORS"),
+    )
+}

@@ -1,0 +1,47 @@
+//! What makes a build give the same bytes on every machine with the same compiler.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::run::{Outcome, output_of, repository};
+
+/// Flags of rustc that replace folders of this machine in texts of panics.
+///
+/// # Errors
+/// There is no rustc.
+pub fn path_flags() -> Outcome<Vec<String>> {
+    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home
+        .or_else(|| Some(std::env::home_dir()?.join(".cargo")))
+        .unwrap_or_default();
+    let mut rustc = Command::new("rustc");
+    rustc.args(["--print", "sysroot"]);
+    let sysroot = output_of(rustc, "rustc --print sysroot")?;
+    let mut flags = vec![
+        format!("--remap-path-prefix={}=dashpot", repository().display()),
+        format!("--remap-path-prefix={}=rust", sysroot.trim()),
+    ];
+    // A registry's folder is named after its address.
+    let registries = fs::read_dir(home.join("registry/src"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    flags.extend(
+        registries
+            .map(|folder| format!("--remap-path-prefix={}=registry", folder.path().display())),
+    );
+    Ok(flags)
+}
+
+/// Returns the time of the last commit, in seconds since 1970: the time of all files in an archive.
+///
+/// # Errors
+/// The repository's folder is no checkout.
+pub fn commit_time() -> Outcome<String> {
+    let mut git = Command::new("git");
+    git.args(["log", "-1", "--format=%ct"])
+        .current_dir(repository());
+    let time = output_of(git, "git log -1 --format=%ct")?;
+    Ok(time.trim().to_owned())
+}
