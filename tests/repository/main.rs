@@ -12,6 +12,7 @@ mod licences;
 mod module_of_the_page;
 mod modules;
 mod published;
+mod readme;
 mod rust_version;
 mod source;
 mod workspaces;
