@@ -4,13 +4,15 @@
 mod architecture;
 mod book;
 mod crates;
+mod errors;
 mod files;
 mod fuzz_seeds;
+mod indices;
 mod licences;
 mod module_of_the_page;
 mod modules;
-mod observed;
 mod published;
+mod readme;
 mod rust_version;
 mod source;
 mod workspaces;

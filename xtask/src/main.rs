@@ -46,8 +46,8 @@ Commands:
   kalker-book            compute the tables of the recommended creep law from exact theory (about fifteen minutes)
   vehicle-validation     run the studies of docs/vehicle-validation.md and write it (about six minutes)
   web                    build the engine of the live page as WebAssembly into page/module (three minutes)
-  book                   check the links of the documents and build them as a book in target/book (installs mdBook into
-                         target/mdbook if there is none)
+  book                   check the links of the documents, build them as a book in target/book (installs mdBook into
+                         target/mdbook if there is none), and write sample reports into it (builds the command)
   wheel                  build the Python package `dashpot`: a wheel in target/wheels, for pip install
   dist [--platform NAME]... [--output FOLDER] [--allow-changes]
                          build what users install: archives, Debian packages, wheels, and the list of their digests,

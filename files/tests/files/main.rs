@@ -2,6 +2,7 @@
 
 mod case_file;
 mod contact_tables;
+mod documented_keys;
 mod profile_file;
 mod rail_tilt;
 mod track_file;

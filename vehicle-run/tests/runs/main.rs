@@ -2,6 +2,7 @@
 
 mod contacts;
 mod coupled;
+mod documented_indices;
 mod events;
 mod start;
 mod vehicle_indices;

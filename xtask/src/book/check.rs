@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use super::links::{anchors, links};
+use super::samples::is_sample;
 
 /// Folder with the pages of the book.
 pub const PAGES: &str = "docs";
@@ -78,6 +79,9 @@ fn check_links(repository: &Path, page: &Path, sources: &mut Sources) -> Result<
                 .problems
                 .push(format!("{page}:{}: {}: {what}", link.line, link.target));
         };
+        if is_sample(&target) {
+            continue;
+        }
         let file = repository.join(&target);
         if target.starts_with("..") || !file.is_file() {
             complain("no such file in the repository");
@@ -155,7 +159,8 @@ mod tests {
         write("docs/b.svg", "<svg/>");
         write(
             "docs/a.md",
-            "# One\n\n[two](#two) [none](c/none.md)\n[other](../other.md) [outside](../../x.md)\n",
+            "# One\n\n[two](#two) [none](c/none.md)\n[other](../other.md) [outside](../../x.md)\n\
+             [sample](samples/live.html) [no sample](samples/x.html)\n",
         );
         write("docs/c/lost.md", "# Lost\n");
         let sources = read_sources(folder.path()).expect("the sources");
@@ -169,6 +174,7 @@ mod tests {
                 "docs/a.md:3: c/none.md: no such file in the repository",
                 "docs/a.md:4: ../other.md: a page that docs/SUMMARY.md does not list",
                 "docs/a.md:4: ../../x.md: no such file in the repository",
+                "docs/a.md:5: samples/x.html: no such file in the repository",
             ]
         );
         let pages: Vec<_> = sources

@@ -2,6 +2,7 @@
 
 mod check;
 mod links;
+mod samples;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,6 +11,7 @@ use std::process::Command;
 use crate::run::{Outcome, cargo, repository, run};
 use check::{PAGES, SUMMARY, read};
 pub use check::{Sources, read_sources};
+use samples::write_samples;
 
 /// Version of mdBook that is installed if there is none on the path.
 const VERSION: &str = "0.4.52";
@@ -23,10 +25,11 @@ const SOURCE: &str = "target/book/source";
 /// Folder of the finished book, which `book.toml` names.
 const BOOK: &str = "target/book/html";
 
-/// Checks the sources, then builds the book. Installs mdBook if it is missing.
+/// Checks the sources, builds the book, and writes sample reports into it. Installs mdBook if it is missing.
 ///
 /// # Errors
-/// A link is broken, a page is missing in the summary, or mdBook cannot be installed or fails.
+/// A link is broken, a page is missing in the summary, mdBook cannot be installed or fails, or a sample cannot be
+/// written.
 pub fn book() -> Outcome {
     let sources = read_sources(repository())?;
     if !sources.problems.is_empty() {
@@ -36,6 +39,7 @@ pub fn book() -> Outcome {
     let mut mdbook = Command::new(program()?);
     mdbook.arg("build").current_dir(repository());
     run(mdbook, "mdbook build")?;
+    write_samples(&repository().join(BOOK))?;
     println!(
         "the book is in {}",
         repository().join(BOOK).join("index.html").display()

@@ -50,8 +50,8 @@ pub(super) fn write(report: &Report, tested: &[Tested<'_>]) -> Outcome<String> {
             })?)
         }
         (footer(&html! {
-            "Sheet: " (report.sheet) ". Limits and cited clauses are those of the sheet. docs/rig.md defines each "
-            "index."
+            "Sheet: " (report.sheet) ". Limits and cited clauses are those of the sheet. "
+            "docs/reference/indices.md defines each index."
         }))
     };
     Ok(document(&format!("Dashpot: {}", report.title), &body))
