@@ -35,7 +35,7 @@
 /**
  * Version of this header, minor number.
  */
-#define DASHPOT_VERSION_MINOR 1
+#define DASHPOT_VERSION_MINOR 2
 
 /**
  * Version of this header, patch number.

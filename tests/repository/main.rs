@@ -13,6 +13,8 @@ mod module_of_the_page;
 mod modules;
 mod published;
 mod readme;
+mod release;
 mod rust_version;
 mod source;
+mod workflows;
 mod workspaces;

@@ -5,7 +5,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::commands::failure::{Failure, Outcome};
+use crate::commands::failure::Outcome;
 
 static ENDS_GENTLY: AtomicBool = AtomicBool::new(false);
 static IS_WANTED: AtomicBool = AtomicBool::new(false);
@@ -46,6 +46,8 @@ pub fn clean_up() -> Outcome<()> {
     use signal_hook::low_level::emulate_default_handler;
 
     use dashpot_files::temporary;
+
+    use crate::commands::failure::Failure;
 
     /// Stack of the signal thread (bytes); cleaning up needs little.
     const STACK: usize = 64 * 1024;

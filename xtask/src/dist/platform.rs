@@ -13,7 +13,7 @@ pub struct Platform {
     pub c_library: Option<&'static str>,
     /// Debian's name of the processor; `None` outside Linux.
     pub debian: Option<&'static str>,
-    /// Rust's target of the Python package, which is linked with the C library of the system; `None` if it is not built.
+    /// Rust's target of the Python package, which uses the C library of the system; `None` if it is not built.
     pub python: Option<&'static str>,
 }
 
