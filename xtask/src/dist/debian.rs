@@ -1,10 +1,14 @@
 //! A Debian package of the command.
 
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::tree::Tree;
-use crate::run::{Outcome, run};
+use super::tree::{Tree, failed};
+use crate::run::{Outcome, repository, run};
+
+/// Whom the package is from, as the manifests of the crates say.
+const AUTHORS: &str = env!("CARGO_PKG_AUTHORS");
 
 /// Folders of the archive and where Debian has them.
 const PLACES: [(&str, &str); 5] = [
@@ -45,7 +49,12 @@ pub fn debian(
     for (from, to) in COMPLETIONS {
         work.copy(&archive.join(from), to)?;
     }
-    work.write("usr/share/doc/dashpot/copyright", copyright())?;
+    work.copy(
+        &repository().join("CHANGELOG.md"),
+        "usr/share/doc/dashpot/changelog",
+    )?;
+    work.write("usr/share/doc/dashpot/copyright", copyright()?)?;
+    compress(work)?;
     work.write("DEBIAN/control", control(architecture))?;
     // The modes of files must not depend on this machine.
     let mut modes = Command::new("chmod");
@@ -62,27 +71,41 @@ pub fn debian(
     run(build, &format!("dpkg-deb {}", package.display()))
 }
 
+/// Compresses what Debian's policy wants compressed.
+fn compress(work: &Tree) -> Outcome {
+    let pages = work.folder().join("usr/share/man/man1");
+    let entries = fs::read_dir(&pages).map_err(|error| failed(&pages, error))?;
+    let mut gzip = Command::new("gzip");
+    gzip.args(["--no-name", "--best"]);
+    gzip.arg(work.folder().join("usr/share/doc/dashpot/changelog"));
+    gzip.args(entries.flatten().map(|entry| entry.path()));
+    run(gzip, "gzip of manual pages")
+}
+
 fn control(architecture: &str) -> String {
     format!(
         "Package: dashpot\n\
          Version: {}\n\
          Architecture: {architecture}\n\
-         Maintainer: {}\n\
+         Maintainer: {AUTHORS}\n\
          Section: science\n\
          Priority: optional\n\
          Description: real-time model of a rail vehicle's hydraulic damper\n \
-         Replays recordings, tests and calibrates dampers, watches their health, and runs\n \
-         them under a locomotive in real time, with a page in the browser. Writes\n \
-         constants for firmware, portable C and FMUs.\n",
+         Replays recordings, tests and calibrates dampers, watches their health,\n \
+         and runs them under a locomotive in real time, with a page in the\n \
+         browser. Writes constants for firmware, portable C and FMUs.\n",
         env!("CARGO_PKG_VERSION"),
-        env!("CARGO_PKG_AUTHORS"),
     )
 }
 
-fn copyright() -> String {
-    format!(
-        "Copyright: {}\nLicense: MIT or Apache-2.0; the texts are LICENSE-MIT and LICENSE-APACHE in this folder.\n\
-         LICENCES-OF-DEPENDENCIES.txt has those of the packages that the command contains.\n",
-        env!("CARGO_PKG_AUTHORS"),
-    )
+fn copyright() -> Outcome<String> {
+    let path = repository().join("LICENSE-MIT");
+    let text = fs::read_to_string(&path).map_err(|error| failed(&path, error))?;
+    let notice = text.lines().find(|line| line.starts_with("Copyright"));
+    Ok(format!(
+        "{}\n\nLicense: MIT or Apache-2.0; the texts are LICENSE-MIT and LICENSE-APACHE in this folder, and Apache-2.0 is \
+         also in /usr/share/common-licenses/Apache-2.0.\nLICENCES-OF-DEPENDENCIES.txt has those of the packages that the \
+         command contains.\n",
+        notice.unwrap_or(AUTHORS),
+    ))
 }
