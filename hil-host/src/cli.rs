@@ -16,7 +16,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
         &["rig", "response", "shims", "verify", "budget", "export"],
     ),
     ("Vehicles", &["vehicle", "live", "modes", "contact"]),
-    ("Studies", &["sweep", "merge"]),
+    ("Studies", &["sweep", "merge", "tables"]),
     ("Targets and rigs", &["link", "pil", "hybrid"]),
     (
         "Files that ship",

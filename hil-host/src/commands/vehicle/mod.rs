@@ -28,6 +28,7 @@ pub(super) use outside::rig::options::Compensate;
 use outside::{Outside, OutsideArguments, Traces};
 use report::Report;
 
+use super::tables as tables_ahead;
 use super::tick_times::histogram_help;
 use super::{Format, RealtimeArguments, TickLimitArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
@@ -113,6 +114,10 @@ pub struct VehicleArguments {
     limits: TickLimitArguments,
     #[command(flatten)]
     options: RealtimeArguments,
+    /// Folder of contact tables that `dashpot tables` computed; others are an error [default: the user's cache
+    /// folder].
+    #[arg(long, value_name = "FOLDER", conflicts_with = "check")]
+    contact_tables: Option<PathBuf>,
     #[command(flatten)]
     outside: OutsideArguments,
     /// Output format of the results.
@@ -146,7 +151,11 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     }
     note_missing_ride(&case);
     let mut outside = arguments.outside.read(&case, arguments.realtime)?;
-    let mut run = Run::new(&case).map_err(|error| options::refused(&case, &error))?;
+    let run = match &arguments.contact_tables {
+        Some(folder) => tables_ahead::run_with(folder, &case)?,
+        None => Run::new(&case),
+    };
+    let mut run = run.map_err(|error| options::refused(&case, &error))?;
     if let Some(outside) = &mut outside {
         arguments.outside.connect(outside, &case, &mut run)?;
     }
