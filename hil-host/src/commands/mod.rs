@@ -48,7 +48,7 @@ mod wheel_rail;
 
 use arguments::{DamperArguments, Format, RealtimeArguments, TickLimitArguments};
 use failure::Outcome;
-use print::{counted, nearest_nanosecond, print_report, print_report_beside};
+use print::{counted, nearest_nanosecond, print_answer, print_report, print_report_beside};
 use shipped::Kind;
 
 /// A command with its options; the documentation of the arguments is the help text.

@@ -1,8 +1,7 @@
 //! `dashpot tables`: computes contact tables ahead, for many processes that read them from one folder.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 
 use serde::Serialize;
 
@@ -12,9 +11,9 @@ use super::print_report;
 use super::sweep::StudyArguments;
 use dashpot_files::case::Case;
 use dashpot_files::output::create_folder;
-use dashpot_study::sweep::{ContactTables, ContactTablesError, Shared};
+use dashpot_study::sweep::{ContactTables, ContactTablesError};
+use dashpot_vehicle_run::VehicleRunError;
 use dashpot_vehicle_run::contact::{ContactSetup, WheelOnRail};
-use dashpot_vehicle_run::{Run, VehicleRunError};
 
 /// Compute the contact tables of a study or a case ahead, once for all processes of a cluster.
 #[derive(Debug, Clone, clap::Args)]
@@ -99,36 +98,6 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
 
 fn pairs_of(case: &Case) -> Result<Vec<WheelOnRail>, VehicleRunError> {
     Ok(ContactSetup::of_case(case)?.pairs().to_vec())
-}
-
-/// Contacts of a study from the tables in `folder`.
-///
-/// # Errors
-/// Tables of one of `pairs` are missing or invalid.
-pub(super) fn shared(folder: &Path, pairs: &[WheelOnRail]) -> Outcome<Shared> {
-    Ok(Shared::with_tables(ContactTables::new(folder), pairs)?)
-}
-
-/// Places the vehicle of a case at its start, with the tables in `folder`.
-///
-/// # Errors
-/// Tables are missing or invalid, or the case is.
-pub(super) fn run_with(folder: &Path, case: &Case) -> Outcome<Result<Run, VehicleRunError>> {
-    let setup = match ContactSetup::of_case(case) {
-        Ok(setup) => setup,
-        Err(error) => return Ok(Err(error.into())),
-    };
-    let tables = ContactTables::new(folder);
-    let sources = setup.pairs().iter().map(|pair| tables.read(pair));
-    let sources = sources.collect::<Result<Vec<_>, _>>()?;
-    let placed = || {
-        Run::on(
-            case,
-            setup.contacts(&sources)?,
-            Arc::new(case.track.build()?),
-        )
-    };
-    Ok(placed())
 }
 
 impl From<ContactTablesError> for Failure {

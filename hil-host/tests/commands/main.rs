@@ -42,6 +42,7 @@ mod modes_coach;
 mod modes_freight_wagon;
 mod names_of_a_file_were_translated;
 mod overturned_called_left_the_tables;
+mod quiet;
 mod replay;
 mod response;
 mod rig;

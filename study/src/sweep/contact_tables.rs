@@ -7,12 +7,11 @@ use std::sync::Arc;
 
 use dashpot_rail::contact::Tables;
 
-use super::run::RunError;
-use super::study::{Study, StudyCase};
 use dashpot_files::FileError;
+use dashpot_files::case::Case;
 use dashpot_files::output::write_bytes;
-use dashpot_vehicle_run::VehicleRunError;
 use dashpot_vehicle_run::contact::{ContactSetup, WheelOnRail};
+use dashpot_vehicle_run::{Run, VehicleRunError};
 
 /// Folder with one file per distinct pair of wheel and rail. The name of a file is the digest of everything that its
 /// tables depend on; the file has a checksum and the version of its format.
@@ -81,6 +80,18 @@ impl ContactTables {
             .map_err(|source| ContactTablesError::Invalid { path, source })
     }
 
+    /// Places the vehicle of a case at its start.
+    ///
+    /// # Errors
+    /// Same errors as [`Self::read`] and [`Run::new`].
+    pub fn run(&self, case: &Case) -> Result<Run, ContactTablesError> {
+        let setup = ContactSetup::of_case(case).map_err(VehicleRunError::from)?;
+        let sources = setup.pairs().iter().map(|pair| self.read(pair));
+        let contacts = setup.contacts(&sources.collect::<Result<Vec<_>, _>>()?)?;
+        let track = case.track.build().map_err(VehicleRunError::from)?;
+        Ok(Run::on(case, contacts, Arc::new(track))?)
+    }
+
     /// Computes the tables of a pair into its file, unless the file has them.
     ///
     /// # Errors
@@ -102,33 +113,5 @@ impl ContactTables {
             path,
             is_new,
         })
-    }
-}
-
-impl Study {
-    /// Distinct pairs of wheel and rail of all cases.
-    ///
-    /// # Errors
-    /// Invalid case.
-    pub fn pairs(&self) -> Result<Vec<WheelOnRail>, RunError> {
-        let sweeps = self.parameters.sweeps.iter();
-        let points = sweeps.flat_map(|sweep| {
-            let points = 0..sweep.points();
-            points.filter_map(|point| self.case(self.numbers(sweep, point).start))
-        });
-        let points: Vec<StudyCase<'_>> = points.collect();
-        let of_points = dashpot_workers::map(&points, |studied| -> Result<_, RunError> {
-            let case = self.case_at(studied.sweep, &studied.values(), None)?;
-            let setup = ContactSetup::of_case(&case).map_err(VehicleRunError::from);
-            let setup = setup.map_err(|source| RunError::in_sweep(studied.sweep, source))?;
-            Ok(setup.pairs().to_vec())
-        })?;
-        let mut pairs: Vec<WheelOnRail> = Vec::new();
-        for pair in of_points.into_iter().flatten() {
-            if !pairs.contains(&pair) {
-                pairs.push(pair);
-            }
-        }
-        Ok(pairs)
     }
 }

@@ -14,6 +14,7 @@ mod lock;
 mod merge;
 mod observation;
 mod observed;
+mod pairs;
 mod physics;
 mod plan;
 mod row;

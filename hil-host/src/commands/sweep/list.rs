@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::commands::arguments::Format;
 use crate::commands::failure::Outcome;
-use crate::commands::{counted, print_report};
+use crate::commands::{counted, print_answer};
 use dashpot_study::sweep::{Plan, Shared, Study, TimeEstimate, VERSION, rows_done};
 
 /// List of the cases of a study.
@@ -72,7 +72,7 @@ pub(super) fn list(
 ) -> Outcome<()> {
     let started = Instant::now();
     let list = listed(study, shared, (rows, threads), &|| started.elapsed())?;
-    print_report(format, &list, print)
+    print_answer(format, &list, print)
 }
 
 fn listed(
@@ -200,8 +200,8 @@ mod tests {
         print(&mut text, &list).unwrap();
         let text = String::from_utf8(text).unwrap();
         assert!(text.contains("0 done, 1 to run (1 simulation)\n"), "{text}");
-        let estimate = "about 1.5 s on this machine, with 1 thread: estimated from case 0, of which they simulated 1.0 s \
-                        in 1.00 s";
+        let estimate = "about 1.5 s on this machine, with 1 thread: estimated from case 0, of which they simulated \
+                        1.0 s in 1.00 s";
         assert!(text.contains(estimate), "{text}");
     }
 

@@ -13,13 +13,15 @@ use report::Extended;
 pub(super) use report::{Checked, Report, print};
 pub(super) use results::ResultArguments;
 
-use super::{interruption, print_report, progress, tables};
+use super::{interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::create_folder;
 use dashpot_files::study::{STUDIES, StudyParameters};
 use dashpot_study::sweep::rows::RowsError;
-use dashpot_study::sweep::{Computed, Journal, Plan, RunError, Shard, Shared, Start, Study};
+use dashpot_study::sweep::{
+    Computed, ContactTables, Journal, Plan, RunError, Shard, Shared, Start, Study,
+};
 
 /// Run a study: many cases of a vehicle on a track, with one row of indices per case and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -31,7 +33,7 @@ use dashpot_study::sweep::{Computed, Journal, Plan, RunError, Shard, Shared, Sta
 
 Writes rows.csv to --output: one row per case with parameter values, seed, indices, study ID and version; and
 report.html, the page. Curves that the page draws are kept in rows.curves, so that it is written without running cases
-again. A shard writes only rows-I-of-N.csv and rows-I-of-N.curves. The rows are bit-identical for any number of threads
+again. A shard writes only rows-I-of-N.csv, .curves and .study. The rows are bit-identical for any number of threads
 and shards; identical cases are simulated once. A case that derails, overturns, leaves the contact tables or has a wheel load above 50 times the static load
 has no indices; its column `ending` gives the reason. Observe `wheel_load_over_static` and `wheel_lift_longest_s` to
 find rows that need a second look (docs/studies.md).
@@ -131,7 +133,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     };
     let study = arguments.study.read()?;
     let shared = match &arguments.contact_tables {
-        Some(folder) => tables::shared(folder, &study.pairs()?)?,
+        Some(folder) => Shared::with_tables(ContactTables::new(folder), &study.pairs()?)?,
         None => Shared::default(),
     };
     let folder = arguments.study.folder(arguments.output.as_ref());

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::commands::counted;
 use dashpot_files::output;
+use dashpot_report::verdict::Verdict;
 use dashpot_study::sweep::extension::{self, Moved};
 use dashpot_study::sweep::rows::Rows;
 use dashpot_study::sweep::{Finished, PHYSICS, Study, VERSION, curves};
@@ -209,10 +210,10 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         extended.print(out)?;
     }
     if let Some(note) = report.not_completed() {
-        writeln!(out, "{note}")?;
+        writeln!(out, "{}", Verdict::Warning.mark(note))?;
     }
     for note in notes {
-        writeln!(out, "{note}")?;
+        writeln!(out, "{}", Verdict::Warning.mark(note))?;
     }
     if let Some(Checked { cases, seed }) = checked {
         let count = counted(cases.len() as u64, "case");
@@ -220,7 +221,8 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         let numbers = numbers.join(", ");
         writeln!(
             out,
-            "{count} repeated with bit-identical results (--check-seed {seed}): {numbers}"
+            "{count} repeated with {} (--check-seed {seed}): {numbers}",
+            Verdict::Passed.mark("bit-identical results")
         )?;
     }
     writeln!(out)?;

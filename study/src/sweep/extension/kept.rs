@@ -1,5 +1,5 @@
-//! The file `rows.study` beside `rows.csv`: the outline of the study and all indices of each case. Indices that the study
-//! does not observe are in no row, but may be observed later.
+//! The file `rows.study` beside `rows.csv`: the outline of the study and all indices of each case. Indices that the
+//! study does not observe are in no row, but may be observed later.
 //!
 //! A line that cannot be used is left out: what it says can be computed again.
 

@@ -8,7 +8,7 @@ use super::kept::Kept;
 use super::outline::Outline;
 use crate::sweep::observed::IndexValues;
 use crate::sweep::row::{OF_PHYSICS, OF_VERSION, Row};
-use crate::sweep::rows::{self, NumberedRow, Rows, RowsError};
+use crate::sweep::rows::{self, Rows, RowsError};
 use crate::sweep::study::{Study, StudyCase};
 use dashpot_files::FileError;
 use dashpot_files::study::Axis;
@@ -61,11 +61,12 @@ pub fn read_rows(
             continue;
         };
         let read = rows::parse_from(&earlier, path, section, first_line)?;
+        let read = rows::index_by_case(path, read)?;
         if !moved.studies.iter().any(|known| known == earlier.digest()) {
             moved.studies.push(earlier.digest().to_owned());
         }
-        for NumberedRow { row, .. } in read {
-            if let Some(row) = moved.take(study, &earlier, kept, &row) {
+        for row in read.values() {
+            if let Some(row) = moved.take(study, &earlier, kept, row) {
                 all.insert(row.case, row);
             }
         }

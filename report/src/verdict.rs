@@ -75,8 +75,8 @@ impl<T: AsRef<str>> fmt::Display for Marked<T> {
     }
 }
 
-/// Calls `text` to print a report to `out`, with `colours` or without. With them, `warning:`, `note:` and `error:` at the
-/// beginning of a line have theirs; without them, every byte is that of the text.
+/// Calls `text` to print a report to `out`, with `colours` or without. With them, `warning:`, `note:` and `error:` at
+/// the beginning of a line have theirs; without them, every byte is that of the text.
 ///
 /// # Errors
 /// The output cannot be written.
@@ -148,7 +148,12 @@ mod tests {
             write!(out, "warn")?;
             writeln!(out, "ing: a gap, no warning: here")?;
             let [met, violated] = [true, false].map(Verdict::of);
-            writeln!(out, "{:<8}|{:>9}", met.mark("within"), violated.mark("outside"))?;
+            writeln!(
+                out,
+                "{:<8}|{:>9}",
+                met.mark("within"),
+                violated.mark("outside")
+            )?;
             write!(out, "note: no line end")
         })
         .unwrap();
