@@ -54,9 +54,9 @@ fn kept_curves(criterion: &mut Criterion, study: &Study) {
     let numbers: Vec<u64> = needed.keys().copied().collect();
     let plan = Plan::new(study, &numbers, dashpot_workers::threads()).expect("shipped cases");
     let (mut rows, mut all) = (Rows::new(), curves::Curves::new());
-    let take = |row: dashpot_study::sweep::Row, curves: curves::Curves| {
-        rows.insert(row.case, row);
-        all.extend(curves);
+    let take = |computed: dashpot_study::sweep::Computed| {
+        rows.insert(computed.row.case, computed.row);
+        all.extend(computed.curves);
         Ok::<(), RunError>(())
     };
     plan.run(&Shared::default(), &needed, &|| false, take)

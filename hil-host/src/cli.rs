@@ -1,9 +1,12 @@
 //! The command line as a whole: commands in groups, help that fits the terminal, version.
 
+use clap::error::ErrorKind;
+use clap::parser::ValueSource;
 use clap::{CommandFactory, Parser};
 
 use crate::commands::Command;
 use crate::commands::demonstrate::DemonstrateArguments;
+use crate::headings::with_headings;
 
 /// Widest help, columns: as wide as the examples in it.
 const WIDTH: usize = 120;
@@ -16,7 +19,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
         &["rig", "response", "shims", "verify", "budget", "export"],
     ),
     ("Vehicles", &["vehicle", "live", "modes", "contact"]),
-    ("Studies", &["sweep", "merge"]),
+    ("Studies", &["sweep", "merge", "tables"]),
     ("Targets and rigs", &["link", "pil", "hybrid"]),
     (
         "Files that ship",
@@ -46,7 +49,7 @@ const FEATURES: [(&str, bool); 3] = [
 #[command(
     name = "dashpot",
     version,
-    args_conflicts_with_subcommands = true,
+    override_usage = "dashpot [OPTIONS]\n       dashpot <COMMAND>",
     after_help = "Examples:
   dashpot
   dashpot --output damper.html
@@ -59,14 +62,40 @@ pub struct Cli {
     /// Options without a command.
     #[command(flatten)]
     pub demonstration: DemonstrateArguments,
+    /// Print no text report, note or progress; errors, lists, JSON and data on standard output remain.
+    #[arg(long, short, global = true, display_order = 998)]
+    pub quiet: bool,
     /// The command.
     #[command(subcommand)]
     pub command: Option<Command>,
 }
 
+/// Rejects options of the demonstration before the name of a command; `--quiet` is allowed there.
+///
+/// # Errors
+/// There is such an option.
+pub fn check_conflicts(given: &clap::ArgMatches) -> Result<(), clap::Error> {
+    let Some((name, _)) = given.subcommand() else {
+        return Ok(());
+    };
+    let is_given = |id: &str| given.value_source(id) == Some(ValueSource::CommandLine);
+    let whole = command();
+    let options = whole.get_arguments();
+    let conflict =
+        options.filter_map(|option| Some((option.get_id().as_str(), option.get_long()?)));
+    let mut conflict = conflict.filter(|(id, _)| *id != "quiet" && is_given(id));
+    match conflict.next() {
+        None => Ok(()),
+        Some((_, long)) => {
+            let message = format!("the subcommand '{name}' cannot be used with '--{long}'");
+            Err(command().error(ErrorKind::ArgumentConflict, message))
+        }
+    }
+}
+
 /// The command line with its whole help.
 pub fn command() -> clap::Command {
-    let command = reflowed(Cli::command()).max_term_width(WIDTH);
+    let command = with_headings(reflowed(Cli::command())).max_term_width(WIDTH);
     let template = format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{}\nOptions:\n{{options}}{{after-help}}",
         groups(&command)

@@ -1,19 +1,23 @@
 //! The `dashpot` command.
 
-use std::io::Write;
 use std::process::ExitCode;
 
 use clap::FromArgMatches;
 use dashpot_hil::cli::{self, Cli};
 use dashpot_hil::commands::failure::Kind;
+use dashpot_hil::commands::print::{be_quiet, print_error};
 use dashpot_hil::commands::{demonstrate, interruption};
 
 fn main() -> ExitCode {
     let given = cli::command().get_matches();
-    let cli = match Cli::from_arg_matches(&given) {
+    let conflicts = cli::check_conflicts(&given);
+    let cli = match conflicts.and_then(|()| Cli::from_arg_matches(&given)) {
         Ok(cli) => cli,
         Err(error) => error.format(&mut cli::command()).exit(),
     };
+    if cli.quiet {
+        be_quiet();
+    }
     let outcome = interruption::clean_up().and_then(|()| match &cli.command {
         None => demonstrate::run(&cli.demonstration),
         Some(command) => command.run(cli::command),
@@ -27,7 +31,6 @@ fn main() -> ExitCode {
         // Same code as clap uses for an invalid option.
         Kind::WrongUse => 2,
     };
-    // If standard error is closed, there is nothing left to do.
-    let _ = writeln!(std::io::stderr(), "error: {failure}");
+    print_error(&failure);
     ExitCode::from(code)
 }

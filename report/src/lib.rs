@@ -6,5 +6,6 @@ mod error;
 pub mod health;
 pub mod page;
 pub mod plot;
+pub mod verdict;
 
 pub use error::DrawError;

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::gap_report::unended;
 use super::recording::ListingArguments;
 use super::remedy::with_remedy;
-use super::{Format, counted, nearest_nanosecond, print_report};
+use super::{Format, counted, nearest_nanosecond, print_answer};
 use crate::commands::failure::Outcome;
 use dashpot_files::input;
 use dashpot_recording::{
@@ -55,7 +55,7 @@ pub fn run(arguments: &ChannelsArguments) -> Outcome<()> {
         replay: replay_line(arguments, &channels, &overview),
         overview,
     };
-    print_report(arguments.format, &report, |out, report| {
+    print_answer(arguments.format, &report, |out, report| {
         print(out, report, arguments)
     })
 }

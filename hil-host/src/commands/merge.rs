@@ -8,6 +8,7 @@ use super::{interruption, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::output::create_folder;
 use dashpot_study::sweep::curves::{self, Curves};
+use dashpot_study::sweep::extension;
 use dashpot_study::sweep::rows::{self, Rows, RowsError};
 use dashpot_study::sweep::{CheckError, Finished, MergeError, Shared, Study, check, choose, merge};
 
@@ -18,7 +19,7 @@ use dashpot_study::sweep::{CheckError, Finished, MergeError, Shared, Study, chec
 
   dashpot merge paper results/rows-*-of-8.csv --output results --check 5
 
-Writes rows.csv, rows.curves and report.html, identical to those of `dashpot sweep` on one machine. The curves of the
+Writes rows.csv, rows.study, rows.curves and report.html, identical to those of `dashpot sweep` on one machine. The curves of the
 page are read beside each file of rows (rows-I-of-N.curves); cases whose curves are missing run again. Missing or duplicate cases are
 listed; then nothing is written and the exit code is 1. --check repeats random cases before anything is written, and
 fails if a bit differs.")]
@@ -65,6 +66,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
         let path = curves::path_of(&path);
         curves::write(&study, &finished.rows, &finished.curves, &path)?;
     }
+    extension::write_merged(&study, &finished.rows, &arguments.files, &path)?;
     let mut report = Report::new(&study, &finished.rows, 0, Duration::ZERO);
     report.checked = checked;
     let to = (path.as_path(), dashpot_workers::threads());

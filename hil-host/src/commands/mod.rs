@@ -40,6 +40,7 @@ pub mod shipped;
 pub mod step_size;
 mod streams;
 pub mod sweep;
+pub mod tables;
 mod tick_times;
 pub mod vehicle;
 pub mod verify;
@@ -47,7 +48,7 @@ mod wheel_rail;
 
 use arguments::{DamperArguments, Format, RealtimeArguments, TickLimitArguments};
 use failure::Outcome;
-use print::{counted, nearest_nanosecond, print_report, print_report_beside};
+use print::{counted, nearest_nanosecond, print_answer, print_report, print_report_beside};
 use shipped::Kind;
 
 /// A command with its options; the documentation of the arguments is the help text.
@@ -70,6 +71,7 @@ pub enum Command {
     Hybrid(hybrid::HybridArguments),
     Sweep(sweep::SweepArguments),
     Merge(merge::MergeArguments),
+    Tables(tables::TablesArguments),
     Pil(pil::PilArguments),
     Link(link::LinkArguments),
     /// List the dampers that ship.
@@ -114,6 +116,7 @@ impl Command {
             Self::Hybrid(arguments) => hybrid::run(arguments),
             Self::Sweep(arguments) => sweep::run(arguments),
             Self::Merge(arguments) => merge::run(arguments),
+            Self::Tables(arguments) => tables::run(arguments),
             Self::Pil(arguments) => pil::run(arguments),
             Self::Link(arguments) => link::run(arguments),
             Self::Dampers(arguments) => shipped::list(Kind::Damper, arguments),

@@ -10,6 +10,7 @@ use dashpot_realtime::budget::Run;
 use dashpot_realtime::limits::TICKS_PER_ALLOWED_MISS;
 use dashpot_realtime::pacing::PacingReport;
 use dashpot_realtime::timing::{Figures, optional_span, span};
+use dashpot_report::verdict::Verdict;
 
 /// Deadlines, lateness and computing time of the ticks.
 #[derive(Serialize)]
@@ -55,12 +56,14 @@ impl Paced {
 
     /// Prints one line of text, and the times if there are any; `work` describes the work of a tick.
     pub(super) fn write(&self, out: &mut dyn Write, work: &str) -> io::Result<()> {
+        let missed = format!(
+            "{} of {} deadlines missed",
+            self.missed_deadlines, self.ticks
+        );
         writeln!(
             out,
-            "real time: {} of {} deadlines missed (allowed {}); lateness at most {}, 99th percentile {}; {work}: at \
-             most {}, in tick {}",
-            self.missed_deadlines,
-            self.ticks,
+            "real time: {} (allowed {}); lateness at most {}, 99th percentile {}; {work}: at most {}, in tick {}",
+            Verdict::of(self.missed_deadlines <= self.allowed_missed_deadlines).mark(missed),
             self.allowed_missed_deadlines,
             span(self.lateness.worst_ns),
             optional_span(self.lateness.p99_ns),

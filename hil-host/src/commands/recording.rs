@@ -4,9 +4,6 @@ use encoding_rs::Encoding;
 
 use dashpot_recording::{Channel, Channels, DecimalMark, Quantity, Separator, TextOptions, Unit};
 
-/// Heading of the options in the help.
-const HEADING: &str = "Reading the recording";
-
 /// Options of commands that read a motion.
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
 pub struct MotionArguments {
@@ -52,7 +49,6 @@ pub struct ListingArguments {
 }
 
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
-#[command(next_help_heading = HEADING)]
 struct TimeArguments {
     /// Name or number (from 1) of the time channel [default: time_s; for MDF4 the time of the group].
     #[arg(long = "time", value_name = "CHANNEL")]
@@ -63,7 +59,6 @@ struct TimeArguments {
 }
 
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
-#[command(next_help_heading = HEADING)]
 struct DisplacementArguments {
     /// Name or number of the displacement channel [default: displacement_m].
     #[arg(long, value_name = "CHANNEL")]
@@ -77,7 +72,6 @@ struct DisplacementArguments {
 }
 
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
-#[command(next_help_heading = HEADING)]
 struct ForceArguments {
     /// Name or number of the force channel [default: force_n].
     #[arg(long, value_name = "CHANNEL")]
@@ -91,7 +85,6 @@ struct ForceArguments {
 }
 
 #[derive(Debug, Clone, Default, PartialEq, clap::Args)]
-#[command(next_help_heading = HEADING)]
 struct FileArguments {
     /// Name or number (from 1) of the MDF4 group that contains the channels.
     #[arg(long, value_name = "GROUP")]

@@ -7,12 +7,8 @@ use super::failure::{Failure, Outcome};
 use super::remedy::option_of;
 use dashpot_testbench::health::Noise;
 
-/// Heading of the options in the help.
-const HEADING: &str = "Settings of the health estimate";
-
 /// Sensor properties; the core checks the ranges.
 #[derive(Debug, Clone, Copy, Default, PartialEq, clap::Args)]
-#[command(next_help_heading = HEADING)]
 pub struct SensorArguments {
     /// Standard deviation of the displacement noise, m.
     #[arg(long, value_name = "M", allow_negative_numbers = true)]

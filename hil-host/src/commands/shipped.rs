@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::Format;
 use super::failure::{Failure, Outcome};
-use super::print::{print_data, print_report};
+use super::print::{print_answer, print_data};
 use dashpot_files::actuator::ACTUATORS;
 use dashpot_files::case::CASES;
 use dashpot_files::damper::PRESETS;
@@ -115,7 +115,7 @@ pub fn list(kind: Kind, arguments: &ListArguments) -> Outcome<()> {
     let report = Report {
         files: files.collect(),
     };
-    print_report(arguments.format, &report, |out, report| {
+    print_answer(arguments.format, &report, |out, report| {
         print(out, report, kind)
     })
 }

@@ -47,7 +47,7 @@ fn garbage_is_reported_with_its_line_and_a_remedy() {
         fs::write(&partial, &mended).unwrap();
         let rest = text_of(&dashpot(&sweep, folder.path()).success());
         assert!(rest.contains("12 cases, 5 run now"), "{rest}");
-        assert_eq!(files_in(&one), ["rows.csv"]);
+        assert_eq!(files_in(&one), ["rows.csv", "rows.study"]);
         assert_eq!(read(&one, "rows.csv"), text);
     }
 }

@@ -58,7 +58,10 @@ fn studied() -> (TempDir, String, String) {
         "{text}"
     );
     let files = files_in(&folder.path().join("one"));
-    assert_eq!(files, ["report.html", "rows.csv", "rows.curves"]);
+    assert_eq!(
+        files,
+        ["report.html", "rows.csv", "rows.curves", "rows.study"]
+    );
     let [page, curves] =
         ["one/report.html", "one/rows.curves"].map(|name| read(folder.path(), name));
     (folder, page, curves)
@@ -124,7 +127,12 @@ fn a_study_without_a_page_keeps_curves_for_a_later_one() {
     let files = report["files"].as_array().unwrap();
     assert_eq!(
         files,
-        &["one/rows.csv", "one/rows.curves", "one/report.html"]
+        &[
+            "one/rows.csv",
+            "one/rows.curves",
+            "one/rows.study",
+            "one/report.html"
+        ]
     );
     assert_eq!(read(folder.path(), "one/report.html"), page);
     // Over again: the old files stay under another name.
@@ -292,7 +300,8 @@ fn an_interrupted_study_keeps_the_curves_of_its_rows() {
     interrupt(&child);
     assert_eq!(child.wait().unwrap().code(), Some(1));
     let one = folder.path().join("one");
-    assert_eq!(files_in(&one), ["rows.csv.partial", "rows.curves.partial"]);
+    let files = ["rows.csv.partial", "rows.curves.partial", "rows.study"];
+    assert_eq!(files_in(&one), files);
     // A line that was being written when the machine failed.
     let partial = fs::File::options()
         .append(true)
@@ -302,7 +311,7 @@ fn an_interrupted_study_keeps_the_curves_of_its_rows() {
         .write_all(b"5,0123456789abcdef,body")
         .unwrap();
     let resumed = rows(folder.path());
-    assert_eq!(files_in(&one), ["rows.csv", "rows.curves"]);
+    assert_eq!(files_in(&one), ["rows.csv", "rows.curves", "rows.study"]);
     let curves = read(folder.path(), "one/rows.curves");
     let drawn = text_of(&dashpot(&SWEEP, folder.path()).success());
     assert!(!drawn.contains("curves:"), "{drawn}");
@@ -331,5 +340,6 @@ fn a_vehicle_that_changes_while_it_runs_leaves_no_curves() {
     fs::write(&new, text.replace("mass_kg = 63400", "mass_kg = 60000")).unwrap();
     fs::rename(&new, &own).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(1));
-    assert_eq!(files_in(&folder.path().join("one")), ["rows.csv.partial"]);
+    let files = files_in(&folder.path().join("one"));
+    assert_eq!(files, ["rows.csv.partial", "rows.study"]);
 }

@@ -85,7 +85,7 @@ impl Digest {
     }
 
     /// Adds profiles, dimensions and friction, independent of the names of the profiles.
-    fn add_contact(&mut self, contact: &ContactParameters) {
+    pub fn add_contact(&mut self, contact: &ContactParameters) {
         for profile in contact.profiles() {
             self.add(&profile.points());
         }

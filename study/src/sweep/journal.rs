@@ -1,18 +1,21 @@
 //! Rows of a running study, written one by one so that an interruption loses none.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::curves::{CurveJournal, Curves, with_ending};
+use super::curves::{self, CurveJournal, CurveKey, CurveKind, Curves, KnownRows, with_ending};
+use super::extension::{self, Kept, Moved, Outline};
+use super::lock::locked;
+use super::observed::IndexValues;
 use super::row::Row;
 use super::rows::{self, Rows, RowsError};
 use super::study::{Shard, Study};
-use dashpot_files::FileError;
 use dashpot_files::output::cannot_write;
+use dashpot_files::{FileError, input};
 
-/// Rows computed so far with the curves of their cases, and the files to which new ones are added: the files of rows
-/// and curves with `.partial` appended to their names.
+/// Rows computed so far with the curves and indices of their cases, and the files to which new ones are added: the
+/// files of rows and curves with `.partial` appended to their names, and that of the indices.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -20,6 +23,21 @@ pub struct Journal {
     file: File,
     rows: Rows,
     curves: CurveJournal,
+    kept: Kept,
+    outline: Outline,
+    /// Rows of earlier studies, which this one extends.
+    moved: Moved,
+}
+
+/// How a journal begins.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Start<'a> {
+    /// Part of the study whose rows it has; all if `None`.
+    pub shard: Option<Shard>,
+    /// Starts without rows and renames existing files to `.old`.
+    pub restart: bool,
+    /// Rows of this study, or of one that it extends, in another file.
+    pub reuse: Option<&'a Path>,
 }
 
 /// Rows and curves of a whole study or shard.
@@ -34,66 +52,104 @@ pub struct Finished {
 }
 
 impl Journal {
-    /// Opens the rows of the file at `path` and of an interrupted run, with their curves. With `restart`, it starts
-    /// without rows and renames existing files to `.old`.
+    /// Opens the rows of the file at `path` and of an interrupted run, with their curves. If the study extends that of
+    /// existing rows, these rows become its own.
     ///
     /// # Errors
     /// Returns an error if a file cannot be read or written, if it contains rows of another study or shard, or if
     /// another process is adding rows.
-    pub fn open(
-        study: &Study,
-        path: &Path,
-        shard: Option<Shard>,
-        restart: bool,
-    ) -> Result<Self, RowsError> {
+    pub fn open(study: &Study, path: &Path, start: Start<'_>) -> Result<Self, RowsError> {
         let partial = with_ending(path, "partial");
         let mut file = locked(&partial)?;
+        let outline = Outline::of(study)?;
         let mut known = Rows::new();
-        if restart {
+        let mut moved = Moved::default();
+        let mut has_header = false;
+        if start.restart {
             file.set_len(0)
                 .map_err(|error| cannot_write(&partial, error))?;
-            if path.exists() {
-                let old = with_ending(path, "old");
-                fs::rename(path, &old).map_err(|error| cannot_write(&old, error))?;
-            }
-        } else {
-            if path.exists() {
-                known = rows::read_once(study, path)?;
-            }
-            let mut bytes = Vec::new();
-            file.read_to_end(&mut bytes)
-                .map_err(|error| FileError::read(&partial, error))?;
-            // An incomplete last line was being written when the process ended.
-            let last_newline = bytes.iter().rposition(|byte| *byte == b'\n');
-            bytes.truncate(last_newline.map_or(0, |last| last + 1));
-            if bytes.trim_ascii().is_empty() {
-                bytes.clear();
-            }
-            if !bytes.is_empty() {
-                let read = rows::parse(study, &partial, &bytes)?;
-                known.extend(rows::index_by_case(&partial, read)?);
-            }
-            file.set_len(bytes.len() as u64)
-                .map_err(|error| cannot_write(&partial, error))?;
-            let is_foreign = |case: &&u64| shard.is_some_and(|shard| !shard.contains(**case));
-            if let (Some(case), Some(shard)) = (known.keys().find(is_foreign), shard) {
-                let Shard { number, count } = shard;
-                let reason = format!("case {case} does not belong to shard {number} of {count}");
-                return Err(RowsError::Foreign(FileError::in_file(path, reason)));
+            for path in [path, &extension::path_of(path)] {
+                if path.exists() {
+                    let old = with_ending(path, "old");
+                    fs::rename(path, &old).map_err(|error| cannot_write(&old, error))?;
+                }
             }
         }
+        let mut kept = Kept::read(path);
+        if !start.restart {
+            if path.exists() {
+                let bytes = input::read(path)?;
+                known = extension::read_rows(study, &kept, (path, &bytes), &mut moved)?;
+            }
+            let bytes = whole_lines(&mut file).map_err(|error| FileError::read(&partial, error))?;
+            if !bytes.is_empty() {
+                let read = extension::read_rows(study, &kept, (&partial, &bytes), &mut moved)?;
+                known.extend(read);
+                has_header = rows::ends_in_section_of(study, &bytes);
+            }
+            check_shard(path, start.shard, &known, &moved)?;
+            file.set_len(bytes.len() as u64)
+                .map_err(|error| cannot_write(&partial, error))?;
+        }
+        let of_rows = KnownRows::new(study, &known, &moved.cases);
+        let mut curves = CurveJournal::open(of_rows, path, start.restart)?;
+        if !moved.cases.is_empty() {
+            curves.retain(&study.needed_curves());
+        }
+        kept.add_outline(outline.clone())?;
         let mut journal = Self {
-            curves: CurveJournal::open(study, &known, path, restart)?,
+            curves,
             path: path.to_owned(),
             partial,
             file,
             rows: known,
+            kept,
+            outline,
+            moved,
         };
         let end = journal.file.seek(SeekFrom::End(0));
-        if end.map_err(|error| cannot_write(&journal.partial, error))? == 0 {
+        end.map_err(|error| cannot_write(&journal.partial, error))?;
+        if !has_header {
             journal.line(study.columns())?;
         }
+        if let Some(other) = start.reuse {
+            journal.reuse(study, other, start.shard)?;
+        }
         Ok(journal)
+    }
+
+    /// Adds the rows of another file, those that are missing and belong to the shard.
+    fn reuse(&mut self, study: &Study, path: &Path, shard: Option<Shard>) -> Result<(), RowsError> {
+        let (bytes, kept) = (input::read(path)?, Kept::read(path));
+        let mut moved = Moved::default();
+        let rows = extension::read_rows(study, &kept, (path, &bytes), &mut moved)?;
+        let known = KnownRows::new(study, &rows, &moved.cases);
+        let mut curves = known.read(&curves::path_of(path)).curves;
+        let needed = study.needed_curves();
+        curves.retain(|key, _| curves::is_needed(&needed, key));
+        for row in rows.into_values() {
+            let is_own = shard.is_none_or(|shard| shard.contains(row.case));
+            if !is_own || self.rows.contains_key(&row.case) {
+                continue;
+            }
+            // The rows and the keys of the curves are in the order of the cases.
+            let next = CurveKey {
+                case: row.case + 1,
+                signal: String::new(),
+                kind: CurveKind::History,
+            };
+            let later = curves.split_off(&next);
+            let mut own = std::mem::replace(&mut curves, later);
+            own.retain(|key, _| key.case == row.case);
+            let digest = study.digest_of(&row).unwrap_or_default();
+            let indices = moved.indices.remove(&row.case);
+            let indices = indices.or_else(|| kept.indices(row.case, &digest).cloned());
+            self.moved.indices.insert(row.case, IndexValues::new());
+            self.add(study, row, own, indices.unwrap_or_default())?;
+        }
+        self.moved.studies.append(&mut moved.studies);
+        self.moved.lacking.append(&mut moved.lacking);
+        Ok(())
     }
 
     /// Rows computed so far.
@@ -101,43 +157,68 @@ impl Journal {
         &self.rows
     }
 
-    /// Adds a row and the curves of its case.
+    /// Rows that came from earlier studies or another file.
+    pub fn moved(&self) -> &Moved {
+        &self.moved
+    }
+
+    /// Adds a row with the curves and indices of its case.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written.
-    pub fn add(&mut self, study: &Study, row: Row, curves: Curves) -> Result<(), FileError> {
+    pub fn add(
+        &mut self,
+        study: &Study,
+        row: Row,
+        curves: Curves,
+        indices: IndexValues,
+    ) -> Result<(), FileError> {
         let record = rows::record(study, &row);
         let record = record.map_err(|error| cannot_write(&self.partial, error))?;
-        // The curves come first: a case whose row is present is not run again.
+        // Curves and indices come first: a case whose row is present is not run again.
         if let Some(digest) = record.last() {
             self.curves.add(digest, curves)?;
+            self.kept.add(row.case, digest, indices)?;
         }
         self.line(record)?;
         self.rows.insert(row.case, row);
         Ok(())
     }
 
-    /// Replaces the files of rows and curves by all rows and curves in the order of the cases, and returns them.
+    /// Replaces the files of rows, curves and indices by those of all cases in their order, and returns them.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written.
     pub fn finish(self, study: &Study) -> Result<Finished, FileError> {
-        self.curves.write(study, &self.rows)?;
-        rows::write(study, &self.rows, &self.path)?;
+        let Self {
+            rows, kept, moved, ..
+        } = self;
+        self.curves.write(study, &rows)?;
+        rows::write(study, &rows, &self.path)?;
         // The rows must be on the disk before the partial file is removed.
         File::open(&self.path)
             .and_then(|file| file.sync_all())
             .map_err(|error| cannot_write(&self.path, error))?;
         let (curves, problems) = self.curves.end()?;
+        let indices: Vec<(u64, String, IndexValues)> = rows
+            .values()
+            .filter_map(|row| {
+                let digest = study.digest_of(row)?;
+                let own = kept.indices(row.case, &digest);
+                let indices = own.or_else(|| moved.indices.get(&row.case))?.clone();
+                Some((row.case, digest, indices))
+            })
+            .collect();
+        kept.finish(self.outline, indices.into_iter())?;
         fs::remove_file(&self.partial).map_err(|error| cannot_write(&self.partial, error))?;
         Ok(Finished {
-            rows: self.rows,
+            rows,
             curves,
             problems,
         })
     }
 
-    /// Removes the rows and curves of these cases, which must be in ascending order.
+    /// Removes the rows, curves and indices of these cases, which must be in ascending order.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written.
@@ -153,6 +234,7 @@ impl Journal {
             let record = rows::record(study, row);
             self.line(record.map_err(|error| cannot_write(&self.partial, error))?)?;
         }
+        self.kept.remove(cases)?;
         self.curves.remove(study, &self.rows, cases)
     }
 
@@ -165,64 +247,42 @@ impl Journal {
     }
 }
 
-/// Opens the file at `path` with a lock, so that no other process can add to it.
-fn locked(path: &Path) -> Result<File, FileError> {
-    loop {
-        let file = File::options()
-            .read(true)
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(path)
-            .map_err(|error| cannot_write(path, error))?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                let other = "another process is adding rows to it";
-                return Err(cannot_write(path, io::Error::other(other)));
-            }
-            Err(TryLockError::Error(error)) => return Err(cannot_write(path, error)),
-        }
-        // Between opening and locking, a finishing process may have removed the file, and another may have created a
-        // new one.
-        if is_at(&file, path) {
-            return Ok(file);
-        }
+/// Reads the whole lines of a journal. An incomplete last one was being written when the process ended.
+fn whole_lines(file: &mut File) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    let last_newline = bytes.iter().rposition(|byte| *byte == b'\n');
+    bytes.truncate(last_newline.map_or(0, |last| last + 1));
+    if bytes.trim_ascii().is_empty() {
+        bytes.clear();
     }
+    Ok(bytes)
 }
 
-/// True if `file` is the file at `path`.
-#[cfg(unix)]
-fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    match (file.metadata(), path.metadata()) {
-        (Ok(this), Ok(there)) => (this.dev(), this.ino()) == (there.dev(), there.ino()),
-        _ => false,
+/// Refuses rows of another shard. The cases of an extended study have other numbers, so they are in other shards.
+fn check_shard(
+    path: &Path,
+    shard: Option<Shard>,
+    known: &Rows,
+    moved: &Moved,
+) -> Result<(), RowsError> {
+    let Some(shard) = shard else {
+        return Ok(());
+    };
+    let refused = |reason: String| Err(RowsError::Foreign(FileError::in_file(path, reason)));
+    if let Some(earlier) = moved.studies.first() {
+        return refused(format!(
+            "the rows of this shard are of study {earlier}, which the study now extends; the cases have new numbers, \
+             so merge the rows of the earlier study and pass the merged file to each shard with --reuse"
+        ));
     }
-}
-
-/// True if there is a file at `path`; on these systems an open file keeps its name.
-#[cfg(not(unix))]
-fn is_at(_: &File, path: &Path) -> bool {
-    path.exists()
-}
-
-#[cfg(all(test, unix))]
-mod tests {
-    use std::fs::{self, File};
-
-    use super::is_at;
-
-    #[test]
-    fn a_removed_file_differs_from_its_successor_at_the_same_path() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("rows.csv.partial");
-        let first = File::create(&path).unwrap();
-        assert!(is_at(&first, &path));
-        fs::remove_file(&path).unwrap();
-        assert!(!is_at(&first, &path));
-        let second = File::create(&path).unwrap();
-        assert!(is_at(&second, &path));
-        assert!(!is_at(&first, &path));
+    match known.keys().find(|case| !shard.contains(**case)) {
+        Some(case) => {
+            let Shard { number, count } = shard;
+            refused(format!(
+                "case {case} does not belong to shard {number} of {count}"
+            ))
+        }
+        None => Ok(()),
     }
 }

@@ -2,13 +2,19 @@
 //! order and number of threads.
 
 mod check;
+mod contact_tables;
 pub mod curves;
 mod digest;
+mod done;
+mod estimate;
+pub mod extension;
 mod figure_case;
 mod journal;
+mod lock;
 mod merge;
 mod observation;
 mod observed;
+mod pairs;
 mod physics;
 mod plan;
 mod row;
@@ -19,13 +25,16 @@ mod study;
 mod summary;
 
 pub use check::{CheckError, check, choose};
+pub use contact_tables::{ContactTables, ContactTablesError, TablesFile};
 pub use digest::digest_of_cells;
-pub use journal::{Finished, Journal};
+pub use done::rows_done;
+pub use estimate::{PROBE, TimeEstimate};
+pub use journal::{Finished, Journal, Start};
 pub use merge::{Duplicate, Gaps, MergeError, merge};
 pub use observation::Observation;
-pub use observed::{OBSERVED, Observed};
+pub use observed::{IndexValues, OBSERVED, Observed};
 pub use physics::PHYSICS;
-pub use plan::{Plan, row, run, run_with};
+pub use plan::{Computed, Plan, row, run, run_with};
 pub use row::{ROW_DIGEST, Row, RowError, VERSION};
 pub use run::{RunError, observe};
 pub use shared::Shared;

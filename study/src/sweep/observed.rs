@@ -1,7 +1,12 @@
 //! Indices that a study can observe.
 
+use std::collections::BTreeMap;
+
 use super::observation::Observation;
 use dashpot_vehicle_run::{RideIndices, WheelIndices, WheelsetIndices};
+
+/// Indices of a case by name; an index is `None` if the run did not complete or was too short.
+pub type IndexValues = BTreeMap<String, Option<f64>>;
 
 /// Index in a row of a study.
 #[derive(Debug, Clone, Copy)]

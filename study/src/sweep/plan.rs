@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::curves::{CurveKey, Curves, Needed};
 use super::digest::Digest;
+use super::observed::IndexValues;
 use super::row::Row;
 use super::run::{RunError, Simulated, simulate};
 use super::shared::Shared;
@@ -16,6 +17,17 @@ pub struct Plan<'a> {
     threads: usize,
     /// In the order in which they start.
     groups: Vec<Group>,
+}
+
+/// Results of a case.
+#[derive(Debug, Clone)]
+pub struct Computed {
+    /// Row of the case.
+    pub row: Row,
+    /// Curves that were needed.
+    pub curves: Curves,
+    /// All indices that the run has; the row has those that the study observes.
+    pub indices: IndexValues,
 }
 
 /// Cases with the same vehicle, track, parameters and seed, which therefore have the same result.
@@ -85,19 +97,41 @@ impl<'a> Plan<'a> {
         self.groups.len()
     }
 
-    /// Runs the cases, and passes the row of each, with the curves of it that are `needed`, as soon as it is complete.
+    /// The study.
+    pub(super) fn study(&self) -> &Study {
+        self.study
+    }
+
+    /// Number of threads.
+    pub(super) fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// Relative duration of all simulations.
+    pub(super) fn work(&self) -> f64 {
+        self.groups.iter().map(|group| group.work).sum()
+    }
+
+    /// Number and relative duration of the case that takes longest.
+    pub(super) fn longest(&self) -> Option<(u64, f64)> {
+        let group = self.groups.first()?;
+        Some((*group.numbers.first()?, group.work))
+    }
+
+    /// Runs the cases, and passes the results of each, with the curves of it that are `needed`, as soon as it is
+    /// complete.
     /// Cases interrupted by `is_cancelled` have no row.
     ///
     /// A row depends only on its case; the order of the cases and the number of threads do not change it.
     ///
     /// # Errors
-    /// Returns an error for an invalid case, or the error of `on_row`. After an error, no further case starts.
+    /// Returns an error for an invalid case, or the error of `on_result`. After an error, no further case starts.
     pub fn run<E: From<RunError>>(
         &self,
         shared: &Shared,
         needed: &Needed,
         is_cancelled: &(dyn Fn() -> bool + Sync),
-        mut on_row: impl FnMut(Row, Curves) -> Result<(), E>,
+        mut on_result: impl FnMut(Computed) -> Result<(), E>,
     ) -> Result<(), E> {
         let work = |group: &Group, is_ended: &dyn Fn() -> bool| {
             let is_cancelled = || is_ended() || is_cancelled();
@@ -106,9 +140,8 @@ impl<'a> Plan<'a> {
             }
             run_group(self.study, &group.numbers, shared, needed, &is_cancelled)
         };
-        dashpot_workers::in_parallel(&self.groups, self.threads, work, |_, rows| {
-            let mut rows = rows?.into_iter();
-            rows.try_for_each(|(row, curves)| on_row(row, curves))
+        dashpot_workers::in_parallel(&self.groups, self.threads, work, |_, results| {
+            results?.into_iter().try_for_each(&mut on_result)
         })
     }
 }
@@ -149,7 +182,8 @@ pub fn run_with<E: From<RunError>>(
     mut on_row: impl FnMut(Row) -> Result<(), E>,
 ) -> Result<(), E> {
     let plan = Plan::new(study, numbers, threads)?;
-    plan.run(shared, &Needed::new(), is_cancelled, |row, _| on_row(row))
+    let take = |computed: Computed| on_row(computed.row);
+    plan.run(shared, &Needed::new(), is_cancelled, take)
 }
 
 /// Runs a case and returns its row. Returns `None` if there is no case with this number, or if the run was cancelled.
@@ -162,18 +196,18 @@ pub fn row(
     shared: &Shared,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Option<Row>, RunError> {
-    let rows = run_group(study, &[number], shared, &Needed::new(), is_cancelled)?;
-    Ok(rows.into_iter().next().map(|(row, _)| row))
+    let results = run_group(study, &[number], shared, &Needed::new(), is_cancelled)?;
+    Ok(results.into_iter().next().map(|computed| computed.row))
 }
 
-/// Simulates identical cases once; returns the row of each with its curves, or nothing if the run was cancelled.
+/// Simulates identical cases once; returns the results of each, or nothing if the run was cancelled.
 fn run_group(
     study: &Study,
     numbers: &[u64],
     shared: &Shared,
     needed: &Needed,
     is_cancelled: &dyn Fn() -> bool,
-) -> Result<Vec<(Row, Curves)>, RunError> {
+) -> Result<Vec<Computed>, RunError> {
     let Some(first) = numbers.first().and_then(|number| study.case(*number)) else {
         return Ok(Vec::new());
     };
@@ -186,6 +220,7 @@ fn run_group(
     let Some(Simulated {
         ending,
         observed,
+        indices,
         recorder,
     }) = simulated
     else {
@@ -205,7 +240,11 @@ fn run_group(
             };
             Some((key, recorder.curve(signal, *kind)?))
         });
-        (row, curves.collect())
+        Computed {
+            row,
+            curves: curves.collect(),
+            indices: indices.clone(),
+        }
     };
     Ok(numbers.iter().map(with_number).collect())
 }

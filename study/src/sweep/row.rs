@@ -74,6 +74,42 @@ pub const ROW_DIGEST: &str = "row_digest";
 /// Version that this program writes into rows.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
+/// Column that says where a row comes from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Origin<'a> {
+    column: &'static str,
+    /// Content that this program writes.
+    pub expected: &'a str,
+    /// Reason why rows of other origins cannot be mixed.
+    reason: &'static str,
+}
+
+/// Version of the program.
+pub(super) const OF_VERSION: Origin<'static> = Origin {
+    column: "version",
+    expected: VERSION,
+    reason: "rows of different versions cannot be mixed",
+};
+
+/// Behaviour of the model.
+pub(super) const OF_PHYSICS: Origin<'static> = Origin {
+    column: "physics",
+    expected: PHYSICS,
+    reason: "the model behaves differently now, and rows of different physics cannot be mixed",
+};
+
+impl Origin<'_> {
+    /// Error for a row of another origin.
+    pub fn error(self, found: &str) -> RowError {
+        RowError::Foreign {
+            column: self.column.to_owned(),
+            found: found.to_owned(),
+            expected: self.expected.to_owned(),
+            reason: self.reason,
+        }
+    }
+}
+
 impl Study {
     /// Returns the names of the columns of a row.
     pub fn columns(&self) -> Vec<String> {
@@ -105,6 +141,11 @@ impl Study {
         record
     }
 
+    /// Digest of a row; `None` if the study does not have its case.
+    pub fn digest_of(&self, row: &Row) -> Option<String> {
+        self.record(&self.case(row.case)?, row).pop()
+    }
+
     /// Parses a record as a row.
     ///
     /// # Errors
@@ -124,27 +165,15 @@ impl Study {
             expected,
         };
         // The other cells of a row of another study, version or physics are not compared.
-        for (back, expected, reason) in [
-            (
-                4,
-                self.digest(),
-                "rows of different studies cannot be mixed",
-            ),
-            (3, VERSION, "rows of different versions cannot be mixed"),
-            (
-                2,
-                PHYSICS,
-                "the model behaves differently now, and rows of different physics cannot be mixed",
-            ),
-        ] {
-            let column = columns.len() - back;
-            if cells[column] != expected {
-                return Err(RowError::Foreign {
-                    column: columns[column].clone(),
-                    found: cells[column].to_owned(),
-                    expected: expected.to_owned(),
-                    reason,
-                });
+        let study = Origin {
+            column: "study",
+            expected: self.digest(),
+            reason: "rows of different studies cannot be mixed",
+        };
+        for (back, origin) in [(4, study), (3, OF_VERSION), (2, OF_PHYSICS)] {
+            let found = cells[columns.len() - back];
+            if found != origin.expected {
+                return Err(origin.error(found));
             }
         }
         let number = cells[0].parse::<u64>().ok();

@@ -2,7 +2,7 @@
 
 use super::curves::Recorder;
 use super::observation::Observation;
-use super::observed::Observed;
+use super::observed::{IndexValues, OBSERVED, Observed};
 use super::shared::Shared;
 use dashpot_files::case::Case;
 use dashpot_files::study::{StudyFileError, Sweep};
@@ -28,9 +28,9 @@ pub fn observe(
     observed: &[Observed],
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(Ending, Option<Observation>), VehicleRunError> {
-    let run = shared.run(case)?;
+    let mut run = shared.run(case)?;
     let mut recorder = Recorder::new(&run, std::iter::empty());
-    observe_run(case, run, observed, &mut recorder, is_cancelled)
+    observe_run(case, &mut run, observed, &mut recorder, is_cancelled)
 }
 
 /// Results of a run that was not cancelled.
@@ -39,6 +39,8 @@ pub(super) struct Simulated {
     pub ending: String,
     /// Observed indices, in the order of a row.
     pub observed: Vec<Option<f64>>,
+    /// All indices that the run has.
+    pub indices: IndexValues,
     /// Histories of the recorded signals.
     pub recorder: Recorder,
 }
@@ -54,9 +56,9 @@ pub(super) fn simulate<'a>(
     signals: impl Iterator<Item = &'a str>,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Option<Simulated>, VehicleRunError> {
-    let run = shared.run(case)?;
+    let mut run = shared.run(case)?;
     let mut recorder = Recorder::new(&run, signals);
-    let (ending, observation) = observe_run(case, run, observed, &mut recorder, is_cancelled)?;
+    let (ending, observation) = observe_run(case, &mut run, observed, &mut recorder, is_cancelled)?;
     if matches!(ending, Ending::Interrupted { .. }) {
         return Ok(None);
     }
@@ -64,22 +66,33 @@ pub(super) fn simulate<'a>(
         let value = (index.extract)(observation.as_ref()?)?;
         value.is_finite().then_some(value)
     };
+    let has_wear = observed.iter().any(Observed::needs_wear);
+    let known = OBSERVED
+        .iter()
+        .filter(|index| has_wear || !index.needs_wear());
     Ok(Some(Simulated {
+        indices: known
+            .map(|index| (index.name.to_owned(), value(index)))
+            .collect(),
         ending: ending.to_string(),
         observed: observed.iter().map(value).collect(),
         recorder,
     }))
 }
 
-fn observe_run(
+/// Steps a run to its end, or until `is_cancelled` returns true, and observes it.
+///
+/// # Errors
+/// The model fails.
+pub(super) fn observe_run(
     case: &Case,
-    mut run: Run,
+    run: &mut Run,
     observed: &[Observed],
     recorder: &mut Recorder,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<(Ending, Option<Observation>), VehicleRunError> {
     let needs_wear = observed.iter().any(Observed::needs_wear);
-    let mut wear = needs_wear.then(|| RunWear::new(case, &run, WearLaw::default()));
+    let mut wear = needs_wear.then(|| RunWear::new(case, run, WearLaw::default()));
     let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case, run.track());
     let last = run.ticks().saturating_sub((LAST_S / case.step_s) as u64);
@@ -103,7 +116,7 @@ fn observe_run(
             break run.interrupted();
         }
     };
-    let ending = confirmed(case, &run, ending)?;
+    let ending = confirmed(case, run, ending)?;
     let indices = (ending == Ending::Completed).then(|| indexer.indices());
     let observation = indices.flatten().map(|indices| Observation {
         indices,

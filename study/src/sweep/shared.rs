@@ -2,9 +2,10 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use dashpot_rail::contact::Tables;
+use dashpot_rail::contact::{NotTheseTables, Tables};
 use dashpot_rail::track::Track;
 
+use super::contact_tables::{ContactTables, ContactTablesError};
 use dashpot_files::case::Case;
 use dashpot_files::track::TrackParameters;
 use dashpot_vehicle_run::contact::{Contact, ContactSetup, WheelOnRail};
@@ -24,9 +25,39 @@ pub struct Shared {
     tables: Cache<WheelOnRail, Arc<Tables>>,
     contacts: Cache<ContactSetup, Vec<Contact>>,
     tracks: Cache<TrackParameters, Arc<Track>>,
+    /// Folder of tables computed ahead; otherwise the user's cache folder.
+    ahead: Option<ContactTables>,
 }
 
 impl Shared {
+    /// Takes contact tables from a folder of tables computed ahead only, once all were found valid.
+    ///
+    /// # Errors
+    /// Tables of one of `pairs` are missing or invalid.
+    pub fn with_tables(
+        ahead: ContactTables,
+        pairs: &[WheelOnRail],
+    ) -> Result<Self, ContactTablesError> {
+        for pair in pairs {
+            ahead.read(pair)?;
+        }
+        Ok(Self {
+            ahead: Some(ahead),
+            ..Self::default()
+        })
+    }
+
+    fn tables(&self, pair: &WheelOnRail) -> Result<Arc<Tables>, VehicleRunError> {
+        match &self.ahead {
+            Some(ahead) => ahead.read(pair).map_err(|error| match error {
+                ContactTablesError::Contact(error) => error,
+                // The file was valid when the run began.
+                _ => VehicleRunError::Tables(NotTheseTables),
+            }),
+            None => pair.tables(),
+        }
+    }
+
     /// Places the vehicle of a case at its start.
     ///
     /// # Errors
@@ -36,7 +67,7 @@ impl Shared {
         let contacts = self.contacts.get(MAX_CONTACTS, setup, |setup| {
             let tables = setup.pairs().iter().map(|pair| {
                 self.tables
-                    .get(MAX_TABLES, pair.clone(), WheelOnRail::tables)
+                    .get(MAX_TABLES, pair.clone(), |pair| self.tables(pair))
             });
             setup.contacts(&tables.collect::<Result<Vec<_>, _>>()?)
         })?;

@@ -9,6 +9,7 @@ use dashpot_files::Scalar;
 use dashpot_realtime::budget::Run;
 use dashpot_realtime::options::RealtimeOptions;
 use dashpot_realtime::timing::{Machine, span};
+use dashpot_report::verdict::Verdict;
 
 /// Settings of the run and the machine.
 #[derive(Serialize)]
@@ -66,7 +67,12 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     )?;
     writeln!(out, "{}", setting.machine)?;
     if let Some(missed) = report.missed_deadlines {
-        writeln!(out, "missed deadlines: {missed} of {}", report.ticks)?;
+        let verdict = match missed {
+            0 => Verdict::Passed,
+            _ => Verdict::Warning,
+        };
+        let missed = format!("{missed} of {}", report.ticks);
+        writeln!(out, "missed deadlines: {}", verdict.mark(missed))?;
     }
     report.times.print(out)
 }

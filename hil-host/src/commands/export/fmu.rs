@@ -18,7 +18,6 @@ use dashpot_files::output::{self, write_bytes};
 
 /// Options of an FMU.
 #[derive(Debug, Clone, clap::Args)]
-#[command(next_help_heading = "FMU")]
 pub(super) struct FmuArguments {
     /// Write a co-simulation FMU of this FMI version, with a binary for this platform and C sources.
     #[arg(

@@ -14,6 +14,7 @@ use dashpot_hybrid::benchmark::{
     CASES, Control, Criteria, Plant, RunError, Sensors, at_ticks, chirp, earthquake,
     run as run_case,
 };
+use dashpot_report::verdict::Verdict;
 
 /// Run the published benchmark of real-time hybrid simulation (Silva and others, 2020): a frame whose first storey is
 /// moved by an actuator at 4096 Hz. Prints the criteria of the nominal plant and the worst of all plants.
@@ -242,7 +243,7 @@ fn text(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
                 first.j5_percent,
                 first.reached_percent
             )?,
-            None => write!(out, "{:>48}", "unstable")?,
+            None => write!(out, "{:>48}", Verdict::Failed.mark("unstable"))?,
         }
         match &row.worst {
             Some(worst) if row.runs > 1 => write!(

@@ -24,7 +24,7 @@ use watch::WatchArguments;
 
 use super::arguments::Format;
 use super::line::LineArguments;
-use super::print::print_report;
+use super::print::print_answer;
 use crate::commands::failure::Outcome;
 
 /// Control a target manually: identify and inspect it; load, change, run and watch its dampers.
@@ -122,6 +122,6 @@ impl LinkArguments {
         report: &R,
         text: impl FnOnce(&mut dyn Write, &R) -> io::Result<()>,
     ) -> Outcome<()> {
-        print_report(self.format, report, text)
+        print_answer(self.format, report, text)
     }
 }

@@ -13,6 +13,7 @@ use super::telemetry::{PlaceSample, take};
 use crate::commands::arguments::Format;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print::counted;
+use crate::commands::print::print_note;
 use dashpot_files::input::STANDARD_STREAM;
 use dashpot_files::output::cannot_write;
 
@@ -52,12 +53,10 @@ impl Watched {
             .saturating_sub(before.unwrap_or(taken.overwritten));
         if lost > 0 {
             let lost = counted(lost.into(), "sample");
-            // If standard error is closed, the warning is lost.
-            let _ = writeln!(
-                io::stderr(),
+            print_note(&format!(
                 "warning: slot {}: {lost} overwritten before they were fetched",
                 self.place
-            );
+            ));
         }
         Ok(taken.samples)
     }

@@ -25,7 +25,6 @@ const NOISE_SAMPLES: usize = 20_000;
 
 /// Options of the health estimate.
 #[derive(Debug, Clone, Default, clap::Args)]
-#[command(next_help_heading = "Health estimate from the measured force")]
 pub(super) struct HealthArguments {
     /// HTML page with the damper's health over time. The recording must contain the measured force.
     #[arg(long, value_name = "FILE")]

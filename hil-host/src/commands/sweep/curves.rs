@@ -6,7 +6,7 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::commands::{counted, progress};
 use dashpot_study::sweep::curves::{self, CurveKey, Curves, Needed};
 use dashpot_study::sweep::rows::Rows;
-use dashpot_study::sweep::{Plan, Row, Shared, Study};
+use dashpot_study::sweep::{Computed, Plan, Shared, Study};
 
 /// Adds the curves that the page needs and `curves` does not have: runs their cases again and writes all curves beside
 /// the rows at `path`. Returns a note if cases ran.
@@ -27,8 +27,8 @@ pub(super) fn complete(
     let numbers: Vec<u64> = missing.keys().copied().collect();
     let plan = Plan::new(study, &numbers, threads)?;
     let bar = progress::bar(numbers.len() as u64, "cases of the page");
-    let take = |_: Row, added: Curves| -> Outcome<()> {
-        curves.extend(added);
+    let take = |computed: Computed| -> Outcome<()> {
+        curves.extend(computed.curves);
         bar.inc(1);
         Ok(())
     };

@@ -1,6 +1,7 @@
 //! `dashpot sweep`: runs the cases of a study and writes one row per case and a page.
 
 mod curves;
+mod list;
 mod page;
 mod report;
 mod results;
@@ -8,6 +9,7 @@ mod results;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use report::Extended;
 pub(super) use report::{Checked, Report, print};
 pub(super) use results::ResultArguments;
 
@@ -16,9 +18,10 @@ use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::output::create_folder;
 use dashpot_files::study::{STUDIES, StudyParameters};
-use dashpot_study::sweep::curves::Curves;
 use dashpot_study::sweep::rows::RowsError;
-use dashpot_study::sweep::{Journal, Plan, Row, RunError, Shard, Shared, Study};
+use dashpot_study::sweep::{
+    Computed, ContactTables, Journal, Plan, RunError, Shard, Shared, Start, Study,
+};
 
 /// Run a study: many cases of a vehicle on a track, with one row of indices per case and a page.
 #[derive(Debug, Clone, clap::Args)]
@@ -30,14 +33,16 @@ use dashpot_study::sweep::{Journal, Plan, Row, RunError, Shard, Shared, Study};
 
 Writes rows.csv to --output: one row per case with parameter values, seed, indices, study ID and version; and
 report.html, the page. Curves that the page draws are kept in rows.curves, so that it is written without running cases
-again. A shard writes only rows-I-of-N.csv and rows-I-of-N.curves. The rows are bit-identical for any number of threads
+again. A shard writes only rows-I-of-N.csv, .curves and .study. The rows are bit-identical for any number of threads
 and shards; identical cases are simulated once. A case that derails, overturns, leaves the contact tables or has a wheel load above 50 times the static load
 has no indices; its column `ending` gives the reason. Observe `wheel_load_over_static` and `wheel_lift_longest_s` to
 find rows that need a second look (docs/studies.md).
 
-An interrupted command keeps its rows in a .partial file; the same command resumes with the missing cases. Rows from
-another study, version or physics are an error, unless --anew overwrites them. Each row has a digest of its cells, so
-an altered row is detected.")]
+An interrupted command keeps its rows in a .partial file; the same command resumes with the missing cases. If the study
+has more seeds, values, sweeps or indices than the existing rows, they are kept and only the missing cases run: the
+files are those of a run from nothing. rows.study has what this needs. Shards take the rows of the earlier study, merged,
+with --reuse. Rows from a study that differs in anything else, or from another version or physics, are an error, unless
+--anew overwrites them. Each row has a digest of its cells, so an altered row is detected.")]
 pub struct SweepArguments {
     #[command(flatten)]
     study: StudyArguments,
@@ -53,10 +58,17 @@ pub struct SweepArguments {
     /// Total number of shards; needs --shard.
     #[arg(long, value_name = "N", requires = "shard", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     shards: Option<u64>,
-    /// Start over; existing results are kept as rows.csv.old and rows.curves.old.
+    /// Start over; existing results are kept as rows.csv.old, rows.curves.old and rows.study.old.
     #[arg(long)]
     anew: bool,
-    /// List the cases without running them.
+    /// Keep the rows of this file, of this study or of one with fewer seeds, values, sweeps or indices.
+    #[arg(long, value_name = "ROWS")]
+    reuse: Option<PathBuf>,
+    /// Folder of contact tables that `dashpot tables` computed; others are an error [default: the user's cache
+    /// folder].
+    #[arg(long, value_name = "FOLDER")]
+    contact_tables: Option<PathBuf>,
+    /// List the cases and those that are done, and estimate the time of the others from a short run of one.
     #[arg(long, conflicts_with_all = ["shard", "anew"])]
     list: bool,
     #[command(flatten)]
@@ -120,22 +132,33 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         _ => None,
     };
     let study = arguments.study.read()?;
-    let shared = Shared::default();
-    if arguments.list {
-        results.check_figures(&study, &shared)?;
-        return report::list(&study, results.format());
-    }
+    let shared = match &arguments.contact_tables {
+        Some(folder) => Shared::with_tables(ContactTables::new(folder), &study.pairs()?)?,
+        None => Shared::default(),
+    };
+    let folder = arguments.study.folder(arguments.output.as_ref());
+    let threads = arguments
+        .threads
+        .map_or_else(dashpot_workers::threads, usize::from);
     if shard.is_none() {
         results.check_figures(&study, &shared)?;
     }
-    let folder = arguments.study.folder(arguments.output.as_ref());
+    if arguments.list {
+        let rows = folder.join("rows.csv");
+        return list::list(&study, &shared, (&rows, threads), results.format());
+    }
     create_folder(&folder)?;
     let name = match shard {
         Some(Shard { number, count: of }) => format!("rows-{number}-of-{of}.csv"),
         None => "rows.csv".into(),
     };
     let path = folder.join(name);
-    let mut journal = Journal::open(&study, &path, shard, arguments.anew).map_err(refused)?;
+    let start = Start {
+        shard,
+        restart: arguments.anew,
+        reuse: arguments.reuse.as_deref(),
+    };
+    let mut journal = Journal::open(&study, &path, start).map_err(refused)?;
     let known = journal.rows();
     let part: Vec<u64> = study.part(shard).collect();
     let missing: Vec<u64> = part
@@ -143,9 +166,6 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
         .copied()
         .filter(|number| !known.contains_key(number))
         .collect();
-    let threads = arguments
-        .threads
-        .map_or_else(dashpot_workers::threads, usize::from);
     let started = Instant::now();
     let plan = Plan::new(&study, &missing, threads)?;
     let ran = run_missing(
@@ -177,8 +197,10 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
             part.len()
         )));
     }
+    let extended = Extended::of(journal.moved());
     let finished = journal.finish(&study)?;
     let mut report = Report::new(&study, &finished.rows, missing.len(), took);
+    report.extended = extended;
     report.simulated = plan.simulations();
     match shard {
         None => results.write(
@@ -205,8 +227,13 @@ fn run_missing(
     bar.set_position((all - missing) as u64);
     bar.reset_eta();
     let _ends_gently = interruption::end_gently();
-    let take = |row: Row, curves: Curves| -> Outcome<()> {
-        journal.add(study, row, curves)?;
+    let take = |computed: Computed| -> Outcome<()> {
+        let Computed {
+            row,
+            curves,
+            indices,
+        } = computed;
+        journal.add(study, row, curves, indices)?;
         bar.inc(1);
         Ok(())
     };

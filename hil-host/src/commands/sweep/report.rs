@@ -7,10 +7,10 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use crate::commands::arguments::Format;
-use crate::commands::failure::Outcome;
-use crate::commands::{counted, print_report};
+use crate::commands::counted;
 use dashpot_files::output;
+use dashpot_report::verdict::Verdict;
+use dashpot_study::sweep::extension::{self, Moved};
 use dashpot_study::sweep::rows::Rows;
 use dashpot_study::sweep::{Finished, PHYSICS, Study, VERSION, curves};
 
@@ -33,6 +33,9 @@ pub(in crate::commands) struct Report {
     pub(super) simulated: usize,
     /// Time of this command's runs, s.
     took_s: f64,
+    /// Rows that were kept although the study has been extended.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extended: Option<Extended>,
     /// Cases that did not complete, by reason.
     not_completed: BTreeMap<String, Vec<u64>>,
     /// Cases that `merge --check` repeated with bit-identical results.
@@ -42,6 +45,55 @@ pub(in crate::commands) struct Report {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) notes: Vec<String>,
     pub(in crate::commands) files: Vec<PathBuf>,
+}
+
+/// Rows of an earlier study, or of another file.
+#[derive(Serialize)]
+pub(super) struct Extended {
+    /// Number of rows.
+    rows_kept: usize,
+    /// Digests of the earlier studies.
+    of_studies: Vec<String>,
+    /// Number of rows without an index of the study, whose cases therefore ran again, by index.
+    lacking: BTreeMap<String, usize>,
+}
+
+impl Extended {
+    /// Returns `None` if all rows are the study's own.
+    pub(super) fn of(moved: &Moved) -> Option<Self> {
+        let extended = Self {
+            rows_kept: moved.indices.len(),
+            of_studies: moved.studies.clone(),
+            lacking: moved
+                .lacking
+                .iter()
+                .map(|(index, cases)| (index.clone(), cases.len()))
+                .collect(),
+        };
+        (extended.rows_kept > 0 || !extended.lacking.is_empty()).then_some(extended)
+    }
+
+    fn print(&self, out: &mut dyn Write) -> io::Result<()> {
+        let rows = counted(self.rows_kept as u64, "row");
+        match self.of_studies.is_empty() {
+            true => writeln!(out, "{rows} kept from another file")?,
+            false => {
+                let studies = self.of_studies.join(", ");
+                writeln!(
+                    out,
+                    "{rows} kept from before the extension (study {studies})"
+                )?;
+            }
+        }
+        for (index, cases) in &self.lacking {
+            let cases = counted(*cases as u64, "case");
+            writeln!(
+                out,
+                "{cases} run again, because their runs did not compute {index}"
+            )?;
+        }
+        Ok(())
+    }
 }
 
 /// Rows that were checked by repeating their runs.
@@ -72,6 +124,7 @@ impl Report {
             run_now,
             simulated: run_now,
             took_s: took.as_secs_f64(),
+            extended: None,
             not_completed,
             checked: None,
             notes: Vec::new(),
@@ -85,6 +138,7 @@ impl Report {
         if !finished.curves.is_empty() {
             self.files.push(curves::path_of(path));
         }
+        self.files.push(extension::path_of(path));
         let problems = &finished.problems;
         self.notes.extend(problems.iter().take(MAX_NOTES).cloned());
         let more = problems.len().saturating_sub(MAX_NOTES);
@@ -133,6 +187,7 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         run_now,
         simulated,
         took_s,
+        extended,
         checked,
         notes,
         files,
@@ -151,11 +206,14 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         let same = counted((run_now - simulated) as u64, "case");
         writeln!(out, "{same} identical to others, not simulated again")?;
     }
+    if let Some(extended) = extended {
+        extended.print(out)?;
+    }
     if let Some(note) = report.not_completed() {
-        writeln!(out, "{note}")?;
+        writeln!(out, "{}", Verdict::Warning.mark(note))?;
     }
     for note in notes {
-        writeln!(out, "{note}")?;
+        writeln!(out, "{}", Verdict::Warning.mark(note))?;
     }
     if let Some(Checked { cases, seed }) = checked {
         let count = counted(cases.len() as u64, "case");
@@ -163,7 +221,8 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         let numbers = numbers.join(", ");
         writeln!(
             out,
-            "{count} repeated with bit-identical results (--check-seed {seed}): {numbers}"
+            "{count} repeated with {} (--check-seed {seed}): {numbers}",
+            Verdict::Passed.mark("bit-identical results")
         )?;
     }
     writeln!(out)?;
@@ -171,71 +230,4 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         writeln!(out, "wrote {}", output::name(file).display())?;
     }
     Ok(())
-}
-
-/// List of the cases of a study.
-#[derive(Serialize)]
-struct List {
-    study: String,
-    digest: String,
-    version: &'static str,
-    cases: u64,
-    sweeps: Vec<Listed>,
-}
-
-#[derive(Serialize)]
-struct Listed {
-    sweep: String,
-    first_case: u64,
-    cases: u64,
-    parameters: Vec<String>,
-    seeds: usize,
-}
-
-/// Prints the list of cases of a study.
-pub(super) fn list(study: &Study, format: Format) -> Outcome<()> {
-    let sweeps = study.parameters.sweeps.iter().map(|sweep| {
-        let first = study.numbers(sweep, 0).start;
-        Listed {
-            sweep: sweep.name.clone(),
-            first_case: first,
-            cases: study.numbers(sweep, sweep.points() - 1).end - first,
-            parameters: sweep
-                .axes
-                .iter()
-                .map(|axis| axis.parameter.clone())
-                .collect(),
-            seeds: sweep.seeds.len(),
-        }
-    });
-    let list = List {
-        study: study.parameters.name.clone(),
-        digest: study.digest().to_owned(),
-        version: VERSION,
-        cases: study.cases(),
-        sweeps: sweeps.collect(),
-    };
-    print_report(format, &list, |out, list| {
-        writeln!(out, "{}: {}", list.study, counted(list.cases, "case"))?;
-        writeln!(out, "study {}, version {}\n", list.digest, list.version)?;
-        for sweep in &list.sweeps {
-            let last = sweep.first_case + sweep.cases - 1;
-            writeln!(
-                out,
-                "{:<16} {:>7} - {last:<7} {} x {}",
-                sweep.sweep,
-                sweep.first_case,
-                if sweep.parameters.is_empty() {
-                    "one case".into()
-                } else {
-                    sweep.parameters.join(" x ")
-                },
-                match sweep.seeds {
-                    0 => "the seed of the track".into(),
-                    seeds => counted(seeds as u64, "seed"),
-                }
-            )?;
-        }
-        Ok(())
-    })
 }

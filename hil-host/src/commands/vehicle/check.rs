@@ -10,6 +10,7 @@ use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print::print_report;
 use crate::commands::progress;
 use dashpot_files::case::Case;
+use dashpot_report::verdict::Verdict;
 use dashpot_study::verification::VerificationError;
 use dashpot_study::verification::deviations::{BOUNDS, CHAOS, Deviations, Worst};
 use dashpot_study::verification::seeds::{
@@ -190,8 +191,8 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     for (what, factor, worst, half, bound) in rows {
         writeln!(
             out,
-            "{what:<28} {:9.4} {:9.4} {:10.4}  {}",
-            factor * worst.deviation,
+            "{what:<28} {:>9} {:9.4} {:10.4}  {}",
+            Verdict::of(worst.deviation <= bound).mark(format!("{:.4}", factor * worst.deviation)),
             factor * bound,
             factor * half.deviation,
             worst.quantity

@@ -16,7 +16,6 @@ mod track;
 mod wear;
 mod wheelsets;
 
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use drive::{Driven, drive};
@@ -31,6 +30,7 @@ use report::Report;
 use super::tick_times::histogram_help;
 use super::{Format, RealtimeArguments, TickLimitArguments, interruption, print_report, progress};
 use crate::commands::failure::{Failure, Outcome};
+use crate::commands::print::print_note;
 use dashpot_files::case::Case;
 use dashpot_files::output::{cannot_write_rows, create_folder, write_bytes, write_whole};
 use dashpot_realtime::budget as timing;
@@ -39,6 +39,7 @@ use dashpot_realtime::options::RealtimeOptions;
 use dashpot_realtime::pacing::{Pacer, PacingReport};
 #[cfg(feature = "parquet")]
 use dashpot_recording::columns;
+use dashpot_study::sweep::{ContactTables, ContactTablesError};
 use dashpot_vehicle_run::damping::DampingInfluence;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
@@ -113,6 +114,10 @@ pub struct VehicleArguments {
     limits: TickLimitArguments,
     #[command(flatten)]
     options: RealtimeArguments,
+    /// Folder of contact tables that `dashpot tables` computed; others are an error [default: the user's cache
+    /// folder].
+    #[arg(long, value_name = "FOLDER", conflicts_with = "check")]
+    contact_tables: Option<PathBuf>,
     #[command(flatten)]
     outside: OutsideArguments,
     /// Output format of the results.
@@ -146,7 +151,14 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     }
     note_missing_ride(&case);
     let mut outside = arguments.outside.read(&case, arguments.realtime)?;
-    let mut run = Run::new(&case).map_err(|error| options::refused(&case, &error))?;
+    let run = match &arguments.contact_tables {
+        Some(folder) => ContactTables::new(folder).run(&case),
+        None => Run::new(&case).map_err(ContactTablesError::Contact),
+    };
+    let mut run = run.map_err(|error| match error {
+        ContactTablesError::Contact(error) => options::refused(&case, &error),
+        error => error.into(),
+    })?;
     if let Some(outside) = &mut outside {
         arguments.outside.connect(outside, &case, &mut run)?;
     }
@@ -269,9 +281,9 @@ fn note_missing_ride(case: &Case) {
         RideError::Step { .. } => "use --step-us for another step",
     };
     let note = format!(
-        "note: {reason}; the report will have no Sperling's index and no mean comfort; {remedy}\n"
+        "note: {reason}; the report will have no Sperling's index and no mean comfort; {remedy}"
     );
-    let _ = io::stderr().lock().write_all(note.as_bytes());
+    print_note(&note);
 }
 
 /// Capacity of the buffer between stepping and writing, in ticks: 2 s at 1 ms, about 20 MB for a locomotive.

@@ -3,6 +3,7 @@
 //! The format is documented in docs/studies.md. Reading never fails: curves that cannot be used are reported and left
 //! out, because each can be computed again from its case.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -86,66 +87,100 @@ pub fn write(study: &Study, rows: &Rows, curves: &Curves, path: &Path) -> Result
 
 /// Reads the curves of the file at `path` that belong to `rows`. A missing file has no curves.
 pub fn read(study: &Study, rows: &Rows, path: &Path) -> KeptCurves {
-    match std::fs::read(path) {
-        Ok(bytes) => parse_all(study, rows, path, &bytes),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => KeptCurves::default(),
-        Err(error) => KeptCurves {
-            curves: Curves::new(),
-            problems: vec![FileError::read(path, error).to_string()],
-        },
-    }
+    let none = BTreeMap::new();
+    KnownRows::new(study, rows, &none).read(path)
 }
 
-/// Reads the curves of a file that a study is still adding to; an incomplete last line is being written.
-pub fn read_partial(study: &Study, rows: &Rows, path: &Path) -> KeptCurves {
-    let bytes = std::fs::read(path).unwrap_or_default();
-    match bytes.iter().rposition(|byte| *byte == b'\n') {
-        Some(end) => parse_all(study, rows, path, &bytes[..=end]),
-        None => KeptCurves::default(),
-    }
+/// Rows whose curves are read.
+#[derive(Clone, Copy)]
+pub struct KnownRows<'a> {
+    study: &'a Study,
+    rows: &'a Rows,
+    /// New number of the case of a row of an earlier study, by its number and its digest there.
+    moved: &'a BTreeMap<(u64, String), u64>,
 }
 
-fn parse_all(study: &Study, rows: &Rows, path: &Path, bytes: &[u8]) -> KeptCurves {
-    let mut kept = KeptCurves::default();
-    let mut report = |line: usize, reason: &str| {
-        let error = FileError::in_line(path, line as u64, reason);
-        kept.problems.push(error.to_string());
-    };
-    if !bytes.starts_with(header().as_bytes()) {
-        report(
-            1,
-            &format!("not a file of curves of this version, which begins with `{FORMAT}`"),
-        );
-        return kept;
+impl<'a> KnownRows<'a> {
+    /// Rows of a study, of which some are `moved` from an earlier study.
+    pub fn new(study: &'a Study, rows: &'a Rows, moved: &'a BTreeMap<(u64, String), u64>) -> Self {
+        Self { study, rows, moved }
     }
-    for (number, line) in bytes.split(|byte| *byte == b'\n').enumerate().skip(2) {
-        if line.is_empty() {
-            continue;
-        }
-        match parse_line(line) {
-            None => report(number + 1, "damaged curve"),
-            // The case of a curve without a row runs again, or is another shard's.
-            Some(Line { key, .. }) if !rows.contains_key(&key.case) => {}
-            Some(Line { key, digest, .. })
-                if row_digest(study, rows, key.case).as_deref() != Some(digest) =>
-            {
-                let case = key.case;
-                report(
-                    number + 1,
-                    &format!("stale curve: it is not of the row of case {case}"),
-                );
-            }
-            Some(Line { key, curve, .. }) => {
-                kept.curves.insert(key, curve);
-            }
+
+    /// Reads the curves of the file at `path` that belong to these rows. A missing file has no curves.
+    pub fn read(&self, path: &Path) -> KeptCurves {
+        match std::fs::read(path) {
+            Ok(bytes) => self.parse_all(path, &bytes),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => KeptCurves::default(),
+            Err(error) => KeptCurves {
+                curves: Curves::new(),
+                problems: vec![FileError::read(path, error).to_string()],
+            },
         }
     }
-    kept
+
+    /// Reads the curves of a file that a study is still adding to; an incomplete last line is being written.
+    pub fn read_partial(&self, path: &Path) -> KeptCurves {
+        let bytes = std::fs::read(path).unwrap_or_default();
+        match bytes.iter().rposition(|byte| *byte == b'\n') {
+            Some(end) => self.parse_all(path, &bytes[..=end]),
+            None => KeptCurves::default(),
+        }
+    }
+
+    fn parse_all(&self, path: &Path, bytes: &[u8]) -> KeptCurves {
+        let Self { study, rows, .. } = *self;
+        let mut kept = KeptCurves::default();
+        let mut report = |line: usize, reason: &str| {
+            let error = FileError::in_line(path, line as u64, reason);
+            kept.problems.push(error.to_string());
+        };
+        if !bytes.starts_with(header().as_bytes()) {
+            report(
+                1,
+                &format!("not a file of curves of this version, which begins with `{FORMAT}`"),
+            );
+            return kept;
+        }
+        for (number, line) in bytes.split(|byte| *byte == b'\n').enumerate().skip(2) {
+            if line.is_empty() {
+                continue;
+            }
+            match parse_line(line) {
+                None => report(number + 1, "damaged curve"),
+                Some(Line { key, digest, curve }) if self.moved_to(&key, digest).is_some() => {
+                    if let Some(case) = self.moved_to(&key, digest) {
+                        kept.curves.insert(CurveKey { case, ..key }, curve);
+                    }
+                }
+                // The case of a curve without a row runs again, or is another shard's.
+                Some(Line { key, .. }) if !rows.contains_key(&key.case) => {}
+                Some(Line { key, digest, .. })
+                    if row_digest(study, rows, key.case).as_deref() != Some(digest) =>
+                {
+                    let case = key.case;
+                    report(
+                        number + 1,
+                        &format!("stale curve: it is not of the row of case {case}"),
+                    );
+                }
+                Some(Line { key, curve, .. }) => {
+                    kept.curves.insert(key, curve);
+                }
+            }
+        }
+        kept
+    }
+
+    /// New number of the case of a curve of an earlier study.
+    fn moved_to(&self, key: &CurveKey, row_digest: &str) -> Option<u64> {
+        let row = (key.case, row_digest.to_owned());
+        self.moved.get(&row).copied()
+    }
 }
 
 /// Digest of the row of a case.
 pub fn row_digest(study: &Study, rows: &Rows, case: u64) -> Option<String> {
-    study.record(&study.case(case)?, rows.get(&case)?).pop()
+    study.digest_of(rows.get(&case)?)
 }
 
 /// Contents of a line.

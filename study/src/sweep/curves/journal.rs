@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use dashpot_files::FileError;
 use dashpot_files::output::cannot_write;
 
-use super::file::{KeptCurves, append, header, read, read_partial, row_digest, write};
-use super::{Curves, path_of, with_ending};
+use super::file::{KeptCurves, KnownRows, append, header, row_digest, write};
+use super::{Curves, Needed, is_needed, path_of, with_ending};
 use crate::sweep::rows::Rows;
 use crate::sweep::study::Study;
 
@@ -31,8 +31,7 @@ impl CurveJournal {
     /// # Errors
     /// Returns an error if a file cannot be renamed or removed.
     pub fn open(
-        study: &Study,
-        rows: &Rows,
+        known: KnownRows<'_>,
         path_of_rows: &Path,
         restart: bool,
     ) -> Result<Self, FileError> {
@@ -47,8 +46,8 @@ impl CurveJournal {
             }
             remove(&partial)?;
         } else {
-            kept = read(study, rows, &path);
-            let added = read_partial(study, rows, &partial);
+            kept = known.read(&path);
+            let added = known.read_partial(&partial);
             is_written = kept.problems.is_empty() && !partial.exists();
             kept.curves.extend(added.curves);
             kept.problems.extend(added.problems);
@@ -60,6 +59,12 @@ impl CurveJournal {
             kept,
             is_written,
         })
+    }
+
+    /// Keeps only `needed` curves, as if no case had run for an earlier study.
+    pub fn retain(&mut self, needed: &Needed) {
+        self.kept.curves.retain(|key, _| is_needed(needed, key));
+        self.is_written = false;
     }
 
     /// Adds curves of a case; `digest` is the digest of its row.
@@ -93,7 +98,10 @@ impl CurveJournal {
         if self.is_written {
             return Ok(());
         }
-        write(study, rows, &self.kept.curves, &self.path)
+        match self.kept.curves.is_empty() {
+            true => remove(&self.path),
+            false => write(study, rows, &self.kept.curves, &self.path),
+        }
     }
 
     /// Removes the file of an unfinished run; returns the curves, and what was wrong with others.

@@ -8,9 +8,11 @@ mod recorder;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+pub(super) use file::KnownRows;
 pub use file::{KeptCurves, read, write};
 pub(super) use journal::CurveJournal;
 pub use needed::Needed;
+pub(super) use needed::is_needed;
 pub(super) use recorder::Recorder;
 
 /// Form of a curve.

@@ -11,6 +11,12 @@ use crate::sweep::study::Study;
 /// Signals and their forms that are recorded for each case. Cases without any are missing.
 pub type Needed = BTreeMap<u64, BTreeSet<(String, CurveKind)>>;
 
+/// True if a curve is needed.
+pub fn is_needed(needed: &Needed, key: &CurveKey) -> bool {
+    let of_case = needed.get(&key.case);
+    of_case.is_some_and(|names| names.contains(&(key.signal.clone(), key.kind)))
+}
+
 impl Study {
     /// Returns the curves that the figures of the page draw.
     ///

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::demand::Demand;
 use crate::commands::margin::Margin;
+use dashpot_report::verdict::Verdict;
 
 /// Plan of a hybrid test.
 #[derive(Serialize)]
@@ -72,12 +73,16 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             (Some(delay_s), Some(gain)) => format!("{:.1} ms, x {gain:.2}", 1e3 * delay_s),
             _ => "-".into(),
         };
+        let has_margin = !matches!(
+            position.margin,
+            Margin::None { .. } | Margin::Unknown { .. }
+        );
         writeln!(
             out,
             "{:<25} {critical:<20} {there:<16} {:<16} {}",
             position.damper,
             position.uncompensated.text(),
-            position.margin.text()
+            Verdict::of(has_margin).mark(position.margin.text())
         )?;
     }
     if report

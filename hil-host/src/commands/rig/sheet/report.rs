@@ -11,6 +11,7 @@ use dashpot_files::output;
 use dashpot_files::sheet::Index;
 use dashpot_files::sheet::{Limit, SheetParameters};
 use dashpot_files::study::format_number;
+use dashpot_report::verdict::Verdict;
 use dashpot_testbench::bench_sheet::Tested;
 
 /// A header field.
@@ -209,14 +210,18 @@ impl Report {
                             out,
                             "{:>10}  {:<8} {:<22} {clause}",
                             limit.formatted(),
-                            limit.verdict(),
+                            Verdict::of(limit.kept).mark(limit.verdict()),
                             limit.allowed()
                         )?;
                     }
                 }
             }
         }
-        writeln!(out, "\n{}", report.verdict())?;
+        let verdict = Verdict::of(report.limits_not_kept == 0);
+        match report.limits {
+            0 => writeln!(out, "\n{}", report.verdict())?,
+            _ => writeln!(out, "\n{}", verdict.mark(report.verdict()))?,
+        }
         if let Some(page) = &report.page {
             writeln!(out, "page: {page}")?;
         }

@@ -31,7 +31,6 @@ impl ValveName {
 
 /// Options of the plate analysis.
 #[derive(Debug, Clone, Default, clap::Args)]
-#[command(next_help_heading = "Shims as plates (--fe)")]
 pub struct PlateArguments {
     /// Solve the stacks as thin plates, also under non-uniform pressure: correction factor Ce, deflection, maximum
     /// stress.

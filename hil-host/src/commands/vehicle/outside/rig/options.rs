@@ -1,7 +1,5 @@
 //! Options of rigs whose actuator moves an external damper.
 
-use std::io::{self, Write};
-
 use dashpot_core::hybrid::{EnergySettings, GuardSettings, TransferSettings};
 use dashpot_files::actuator::{ActuatorLimits, ActuatorParameters};
 use dashpot_files::case::Case;
@@ -9,6 +7,7 @@ use dashpot_hybrid::Compensation;
 
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::margin::LinearVehicle;
+use crate::commands::print::print_note;
 
 /// Compensation of the actuator's delay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -99,9 +98,9 @@ impl RigOptions {
             return Ok(());
         }
         if dampers.len() > 1 {
-            let note =
-                "note: the margin is that of one rig at a time; several rigs together bear less\n";
-            let _ = io::stderr().lock().write_all(note.as_bytes());
+            print_note(
+                "note: the margin is that of one rig at a time; several rigs together bear less",
+            );
         }
         let vehicle = LinearVehicle::new(case)?;
         for (damper, element) in case.vehicle.dampers().enumerate() {
