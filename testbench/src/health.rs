@@ -153,8 +153,8 @@ pub fn alarm_in_words(alarm: HealthStatus, last: &HealthReading) -> String {
 }
 
 /// Lists the reasons why the intervals of a reading may not contain the true values, one sentence without a full stop
-/// per reason; empty if the reading can be trusted.
-pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
+/// per reason; empty if the reading can be trusted. `samples` were used and `rejected` left out.
+pub fn doubts_in_words(status: HealthStatus, [samples, rejected]: [u32; 2]) -> Vec<String> {
     let sentences = [
         (
             HealthStatus::NO_FORCE,
@@ -163,7 +163,7 @@ pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
         (
             HealthStatus::LATE,
             "do not trust stiffness and clearance: force and displacement are further apart in time than the model \
-             assumes; measure the lag and enter it in the health model",
+             assumes; measure the lag, which a calibration calls sensor_skew_s, and enter it in the health model",
         ),
         (
             HealthStatus::SEVERAL_CHANGED,
@@ -176,10 +176,15 @@ pub fn doubts_in_words(status: HealthStatus) -> Vec<&'static str> {
         ),
     ];
     let found = sentences.into_iter();
-    found
-        .filter(|(bit, _)| status.contains(*bit))
-        .map(|(_, sentence)| sentence)
-        .collect()
+    let found = found.filter(|(bit, _)| status.contains(*bit));
+    let mut doubts: Vec<String> = found.map(|(_, sentence)| sentence.to_owned()).collect();
+    if rejected > samples {
+        doubts.push(format!(
+            "do not trust the estimates: {rejected} samples were left out and only {samples} used, because \
+             displacement or force is not finite, or more than this damper can have; check channels and units"
+        ));
+    }
+    doubts
 }
 
 /// Formats an estimate and its standard deviation in whole units: `205 ± 7`.

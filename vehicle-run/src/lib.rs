@@ -8,6 +8,7 @@ mod confirmation;
 pub mod contact;
 mod coupled;
 pub mod damping;
+mod end;
 mod ending;
 mod error;
 pub mod hunting;
@@ -30,6 +31,7 @@ pub mod wear;
 pub use accelerometer::Accelerometer;
 pub use confirmation::confirmed;
 pub use coupled::{Coupled, CoupledCase, CoupledVariable};
+pub use end::foreseen;
 pub use ending::{Ending, Place};
 pub use error::VehicleRunError;
 pub use indices::{

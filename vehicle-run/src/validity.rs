@@ -1,11 +1,12 @@
-//! Validity limits of the model: wheel loads far above those at standstill, and wheels that lift off the rail.
+//! Validity limits of the model: wheel loads far above those at standstill, wheels that lift off the rail, and runs that
+//! outlast the irregularities of their track.
 
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::Standstill;
 
 use super::signals::SIDES;
-use super::warning::{WARN_LIFT_S, WARN_LOAD_RATIO};
-use super::{VehicleTick, Warning, start};
+use super::warning::{WARN_EVEN_S, WARN_LIFT_S, WARN_LOAD_RATIO};
+use super::{VehicleTick, Warning, end, start};
 use dashpot_files::case::Case;
 use dashpot_files::nearest_nanosecond;
 
@@ -21,6 +22,10 @@ pub struct ValidityWatch {
     /// Minimum number of ticks that is longer than [`WARN_LIFT_S`].
     long_ticks: u64,
     start: Option<Warning>,
+    /// End of the track's irregularities, m; infinite if there are none.
+    irregular_to_m: f64,
+    /// Number of ticks beyond it.
+    even_ticks: u64,
     wheels: Vec<Wheel>,
 }
 
@@ -84,6 +89,8 @@ impl ValidityWatch {
             // One tick more than WARN_LIFT_S contains; the factor guards against rounding below a whole number.
             long_ticks: (WARN_LIFT_S / case.step_s * (1.0 + 1e-9)) as u64 + 1,
             start: start::warning(case, track),
+            irregular_to_m: end::irregular_to_m(track),
+            even_ticks: 0,
             wheels: wheels.collect(),
         }
     }
@@ -93,6 +100,7 @@ impl ValidityWatch {
         let extremes = tick.extremes().iter();
         let loads_n = extremes.flat_map(|extremes| extremes.greatest_loads_n);
         self.ticks += 1;
+        self.even_ticks += u64::from(tick.distance_m() > self.irregular_to_m);
         for (wheel, load_n) in self.wheels.iter_mut().zip(loads_n) {
             wheel.add(Moment {
                 load_n,
@@ -116,7 +124,16 @@ impl ValidityWatch {
         self.wheels.iter().filter_map(ratio).reduce(f64::max)
     }
 
-    /// Returns the warnings: that of the start, then in the order of the wheels, loads before lifts.
+    fn end_warning(&self) -> Option<Warning> {
+        let even_s = self.even_ticks as f64 * self.step_s;
+        (even_s > WARN_EVEN_S).then(|| Warning::IrregularitiesEnd {
+            end_m: self.irregular_to_m,
+            even_s,
+            duration_s: self.ticks as f64 * self.step_s,
+        })
+    }
+
+    /// Returns the warnings: those of the start and of the end of the irregularities, then in the order of the wheels, loads before lifts.
     pub fn warnings(&self) -> Vec<Warning> {
         let wheels = || self.wheels.iter();
         let loads = wheels().filter_map(|wheel| self.load_warning(wheel));
@@ -125,6 +142,7 @@ impl ValidityWatch {
         self.start
             .iter()
             .cloned()
+            .chain(self.end_warning())
             .chain(loads)
             .chain(lifts)
             .collect()
@@ -135,7 +153,7 @@ impl ValidityWatch {
         let is_outside = |wheel: &Wheel| {
             wheel.long_lifts > 0 || (wheel.beyond_ticks > 0 && wheel.load_static_n.is_some())
         };
-        self.start.is_some() || self.wheels.iter().any(is_outside)
+        self.start.is_some() || self.end_warning().is_some() || self.wheels.iter().any(is_outside)
     }
 
     /// Time at the end of a tick, s.

@@ -17,6 +17,9 @@ pub const WARN_START_DEVIATION_M: f64 = 1e-4;
 /// Velocity of this deviation above which a warning is given, m/s.
 pub const WARN_START_RATE_M_PER_S: f64 = 0.02;
 
+/// Time that a run may spend beyond its track's irregularities before a warning is given, s.
+pub const WARN_EVEN_S: f64 = 0.5;
+
 /// Result that the model does not stand behind.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
@@ -76,6 +79,15 @@ pub enum Warning {
         curvature_per_m: f64,
         /// Cant there, m.
         cant_m: f64,
+    },
+    /// The run went on for longer than [`WARN_EVEN_S`] where the track's irregularities have ended.
+    IrregularitiesEnd {
+        /// End of the irregularities along the track, m.
+        end_m: f64,
+        /// Time of the run beyond it, s.
+        even_s: f64,
+        /// Time of the whole run, s.
+        duration_s: f64,
     },
 }
 
@@ -137,6 +149,16 @@ impl fmt::Display for Warning {
                  and the cant {:.0} mm; the vehicle starts as on straight track, so the first forces include those of \
                  a step that the track does not have. Start earlier (start_m)",
                 1e3 * cant_m,
+            ),
+            Self::IrregularitiesEnd {
+                end_m,
+                even_s,
+                duration_s,
+            } => write!(
+                f,
+                "the irregularities of the track end at {end_m:.0} m, and {even_s:.1} of the {duration_s:.1} s of the run \
+                 are beyond, on even rails; means, root mean squares and ride indices are those of both parts. Make the \
+                 run shorter, or the irregularities longer (length_m of the track)"
             ),
         }
     }

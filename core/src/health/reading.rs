@@ -95,9 +95,9 @@ impl HealthStatus {
 }
 
 impl HealthReading {
-    /// True if no bit of [`HealthStatus::DOUBTS`] is set.
+    /// True if no bit of [`HealthStatus::DOUBTS`] is set, and no more samples were rejected than were used.
     pub fn is_trusted(&self) -> bool {
-        !self.status.intersects(HealthStatus::DOUBTS)
+        !self.status.intersects(HealthStatus::DOUBTS) && self.rejected <= self.samples
     }
 
     /// Ratio of the damping force to the nominal force at the same velocity (1), assuming a linear law: the inverse of

@@ -64,6 +64,7 @@ pub fn run(arguments: &ChannelsArguments) -> Outcome<()> {
 fn replay_line(arguments: &ChannelsArguments, given: &Channels, overview: &Overview) -> String {
     let file = arguments.file.display().to_string();
     let mut line = format!("dashpot replay --input {}", quoted(&file));
+    line += &arguments.recording.repeated();
     let displacement = choice(overview, given, Quantity::Displacement, None);
     let group = displacement.and_then(|channel| channel.group);
     if let Some(group) = group.filter(|_| overview.times.len() > 1) {

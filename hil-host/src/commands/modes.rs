@@ -27,7 +27,7 @@ use dashpot_vehicle_run::{VehicleRunError, hunting};
   dashpot modes --vehicle freight-wagon --sliding
   dashpot modes --vehicle locomotive --set \"front lateral damper.damper='in-service'\" --format json")]
 pub struct ModesArguments {
-    /// Vehicle: built-in name (locomotive, coach, freight-wagon) or TOML file.
+    /// Vehicle: built-in name (`dashpot vehicles` lists them) or TOML file.
     #[arg(long, default_value = "locomotive", value_name = "VEHICLE")]
     pub vehicle: String,
     /// Override a value of the vehicle file: part.key=value, such as body.mass_kg=70e3, or of the contact, such as

@@ -130,6 +130,11 @@ impl ForceHistoryArguments {
 }
 
 impl MeasurementArguments {
+    /// True if an option about the force is given.
+    pub fn has_force(&self) -> bool {
+        self.force != ForceArguments::default()
+    }
+
     /// Returns the channels.
     pub fn channels(&self) -> Channels {
         let mut channels = self.file.channels();
@@ -141,6 +146,29 @@ impl MeasurementArguments {
 }
 
 impl ListingArguments {
+    /// Returns the options that another command needs too, to read the same rows.
+    pub fn repeated(&self) -> String {
+        let file = &self.file;
+        let mut options = String::new();
+        if file.skip_lines > 0 {
+            options += &format!(" --skip-lines {}", file.skip_lines);
+        }
+        if let Some(header) = file.header {
+            options += if header {
+                " --header yes"
+            } else {
+                " --header no"
+            };
+        }
+        if let Some(encoding) = file.encoding {
+            options += &format!(" --encoding {}", encoding.name());
+        }
+        if file.skip_invalid {
+            options += " --skip-invalid";
+        }
+        options
+    }
+
     /// Returns the channels.
     pub fn channels(&self) -> Channels {
         let mut channels = self.file.channels();

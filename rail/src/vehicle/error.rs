@@ -182,6 +182,17 @@ pub enum VehicleError {
         /// Name of the coordinate.
         coordinate: &'static str,
     },
+    /// The springs hold a body, but not under its weight.
+    #[error(
+        "{body}: tips over at standstill, most in {coordinate}, because its springs are too soft or too close together \
+         for the height of its centre of gravity; make them stiffer or the centre lower"
+    )]
+    TipsOver {
+        /// Name of the body that moves most.
+        body: String,
+        /// Name of the coordinate in which it moves most.
+        coordinate: &'static str,
+    },
 }
 
 impl VehicleError {
@@ -219,7 +230,8 @@ impl VehicleError {
             | Self::Stop { element: part, .. }
             | Self::FrictionSpring { element: part, .. }
             | Self::NotCarried { wheelset: part, .. }
-            | Self::NotHeld { body: part, .. } => Some(part),
+            | Self::NotHeld { body: part, .. }
+            | Self::TipsOver { body: part, .. } => Some(part),
             Self::NoWheelset
             | Self::StepTooLong { .. }
             | Self::ContactTooFast { .. }

@@ -33,8 +33,8 @@ impl Standstill {
     /// equilibrium, and stick in the equations of motion.
     ///
     /// # Errors
-    /// A value out of bounds, a duplicate name, an element on a missing body, a body that no element holds, or friction
-    /// that follows a spring without load.
+    /// A value out of bounds, a duplicate name, an element on a missing body, a body that no element holds or that tips
+    /// over under its weight, or friction that follows a spring without load.
     pub fn new(vehicle: &VehicleParameters) -> Result<Self, VehicleError> {
         let bodies = &vehicle.bodies;
         check(vehicle)?;
@@ -43,7 +43,9 @@ impl Standstill {
         for (element, (ends, line)) in vehicle.elements.iter().zip(&ends) {
             linear.add(element, ends, *line);
         }
-        check_held(&linear, bodies)?;
+        if let Some((body, coordinate)) = not_held(&linear, bodies) {
+            return Err(VehicleError::NotHeld { body, coordinate });
+        }
         let weight = DVector::from_fn(linear.inertia.len(), |i, _| {
             if COORDINATES[i % COORDINATES.len()] == Coordinate::Vertical {
                 linear.inertia[i] * GRAVITY_M_PER_S2
@@ -74,6 +76,10 @@ impl Standstill {
         for (element, (ends, _)) in vehicle.elements.iter().zip(&ends) {
             check_load(element, &vehicle.elements, &forces)?;
             linear.add_sticking(element, ends);
+        }
+        // Springs that hold a body without its weight may not hold it with it.
+        if let Some((body, coordinate)) = not_held(&linear, bodies) {
+            return Err(VehicleError::TipsOver { body, coordinate });
         }
         let wheelsets = wheelset_bodies(vehicle);
         let mut axle_loads_n: Vec<f64> = wheelsets
@@ -218,22 +224,21 @@ fn check_names(vehicle: &VehicleParameters) -> Result<(), VehicleError> {
     Ok(())
 }
 
-/// Checks that elements hold every body: without preload, the lowest natural frequency is at least
-/// [`MIN_FREQUENCY_HZ`].
-fn check_held(linear: &Linear, bodies: &[Body]) -> Result<(), VehicleError> {
+/// Returns the body and the coordinate that move most in the lowest mode if its natural frequency is less than
+/// [`MIN_FREQUENCY_HZ`], or if it grows.
+fn not_held(linear: &Linear, bodies: &[Body]) -> Option<(String, &'static str)> {
     let root = linear.inertia.map(|inertia| 1.0 / inertia.sqrt());
     let scaled = linear.stiffness.component_mul(&(&root * root.transpose()));
     let eigen = SymmetricEigen::new(scaled);
     let (mode, square) = eigen.eigenvalues.argmin();
     let min_square = (2.0 * std::f64::consts::PI * MIN_FREQUENCY_HZ).powi(2);
     if square >= min_square {
-        return Ok(());
+        return None;
     }
     let (largest, _) = eigen.eigenvectors.column(mode).abs().argmax();
-    Err(VehicleError::NotHeld {
-        body: bodies[largest / COORDINATES.len()].name.clone(),
-        coordinate: COORDINATES[largest % COORDINATES.len()].name(),
-    })
+    let body = &bodies[largest / COORDINATES.len()];
+    let coordinate = COORDINATES[largest % COORDINATES.len()];
+    Some((body.name.clone(), coordinate.name()))
 }
 
 /// Checks that the friction of an element follows a spring that carries a load at standstill. `forces` are those of all

@@ -73,3 +73,32 @@ fn a_start_in_a_curve_is_a_warning() {
          have. Start earlier (start_m)"
     );
 }
+
+/// The irregularities of this track are 1000 m long.
+#[test]
+fn a_run_beyond_the_irregularities_is_a_warning() {
+    let found = warnings("straight", "start_m = 999.9");
+    assert!(
+        found
+            .iter()
+            .all(|warning| !matches!(warning, Warning::IrregularitiesEnd { .. })),
+        "a short part beyond the end is allowed: {found:?}"
+    );
+    let text = "name = \"end\"\nvehicle = \"coach\"\ntrack = \"straight\"\nspeed_km_h = 90\nduration_s = 1\n\
+                start_m = 995";
+    let case: Case = CaseOptions::parse("case.toml", text)
+        .unwrap()
+        .case()
+        .unwrap();
+    let run = Run::new(&case).unwrap();
+    let found = recorded::record(&case, run, Some(&[]), &|| false)
+        .unwrap()
+        .warnings;
+    let ends = |warning: &&Warning| matches!(warning, Warning::IrregularitiesEnd { .. });
+    let given = found.iter().find(ends).unwrap();
+    // 5 m of 25 m are before the end.
+    assert!(given.to_string().contains("0.8 of the 1.0 s"), "{given}");
+    // What is foreseen without a run is what the run finds.
+    let foreseen = dashpot_vehicle_run::foreseen(&case, &case.track.build().unwrap()).unwrap();
+    assert_eq!(foreseen.to_string(), given.to_string());
+}

@@ -11,16 +11,27 @@ use crate::run::{Outcome, repository, run};
 const AUTHORS: &str = env!("CARGO_PKG_AUTHORS");
 
 /// Folders of the archive and where Debian has them.
-const PLACES: [(&str, &str); 5] = [
-    ("bin", "usr"),
-    ("share/man", "usr/share"),
-    ("share/bash-completion", "usr/share"),
-    ("share/dashpot", "usr/share"),
-    ("share/doc/dashpot", "usr/share/doc"),
+const FOLDERS: [(&str, &str); 9] = [
+    ("bin", "usr/bin"),
+    ("capi", "usr/share/dashpot/capi"),
+    ("cluster", "usr/share/dashpot/cluster"),
+    ("data", "usr/share/dashpot/data"),
+    ("docs", "usr/share/dashpot/docs"),
+    ("rail", "usr/share/dashpot/rail"),
+    ("share/bash-completion", "usr/share/bash-completion"),
+    ("share/doc/dashpot", "usr/share/doc/dashpot"),
+    ("share/man", "usr/share/man"),
 ];
 
-/// Completions, whose folders have other names on Debian.
-const COMPLETIONS: [(&str, &str); 2] = [
+/// Files of the archive and where Debian has them.
+const FILES: [(&str, &str); 9] = [
+    ("README.md", "usr/share/dashpot/README.md"),
+    ("CITATION.cff", "usr/share/dashpot/CITATION.cff"),
+    ("CONTRIBUTING.md", "usr/share/dashpot/CONTRIBUTING.md"),
+    ("SECURITY.md", "usr/share/dashpot/SECURITY.md"),
+    ("CHANGELOG.md", "usr/share/dashpot/CHANGELOG.md"),
+    ("LICENSE-MIT", "usr/share/doc/dashpot/LICENSE-MIT"),
+    ("LICENSE-APACHE", "usr/share/doc/dashpot/LICENSE-APACHE"),
     (
         "share/zsh/site-functions/_dashpot",
         "usr/share/zsh/vendor-completions/_dashpot",
@@ -42,11 +53,10 @@ pub fn debian(
     package: &Path,
     time: &str,
 ) -> Outcome {
-    for (folder, parent) in PLACES {
-        let name = folder.rsplit('/').next().unwrap_or(folder);
-        work.copy_folder(&archive.join(folder), &format!("{parent}/{name}"))?;
+    for (folder, to) in FOLDERS {
+        work.copy_folder(&archive.join(folder), to)?;
     }
-    for (from, to) in COMPLETIONS {
+    for (from, to) in FILES {
         work.copy(&archive.join(from), to)?;
     }
     work.copy(

@@ -27,15 +27,22 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Folder of what goes into the archives.
 const WORK: &str = "target/dist_work";
 
-/// Committed files and their places in an archive.
-const FILES: [(&str, &str); 7] = [
-    ("README.md", "share/doc/dashpot/README.md"),
-    ("CHANGELOG.md", "share/doc/dashpot/CHANGELOG.md"),
-    ("LICENSE-MIT", "share/doc/dashpot/LICENSE-MIT"),
-    ("LICENSE-APACHE", "share/doc/dashpot/LICENSE-APACHE"),
-    ("docs", "share/doc/dashpot/docs"),
-    ("data", "share/dashpot/data"),
-    ("cluster", "share/dashpot/cluster"),
+/// Committed files and folders in an archive, in the same places, so that links between documents hold.
+const FILES: [&str; 14] = [
+    "README.md",
+    "CHANGELOG.md",
+    "CITATION.cff",
+    "CONTRIBUTING.md",
+    "LICENSE-APACHE",
+    "LICENSE-MIT",
+    "SECURITY.md",
+    "capi/README.md",
+    "capi/examples",
+    "cluster",
+    "data",
+    "docs",
+    "memory.x",
+    "rail/README.md",
 ];
 
 /// Builds archives, Debian packages, wheels and the list of their digests.
@@ -83,8 +90,8 @@ pub fn dist(options: &Options) -> Outcome {
 fn fill(tree: &Tree, platform: &Platform, notices: &[PathBuf], described: &Tree) -> Outcome {
     let program = command::build(platform)?;
     tree.copy(&program, &format!("bin/{}", platform.program()))?;
-    for (path, to) in FILES {
-        tree.copy_committed(path, to)?;
+    for path in FILES {
+        tree.copy_committed(path)?;
     }
     for notice in notices {
         let name = notice.file_name().unwrap_or_default().to_string_lossy();

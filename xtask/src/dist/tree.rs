@@ -40,11 +40,11 @@ impl Tree {
             .map_err(|error| failed(from, error))
     }
 
-    /// Copies the committed files below `path` of the repository, which is a file or a folder, to `to`.
+    /// Copies the committed files at or below `path` of the repository to the same places.
     ///
     /// # Errors
     /// No such file is committed, or one cannot be read or written.
-    pub fn copy_committed(&self, path: &str, to: &str) -> Outcome {
+    pub fn copy_committed(&self, path: &str) -> Outcome {
         let mut git = Command::new("git");
         git.args(["ls-files", "--", path]).current_dir(repository());
         let list = output_of(git, &format!("git ls-files -- {path}"))?;
@@ -52,8 +52,7 @@ impl Tree {
             return Err(format!("{path}: no such file is committed"));
         }
         for file in list.lines() {
-            let below = file.strip_prefix(path).unwrap_or(file);
-            self.copy(&repository().join(file), &format!("{to}{below}"))?;
+            self.copy(&repository().join(file), file)?;
         }
         Ok(())
     }
@@ -104,12 +103,11 @@ mod tests {
     fn only_committed_files_are_copied() {
         let folder = tempfile::tempdir().unwrap();
         let tree = Tree::new(folder.path().join("tree")).unwrap();
-        tree.copy_committed("data/dampers", "share/dampers")
-            .unwrap();
-        tree.copy_committed("README.md", "README.md").unwrap();
-        assert!(tree.folder().join("share/dampers/paper.toml").is_file());
+        tree.copy_committed("data/dampers").unwrap();
+        tree.copy_committed("README.md").unwrap();
+        assert!(tree.folder().join("data/dampers/paper.toml").is_file());
         assert!(tree.folder().join("README.md").is_file());
-        let error = tree.copy_committed("target", "target").unwrap_err();
+        let error = tree.copy_committed("target").unwrap_err();
         assert_eq!(error, "target: no such file is committed");
     }
 

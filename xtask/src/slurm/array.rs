@@ -129,7 +129,7 @@ pub fn wrong_count(trial: &Trial) -> Outcome<String> {
 /// Submits shard 4 of 4, which does not exist: shards are numbered 0 to 3.
 pub fn beyond(trial: &Trial) -> Outcome<String> {
     let job = trial.run("beyond", "4", SHARDS, &["FAILED"])?;
-    let refusal = "--shard 4, allowed: 0 to 3 with --shards 4";
+    let refusal = "--shard 4: allowed with --shards 4: 0 to 3";
     contains(&trial.log(&job, 4)?, refusal)?;
     Ok(format!("`{refusal}`"))
 }

@@ -20,6 +20,19 @@ fn the_damping_factor_is_the_inverse_of_the_flow_factor() {
     assert_eq!(reading.damping_factor(), expected);
 }
 
+/// A force in the wrong unit is rejected in most samples; what the others say means nothing.
+#[test]
+fn a_reading_of_which_most_samples_were_rejected_is_not_trusted() {
+    for (samples, rejected, is_trusted) in [(10, 10, true), (10, 11, false), (0, 1, false)] {
+        let reading = HealthReading {
+            samples,
+            rejected,
+            ..HealthReading::default()
+        };
+        assert_eq!(reading.is_trusted(), is_trusted, "{samples} {rejected}");
+    }
+}
+
 #[test]
 fn a_reading_is_trusted_unless_one_of_four_bits_is_set() {
     for (bit, is_trusted) in [

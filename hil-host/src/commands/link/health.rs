@@ -242,7 +242,7 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 whole_in_words(values.force_zero_n)
             )?;
         }
-        for doubt in doubts_in_words(values.bits) {
+        for doubt in doubts_in_words(values.bits, [values.samples, values.rejected]) {
             writeln!(out, "            {doubt}")?;
         }
         if values.rejected > 0 {

@@ -38,6 +38,11 @@ pub(super) struct HealthArguments {
 }
 
 impl HealthArguments {
+    /// True if the health page is asked for.
+    pub(super) fn is_wanted(&self) -> bool {
+        self.health.is_some()
+    }
+
     /// Returns the path of the baseline.
     pub(super) fn baseline(&self) -> Option<&Path> {
         self.health_baseline.as_deref()
@@ -297,12 +302,18 @@ impl HealthReport {
             )?;
         }
         if self.alarms.is_empty() {
-            writeln!(out, "no alarm")?;
+            let but = if self.values.trusted {
+                ""
+            } else {
+                ", but do not trust it"
+            };
+            writeln!(out, "no alarm{but}")?;
         }
-        for doubt in doubts_in_words(self.values.bits) {
+        let counts = [self.values.samples, self.values.rejected];
+        for doubt in doubts_in_words(self.values.bits, counts) {
             writeln!(out, "warning: {doubt}")?;
         }
-        if self.values.has(HealthStatus::LITTLE_EXCITATION) {
+        if self.values.has(HealthStatus::LITTLE_EXCITATION) && counts[1] <= counts[0] {
             writeln!(
                 out,
                 "note: at the end of the recording there is too little motion in contact to raise an alarm"

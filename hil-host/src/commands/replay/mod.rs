@@ -128,6 +128,11 @@ struct Report {
 /// A damper, recording or output file cannot be used.
 pub fn run(arguments: &ReplayArguments) -> Outcome<()> {
     arguments.damper.refuse_same_input(&arguments.input)?;
+    if arguments.recording.has_force() && !arguments.health.is_wanted() {
+        return Err(Failure::wrong_use(
+            "--force, --force-unit and --reverse-force: only --health reads the measured force",
+        ));
+    }
     let parameters = arguments.damper.load()?;
     for input in arguments.inputs() {
         streams::refuse_input("--output", &arguments.output, input)?;

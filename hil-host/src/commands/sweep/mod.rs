@@ -20,7 +20,7 @@ use dashpot_files::output::create_folder;
 use dashpot_files::study::{STUDIES, StudyParameters};
 use dashpot_study::sweep::rows::RowsError;
 use dashpot_study::sweep::{
-    Computed, ContactTables, Journal, Plan, RunError, Shard, Shared, Start, Study,
+    Computed, ContactTables, Journal, Plan, RunError, Shard, Shared, Start, Study, even_track,
 };
 
 /// Run a study: many cases of a vehicle on a track, with one row of indices per case and a page.
@@ -201,6 +201,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let finished = journal.finish(&study)?;
     let mut report = Report::new(&study, &finished.rows, missing.len(), took);
     report.extended = extended;
+    report.notes = even_track(&study)?;
     report.simulated = plan.simulations();
     match shard {
         None => results.write(

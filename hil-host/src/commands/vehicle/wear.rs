@@ -155,11 +155,17 @@ pub(super) fn print(out: &mut dyn Write, wear: &WearIndices) -> io::Result<()> {
     };
     writeln!(
         out,
-        "wear, an estimate by {}: at most {:.3} um per 1000 km, {}, {} wheel, {:.0} mm from the tread datum",
+        "wear, an estimate by {}: at most {} um per 1000 km, {}, {} wheel, {:.0} mm from the tread datum",
         wear.law,
-        worst.max_depth_um_per_1000km,
+        two_digits(worst.max_depth_um_per_1000km),
         worst.wheelset,
         worst.side,
         1e3 * worst.max_depth_at_m
     )
+}
+
+/// An estimate has no more digits that mean something: `0.0012`, `5.3`, `26000`.
+fn two_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    format!("{rounded}")
 }

@@ -113,8 +113,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     }
     writeln!(
         out,
-        "\ncritical delay: pure delay at which motion begins to grow; margin: further delay that the loop with the\n\
-         actuator bears. Linear vehicle on straight track with rigid rails. Bandwidth: 99 % of the power of the\n\
-         velocity."
+        "\ncritical delay: pure delay at which motion begins to grow; any: no pure delay makes it grow, but an\n\
+         actuator, whose gain changes too, still may; actuator there: its delay and gain at that frequency;\n\
+         margin: further delay that the loop with the actuator bears. Linear vehicle on straight track with rigid\n\
+         rails. Bandwidth: 99 % of the power of the velocity."
     )
 }

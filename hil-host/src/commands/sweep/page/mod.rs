@@ -102,6 +102,9 @@ pub(super) fn write(
             }
         }
         (headline(study))
+        @for note in &report.notes {
+            div.note { p { (note) } }
+        }
         @if let Some(note) = report.not_completed() {
             div.note { p { (note) } }
         }
