@@ -132,7 +132,7 @@ fn a_body_that_tips_over_is_refused() {
     let found = error_after(|vehicle| {
         for element in &mut vehicle.elements {
             for end in &mut element.ends {
-                end.at_m[1] *= 1e-2;
+                end.at_m[1] *= 0.1;
             }
         }
     });
