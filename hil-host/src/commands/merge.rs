@@ -10,7 +10,9 @@ use dashpot_files::output::create_folder;
 use dashpot_study::sweep::curves::{self, Curves};
 use dashpot_study::sweep::extension;
 use dashpot_study::sweep::rows::{self, Rows, RowsError};
-use dashpot_study::sweep::{CheckError, Finished, MergeError, Shared, Study, check, choose, merge};
+use dashpot_study::sweep::{
+    CheckError, Finished, MergeError, Shared, Study, check, choose, even_track, merge,
+};
 
 /// Merge the rows of a study's shards, check them against the list of cases, and write the page.
 #[derive(Debug, Clone, clap::Args)]
@@ -69,6 +71,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     extension::write_merged(&study, &finished.rows, &arguments.files, &path)?;
     let mut report = Report::new(&study, &finished.rows, 0, Duration::ZERO);
     report.checked = checked;
+    report.warnings = even_track(&study)?;
     let to = (path.as_path(), dashpot_workers::threads());
     results.write(&study, finished, to, &shared, &mut report)?;
     print_report(results.format(), &report, sweep::print)

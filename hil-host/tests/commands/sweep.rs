@@ -635,3 +635,28 @@ fn wear_of_a_study_is_that_of_the_vehicle() {
     assert!(observed > 0.0);
     assert_eq!(observed, deepest);
 }
+
+/// The irregularities of this track are 1000 m long.
+#[test]
+fn a_study_that_outlasts_its_track_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = "name = \"long\"\nobserved = [\"last_lateral_m\"]\n[[sweep]]\nname = \"even\"\n\
+                 vehicle = \"coach\"\ntrack = \"straight\"\nduration_s = 0.2\nstart_m = 1000\nseeds = [1]\n\
+                 vary = [{ parameter = \"speed_km_h\", values = [160, 180] }]\n";
+    let ran = |text: &str| {
+        fs::write(folder.path().join("long.toml"), text).unwrap();
+        let arguments = ["sweep", "long.toml", "--anew", "--no-page"];
+        let output = command(&arguments, folder.path()).output().unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+            + &String::from_utf8_lossy(&output.stderr)
+    };
+    let short = ran(study);
+    assert!(
+        short.contains("2 cases") && !short.contains("irregularities"),
+        "{short}"
+    );
+    let text = ran(&study.replace("duration_s = 0.2", "duration_s = 0.6"));
+    let expected =
+        "sweep even, 2 of 2 combinations of values: the irregularities of the track end at 1000 m";
+    assert!(text.contains(expected), "{text}");
+}

@@ -41,6 +41,9 @@ pub(in crate::commands) struct Report {
     /// Cases that `merge --check` repeated with bit-identical results.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(in crate::commands) checked: Option<Checked>,
+    /// What the model does not stand behind in the cases.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) warnings: Vec<String>,
     /// Curves of the page that could not be used, and cases that ran again for them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) notes: Vec<String>,
@@ -127,6 +130,7 @@ impl Report {
             extended: None,
             not_completed,
             checked: None,
+            warnings: Vec::new(),
             notes: Vec::new(),
             files: Vec::new(),
         }
@@ -189,6 +193,7 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
         took_s,
         extended,
         checked,
+        warnings,
         notes,
         files,
         ..
@@ -212,7 +217,7 @@ pub(in crate::commands) fn print(out: &mut dyn Write, report: &Report) -> io::Re
     if let Some(note) = report.not_completed() {
         writeln!(out, "{}", Verdict::Warning.mark(note))?;
     }
-    for note in notes {
+    for note in warnings.iter().chain(notes) {
         writeln!(out, "{}", Verdict::Warning.mark(note))?;
     }
     if let Some(Checked { cases, seed }) = checked {

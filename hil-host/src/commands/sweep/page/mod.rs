@@ -102,7 +102,7 @@ pub(super) fn write(
             }
         }
         (headline(study))
-        @for note in &report.notes {
+        @for note in &report.warnings {
             div.note { p { (note) } }
         }
         @if let Some(note) = report.not_completed() {
