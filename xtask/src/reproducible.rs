@@ -1,7 +1,7 @@
 //! What makes a build give the same bytes on every machine with the same compiler.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::run::{Outcome, output_of, repository};
@@ -44,4 +44,41 @@ pub fn commit_time() -> Outcome<String> {
         .current_dir(repository());
     let time = output_of(git, "git log -1 --format=%ct")?;
     Ok(time.trim().to_owned())
+}
+
+/// A link to the repository that has the same path on every Linux. Cargo derives names of symbols from the path of a
+/// package outside the workspace, which for the C library is the core.
+#[derive(Debug)]
+pub struct FixedPlace(());
+
+impl FixedPlace {
+    const PATH: &str = "/tmp/dashpot-sources";
+
+    /// Makes the link, which is removed when the value is dropped.
+    ///
+    /// # Errors
+    /// There is such a file already, perhaps of another build.
+    pub fn new() -> Outcome<Self> {
+        #[cfg(unix)]
+        let made = std::os::unix::fs::symlink(repository(), Self::PATH);
+        #[cfg(not(unix))]
+        let made = Err::<(), _>(std::io::ErrorKind::Unsupported);
+        made.map(|()| Self(())).map_err(|error| {
+            format!(
+                "{}: {error}; remove this link if no other build of archives is running",
+                Self::PATH
+            )
+        })
+    }
+
+    /// The path of the link.
+    pub fn path(&self) -> &Path {
+        Path::new(Self::PATH)
+    }
+}
+
+impl Drop for FixedPlace {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(Self::PATH);
+    }
 }

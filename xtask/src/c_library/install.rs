@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::{INTERFACE, Platform, folder};
+use super::{INTERFACE, Platform, folder, manifest};
 use crate::run::Outcome;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -20,7 +20,15 @@ const CMAKE_VERSION: &str = include_str!("../../../capi/install/DashpotConfigVer
 /// # Errors
 /// The build fails, or a file cannot be written.
 pub fn install(platform: &Platform, output: &Path) -> Outcome<PathBuf> {
-    let built = platform.build()?;
+    install_from(&manifest(), platform, output)
+}
+
+/// The same as [`install`], from a manifest.
+///
+/// # Errors
+/// Those of [`install`].
+pub fn install_from(manifest: &Path, platform: &Platform, output: &Path) -> Outcome<PathBuf> {
+    let built = platform.build(manifest)?;
     let library = platform.library();
     let tree = output.join(platform.name());
     let (include, lib) = (tree.join("include"), tree.join("lib"));

@@ -7,7 +7,7 @@ mod platform;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-pub use install::install;
+pub use install::{install, install_from};
 pub use options::Options;
 pub use platform::Platform;
 
@@ -32,14 +32,24 @@ pub fn folder() -> PathBuf {
 /// # Errors
 /// The build fails. The message contains cargo's output.
 pub fn build_for(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
-    let mut cargo = toolchain.cargo("rustc", &manifest(), processor);
+    build_from(&manifest(), toolchain, processor)
+}
+
+/// Builds `libdashpot.a` from a manifest.
+fn build_from(
+    manifest: &Path,
+    toolchain: &TargetToolchain,
+    processor: &Processor,
+) -> Outcome<PathBuf> {
+    let mut cargo = toolchain.cargo("rustc", manifest, processor);
     let target = toolchain.output_folder(&folder(), processor);
     cargo.arg("--target-dir").arg(&target);
     build(cargo, "staticlib", &[])?;
     Ok(archive_in(&target.join(processor.target).join("release")))
 }
 
-fn manifest() -> PathBuf {
+/// Returns the path of the library's manifest.
+pub fn manifest() -> PathBuf {
     folder().join("Cargo.toml")
 }
 

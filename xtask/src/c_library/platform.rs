@@ -1,10 +1,10 @@
 //! Platforms of the C library.
 
 use std::env::consts::{ARCH, OS};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{INTERFACE, archive_in, build, build_for, folder, manifest};
+use super::{INTERFACE, archive_in, build, build_from, folder};
 use crate::aarch64;
 use crate::processor::{AARCH64, CORTEX_M4F, CORTEX_M7, CORTEX_M33, Processor};
 use crate::run::Outcome;
@@ -90,16 +90,16 @@ impl Platform {
         }
     }
 
-    /// Builds the libraries.
+    /// Builds the libraries from a manifest. Its path is part of the names of symbols.
     ///
     /// # Errors
     /// A tool is missing, or the build fails. The message contains cargo's output.
-    pub fn build(&self) -> Outcome<Built> {
+    pub fn build(&self, manifest: &Path) -> Outcome<Built> {
         self.check_tools()?;
         let (cargo, release) = match self {
             Self::Bare(processor) => {
                 let toolchain = TargetToolchain::find(processor.target)?;
-                let archive = build_for(&toolchain, processor)?;
+                let archive = build_from(manifest, &toolchain, processor)?;
                 return Ok(Built {
                     archive,
                     shared: None,
@@ -115,10 +115,7 @@ impl Platform {
             Self::Linux(_) => (aarch64::cargo("rustc"), aarch64::release("")),
         };
         let mut cargo = cargo;
-        cargo
-            .arg("--release")
-            .arg("--manifest-path")
-            .arg(manifest());
+        cargo.arg("--release").arg("--manifest-path").arg(manifest);
         let soname = format!("-Wl,-soname,lib{}.so.{INTERFACE}", self.library());
         // Functions that the compiler adds call memset of the C library, which Rust links only together with std.
         build(cargo, "staticlib,cdylib", &[soname, "-lc".into()])?;

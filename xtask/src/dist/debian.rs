@@ -59,10 +59,6 @@ pub fn debian(
     for (from, to) in FILES {
         work.copy(&archive.join(from), to)?;
     }
-    work.copy(
-        &repository().join("CHANGELOG.md"),
-        "usr/share/doc/dashpot/changelog",
-    )?;
     work.write("usr/share/doc/dashpot/copyright", copyright()?)?;
     compress(work)?;
     work.write("DEBIAN/control", control(architecture))?;
@@ -81,13 +77,12 @@ pub fn debian(
     run(build, &format!("dpkg-deb {}", package.display()))
 }
 
-/// Compresses what Debian's policy wants compressed.
+/// Compresses the manual pages, as Debian's policy wants it.
 fn compress(work: &Tree) -> Outcome {
     let pages = work.folder().join("usr/share/man/man1");
     let entries = fs::read_dir(&pages).map_err(|error| failed(&pages, error))?;
     let mut gzip = Command::new("gzip");
     gzip.args(["--no-name", "--best"]);
-    gzip.arg(work.folder().join("usr/share/doc/dashpot/changelog"));
     gzip.args(entries.flatten().map(|entry| entry.path()));
     run(gzip, "gzip of manual pages")
 }

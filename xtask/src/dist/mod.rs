@@ -16,7 +16,7 @@ pub use options::Options;
 pub use platform::PLATFORMS;
 
 use crate::c_library;
-use crate::reproducible::commit_time;
+use crate::reproducible::{FixedPlace, commit_time};
 use crate::run::{Outcome, output_of, repository, run};
 use crate::target_toolchain::TargetToolchain;
 use platform::Platform;
@@ -106,11 +106,13 @@ fn fill(tree: &Tree, platform: &Platform, notices: &[PathBuf], described: &Tree)
         tree.copy_folder(&described.folder().join(folder), folder)?;
     }
     let libraries = repository().join(WORK).join("c");
+    let place = FixedPlace::new()?;
+    let manifest = place.path().join("capi/Cargo.toml");
     for library in platform.c_libraries() {
         library
             .check_tools()
             .map_err(|lack| format!("C library for {}: {lack}", library.name()))?;
-        let built = c_library::install(&library, &libraries)?;
+        let built = c_library::install_from(&manifest, &library, &libraries)?;
         tree.copy_folder(&built, &format!("c/{}", library.name()))?;
     }
     Ok(())

@@ -43,7 +43,7 @@ pub(in crate::commands) struct Report {
     pub(in crate::commands) checked: Option<Checked>,
     /// What the model does not stand behind in the cases.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub(super) warnings: Vec<String>,
+    pub(in crate::commands) warnings: Vec<String>,
     /// Curves of the page that could not be used, and cases that ran again for them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) notes: Vec<String>,
