@@ -160,6 +160,56 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     assert!(clearance_alarm_s < 10.0, "{report}");
 }
 
+/// A force in the wrong unit is left out in every sample: the reading means nothing, and is no baseline.
+#[test]
+fn a_force_in_the_wrong_unit_is_no_healthy_damper() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let worn = data("bench/worn_made.mf4");
+    let replay = [
+        "replay",
+        "--damper",
+        "in-service",
+        "--input",
+        &worn,
+        "--output",
+        "force.csv",
+        "--health",
+        "health.html",
+    ];
+    let wrong = [&replay[..], &["--force-unit", "kN"]].concat();
+    let text = text_of(&dashpot(&wrong, folder).success());
+    assert!(text.contains("no alarm, but do not trust it"), "{text}");
+    assert!(
+        text.contains("12253 samples were left out and only 0 used"),
+        "{text}"
+    );
+    let report = json_of(&dashpot(&[&wrong[..], &["--format", "json"]].concat(), folder).success());
+    assert_eq!(report["health"]["trusted"], false);
+    std::fs::write(folder.join("useless.json"), report.to_string()).unwrap();
+    let with_baseline = [&replay[..], &["--health-baseline", "useless.json"]].concat();
+    let error = error_of(&dashpot(&with_baseline, folder).failure());
+    assert!(
+        error.contains("useless.json: its reading used 0 samples and left out 12253"),
+        "{error}"
+    );
+    // The force is read only for the health.
+    let unread = [
+        "replay",
+        "--input",
+        &worn,
+        "--output",
+        "force.csv",
+        "--force",
+        "none",
+    ];
+    let error = error_of(&dashpot(&unread, folder).failure());
+    assert!(
+        error.contains("only --health reads the measured force"),
+        "{error}"
+    );
+}
+
 #[test]
 fn outputs_are_complete_distinct_and_never_inputs() {
     let folder = tempfile::tempdir().unwrap();

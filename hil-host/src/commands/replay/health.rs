@@ -79,6 +79,8 @@ struct EarlierHealth {
     flow_factor: Estimate,
     compliance_m_per_n: Estimate,
     clearance_m: Estimate,
+    samples: u32,
+    rejected: u32,
 }
 
 /// A finished health estimate whose page is not yet written.
@@ -194,7 +196,13 @@ fn baseline(path: &Path) -> Outcome<Baseline> {
         flow_factor,
         compliance_m_per_n,
         clearance_m,
+        samples,
+        rejected,
     } = earlier.map_err(|error| no_baseline(path, error))?.health;
+    if samples == 0 || rejected > samples {
+        let reason = format!("its reading used {samples} samples and left out {rejected}");
+        return Err(no_baseline(path, reason));
+    }
     let mut baseline = Baseline::new(
         flow_factor.value,
         compliance_m_per_n.value,
