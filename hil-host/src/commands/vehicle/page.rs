@@ -64,7 +64,7 @@ pub(super) fn write(
             }
         }
         @if let Some(indices) = &report.indices {
-            (verdicts(indices))
+            (verdicts(indices, !report.warnings.is_empty()))
         }
         @if let Some(found) = &report.damping { p { (of_damping(found)) "." } }
         (headline(report))
@@ -152,8 +152,8 @@ pub(super) fn write(
 }
 
 /// States whether every limit is kept, with a sign for each.
-fn verdicts(indices: &Indices) -> Markup {
-    let mut sentences = verdict(indices).into_iter();
+fn verdicts(indices: &Indices, has_warnings: bool) -> Markup {
+    let mut sentences = verdict(indices, has_warnings).into_iter();
     let all_kept = indices.limits.iter().all(|limit| limit.is_kept());
     html! {
         @if let Some(first) = sentences.next() {

@@ -226,7 +226,7 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             "Q: range within all steps; Y/Q and lateral force: filtered at 20 Hz, maximum of the mean over 2 m"
         )?;
         print_limits(out, indices)?;
-        for sentence in verdict(indices) {
+        for sentence in verdict(indices, !report.warnings.is_empty()) {
             writeln!(out, "{sentence}")?;
         }
         if let Some(found) = &report.damping {
@@ -339,11 +339,12 @@ pub(super) fn of_damping(found: &DampingInfluence) -> String {
 }
 
 /// States whether every limit is kept, and the value of each force with its limit.
-pub(super) fn verdict(indices: &Indices) -> Vec<String> {
+pub(super) fn verdict(indices: &Indices, has_warnings: bool) -> Vec<String> {
     let limits = &indices.limits;
     let broken = limits.iter().filter(|judged| !judged.is_kept()).count();
     let sentence = match (limits.len(), broken) {
         (0, _) => return Vec::new(),
+        (all, 0) if has_warnings => format!("limits: all {all} kept, but read the warnings"),
         (all, 0) => format!("limits: all {all} kept"),
         (all, broken) => format!("limits: {broken} of {all} NOT kept"),
     };
