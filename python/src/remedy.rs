@@ -28,6 +28,7 @@ fn in_arguments(remedy: Remedy) -> String {
         Remedy::NameGroup => "choose one with group=NAME or its number".into(),
         Remedy::SayWhetherHeader => "use header=True or header=False".into(),
         Remedy::GiveDecimalMark => "use decimal_mark=\"point\" or \"comma\"".into(),
+        Remedy::SkipLines => "if the file begins with a title, remove its lines".into(),
         Remedy::SkipInvalid => "use skip_invalid=True to skip rows with a missing value".into(),
     }
 }

@@ -27,4 +27,6 @@ pub enum Remedy {
     GiveDecimalMark,
     /// Skip rows with missing values.
     SkipInvalid,
+    /// Skip the lines of a title before the header.
+    SkipLines,
 }

@@ -1,8 +1,8 @@
 // Damper `in-service` for a step of 1000 us (1.000000 kHz), f32, revision 0x34a72997.
 // 1677 words, 12480 bytes in flash; a state takes 24 bytes.
-// Made by dashpot 0.1.0 with
+// Made by dashpot 0.2.0 with
 //     dashpot export --damper 'in-service' --lang rust --step-us 1000 --scalar f32 --name IN_SERVICE --output 'firmware/src/bank/in_service.rs'
-// Needs dashpot-core 0.1.0 with or without its features; do not edit.
+// Needs dashpot-core 0.2.0 with or without its features; do not edit.
 
 /// Damper `in-service`, step 1000 us.
 #[rustfmt::skip]

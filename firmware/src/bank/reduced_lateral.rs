@@ -1,8 +1,8 @@
 // Damper `reduced-lateral` for a step of 1000 us (1.000000 kHz), f32, revision 0xe8adbe2c.
 // 1677 words, 12480 bytes in flash; a state takes 24 bytes.
-// Made by dashpot 0.1.0 with
+// Made by dashpot 0.2.0 with
 //     dashpot export --damper 'reduced-lateral' --lang rust --step-us 1000 --scalar f32 --name REDUCED_LATERAL --output 'firmware/src/bank/reduced_lateral.rs'
-// Needs dashpot-core 0.1.0 with or without its features; do not edit.
+// Needs dashpot-core 0.2.0 with or without its features; do not edit.
 
 /// Damper `reduced-lateral`, step 1000 us.
 #[rustfmt::skip]

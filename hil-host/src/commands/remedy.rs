@@ -28,6 +28,9 @@ fn in_options(remedy: Remedy) -> String {
         Remedy::NameGroup => "choose one with --group".into(),
         Remedy::SayWhetherHeader => "use --header yes or --header no".into(),
         Remedy::GiveDecimalMark => "use --decimal-mark point or --decimal-mark comma".into(),
+        Remedy::SkipLines => {
+            "if the file begins with a title, skip its lines with --skip-lines N".into()
+        }
         Remedy::SkipInvalid => "use --skip-invalid to skip rows with a missing value".into(),
     }
 }

@@ -184,14 +184,12 @@ pub enum VehicleError {
     },
     /// The springs hold a body, but not under its weight.
     #[error(
-        "{body}: tips over at standstill, most in {coordinate}, because its springs are too soft or too close together \
+        "{body}: tips over at standstill, because its springs are too soft or too close together \
          for the height of its centre of gravity; make them stiffer or the centre lower"
     )]
     TipsOver {
         /// Name of the body that moves most.
         body: String,
-        /// Name of the coordinate in which it moves most.
-        coordinate: &'static str,
     },
 }
 

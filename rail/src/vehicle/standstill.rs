@@ -78,8 +78,8 @@ impl Standstill {
             linear.add_sticking(element, ends);
         }
         // Springs that hold a body without its weight may not hold it with it.
-        if let Some((body, coordinate)) = not_held(&linear, bodies) {
-            return Err(VehicleError::TipsOver { body, coordinate });
+        if let Some((body, _)) = not_held(&linear, bodies) {
+            return Err(VehicleError::TipsOver { body });
         }
         let wheelsets = wheelset_bodies(vehicle);
         let mut axle_loads_n: Vec<f64> = wheelsets

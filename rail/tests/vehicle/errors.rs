@@ -127,7 +127,7 @@ fn every_error_says_what_where_and_what_is_allowed() {
 /// With its weight, a body whose springs are too soft for its height is an inverted pendulum that falls.
 #[test]
 fn a_body_that_tips_over_is_refused() {
-    let text = "body: tips over at standstill, most in roll, because its springs are too soft or too close together \
+    let text = "body: tips over at standstill, because its springs are too soft or too close together \
                 for the height of its centre of gravity; make them stiffer or the centre lower";
     let found = error_after(|vehicle| {
         for element in &mut vehicle.elements {

@@ -7,6 +7,9 @@ use dashpot_files::FileError;
 use super::RecordingError;
 use crate::remedy::Remedy;
 
+/// Maximum number of lines of a title before the header.
+const MAX_TITLE_LINES: u64 = 30;
+
 impl RecordingError {
     /// Returns the remedy for the error; the error text does not include it.
     pub fn remedy(&self) -> Option<Remedy> {
@@ -35,6 +38,13 @@ impl RecordingError {
             Self::UnknownUnit { quantity, .. } => Some(Remedy::OverrideUnit(*quantity)),
             Self::HeaderOrRow { .. } => Some(Remedy::SayWhetherHeader),
             Self::Mark { .. } => Some(Remedy::GiveDecimalMark),
+            // A title was taken for the header. Further down, a longer line is damage.
+            Self::Cells {
+                line,
+                cells,
+                expected,
+                ..
+            } if cells > expected && *line <= MAX_TITLE_LINES => Some(Remedy::SkipLines),
             Self::NotFinite { .. } | Self::Invalid => Some(Remedy::SkipInvalid),
             _ => None,
         }

@@ -25,7 +25,8 @@ pub struct DemonstrateArguments {
     #[arg(long, default_value = "dashpot-report.html", value_name = "FILE")]
     pub output: PathBuf,
     /// Output format of the results.
-    #[arg(long, value_enum, default_value_t = Format::Text)]
+    // Not `format`: `dashpot link` has an option of that name for all its actions, which would count as this one.
+    #[arg(id = "demonstration_format", long = "format", value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }
 
