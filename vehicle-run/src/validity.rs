@@ -1,5 +1,5 @@
-//! Validity limits of the model: wheel loads far above those at standstill, wheels that lift off the rail, and runs that
-//! outlast the irregularities of their track.
+//! Validity limits of the model: wheel loads far above those at standstill, wheels that lift off the rail, and runs
+//! that outlast the irregularities of their track.
 
 use dashpot_rail::track::Track;
 use dashpot_rail::vehicle::Standstill;
@@ -133,7 +133,7 @@ impl ValidityWatch {
         })
     }
 
-    /// Returns the warnings: those of the start and of the end of the irregularities, then in the order of the wheels, loads before lifts.
+    /// Returns the warnings: of the start and the end of the irregularities, then by wheel, loads before lifts.
     pub fn warnings(&self) -> Vec<Warning> {
         let wheels = || self.wheels.iter();
         let loads = wheels().filter_map(|wheel| self.load_warning(wheel));

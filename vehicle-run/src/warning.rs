@@ -156,9 +156,9 @@ impl fmt::Display for Warning {
                 duration_s,
             } => write!(
                 f,
-                "the irregularities of the track end at {end_m:.0} m, and {even_s:.1} of the {duration_s:.1} s of the run \
-                 are beyond, on even rails; means, root mean squares and ride indices are those of both parts. Make the \
-                 run shorter, or the irregularities longer (length_m of the track)"
+                "the irregularities of the track end at {end_m:.0} m, and {even_s:.1} of the {duration_s:.1} s of the \
+                 run are beyond, on even rails; means, root mean squares and ride indices are those of both parts. \
+                 Make the run shorter, or the irregularities longer (length_m of the track)"
             ),
         }
     }

@@ -640,8 +640,10 @@ fn wear_of_a_study_is_that_of_the_vehicle() {
 #[test]
 fn a_study_that_outlasts_its_track_says_so() {
     let folder = tempfile::tempdir().unwrap();
-    let study = "name = \"long\"\nobserved = [\"last_lateral_m\"]\n[[sweep]]\nname = \"even\"\n\
-                 vehicle = \"coach\"\ntrack = \"straight\"\nspeed_km_h = 160\nduration_s = 0.2\nstart_m = 1000\nseeds = [1]\n\
+    let study = "name = \"long\"\n\
+                 observed = [\"last_lateral_m\"]\n[[sweep]]\nname = \"even\"\n\
+                 vehicle = \"coach\"\ntrack = \"straight\"\nspeed_km_h = 160\n\
+                 duration_s = 0.2\nstart_m = 1000\nseeds = [1]\n\
                  vary = [{ parameter = \"speed_km_h\", values = [160, 180] }]\n";
     let ran = |text: &str| {
         fs::write(folder.path().join("long.toml"), text).unwrap();

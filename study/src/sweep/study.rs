@@ -229,7 +229,8 @@ fn with_seed(file: &str, sweep: &Sweep, case: Case, seed: u64) -> Result<Case, S
             name: file.to_owned(),
             line: sweep.line,
             message: format!(
-                "sweep {}: seeds are given, but track {} has no irregularity generated from a spectrum; `seeds = []` in the sweep takes none",
+                "sweep {}: seeds are given, but track {} has no irregularity generated from a spectrum; \
+                 `seeds = []` in the sweep takes none",
                 sweep.name, case.track.name
             ),
         }),

@@ -108,9 +108,9 @@ fn copyright() -> Outcome<String> {
     let text = fs::read_to_string(&path).map_err(|error| failed(&path, error))?;
     let notice = text.lines().find(|line| line.starts_with("Copyright"));
     Ok(format!(
-        "{}\n\nLicense: MIT or Apache-2.0; the texts are LICENSE-MIT and LICENSE-APACHE in this folder, and Apache-2.0 is \
-         also in /usr/share/common-licenses/Apache-2.0.\nLICENCES-OF-DEPENDENCIES.txt has those of the packages that the \
-         command contains.\n",
+        "{}\n\nLicense: MIT or Apache-2.0; the texts are LICENSE-MIT and LICENSE-APACHE in this folder, and Apache-2.0 \
+         is also in /usr/share/common-licenses/Apache-2.0.\nLICENCES-OF-DEPENDENCIES.txt has those of the packages \
+         that the command contains.\n",
         notice.unwrap_or(AUTHORS),
     ))
 }
