@@ -62,3 +62,25 @@ pub fn remedy(error: &FileError) -> Option<Remedy> {
     };
     source.downcast_ref::<RecordingError>()?.remedy()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{MAX_TITLE_LINES, RecordingError, Remedy};
+    use crate::Separator;
+
+    #[test]
+    fn only_longer_lines_near_the_top_follow_a_title() {
+        let remedy = |line, cells| {
+            let error = RecordingError::Cells {
+                line,
+                cells,
+                expected: 2,
+                separator: Separator::Semicolon,
+            };
+            error.remedy()
+        };
+        assert_eq!(remedy(3, 3), Some(Remedy::SkipLines));
+        assert_eq!(remedy(3, 1), None);
+        assert_eq!(remedy(MAX_TITLE_LINES + 1, 3), None);
+    }
+}

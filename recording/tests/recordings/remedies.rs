@@ -54,10 +54,6 @@ fn each_error_has_the_remedy_that_resolves_it() {
         (&format!("{header}0;;0\n"), Some(Remedy::SkipInvalid)),
         (&format!("{header}0;x;0\n"), None),
         (&format!("{header}0;0\n"), None),
-        (
-            &format!("bench 3;A\n{header}0;0;0\n"),
-            Some(Remedy::SkipLines),
-        ),
         ("", None),
     ] {
         let error = error_of(text);
