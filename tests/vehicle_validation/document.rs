@@ -260,8 +260,8 @@ Means over the seeds with their intervals. The paper's figures have axes but no 
     text.push_str(
         "
 For the ride, the axes of Figs. 12 and 15 share the range from 2.5 to 2.6. Our lateral acceleration follows from mechanics: at
-100 km/h on a curve of 200 m with 0.12 m of cant, 3.07 m/s² remain, which an accelerometer on the body measures (here averaged
-with the straight and the transition before the curve). A value near 1 is inconsistent with lateral forces of 60 kN and more.
+100 km/h on a curve of 200 m with 0.12 m of cant, 3.07 m/s² remain in the plane of the track (here averaged with the straight and
+the transition before the curve). A value near 1 is inconsistent with lateral forces of 60 kN and more.
 The vehicle is close to overturning in this curve (inner wheels lift), so a curve of 600 m is compared below.
 ",
     );
