@@ -126,7 +126,7 @@ impl ValidityWatch {
 
     fn end_warning(&self) -> Option<Warning> {
         let even_s = self.even_ticks as f64 * self.step_s;
-        (even_s > WARN_EVEN_S).then(|| Warning::IrregularitiesEnd {
+        (even_s > WARN_EVEN_S).then_some(Warning::IrregularitiesEnd {
             end_m: self.irregular_to_m,
             even_s,
             duration_s: self.ticks as f64 * self.step_s,
