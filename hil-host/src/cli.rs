@@ -2,7 +2,7 @@
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
-use clap::{CommandFactory, Parser};
+use clap::{Args, CommandFactory, Parser};
 
 use crate::commands::Command;
 use crate::commands::demonstrate::DemonstrateArguments;
@@ -79,14 +79,14 @@ pub fn check_conflicts(given: &clap::ArgMatches) -> Result<(), clap::Error> {
         return Ok(());
     };
     let is_given = |id: &str| given.value_source(id) == Some(ValueSource::CommandLine);
-    let whole = command();
-    let options = whole.get_arguments();
-    let conflict =
-        options.filter_map(|option| Some((option.get_id().as_str(), option.get_long()?)));
-    let mut conflict = conflict.filter(|(id, _)| *id != "quiet" && is_given(id));
+    let own = DemonstrateArguments::augment_args(clap::Command::new("demonstration"));
+    let mut conflict = own
+        .get_arguments()
+        .filter(|option| is_given(option.get_id().as_str()))
+        .filter_map(clap::Arg::get_long);
     match conflict.next() {
         None => Ok(()),
-        Some((_, long)) => {
+        Some(long) => {
             let message = format!("the subcommand '{name}' cannot be used with '--{long}'");
             Err(command().error(ErrorKind::ArgumentConflict, message))
         }

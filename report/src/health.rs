@@ -233,7 +233,7 @@ fn alarms(history: &History) -> Markup {
             }
         }
         @if let Some(last) = history.last() {
-            @for doubt in doubts_in_words(last.status, [last.samples, last.rejected]) {
+            @for doubt in doubts_in_words(last) {
                 p { "At the end: " (doubt) "." }
             }
             p {

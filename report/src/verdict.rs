@@ -18,7 +18,7 @@ pub enum Verdict {
 }
 
 thread_local! {
-    /// Whether the report that this thread prints has colours.
+    /// True while this thread prints a report with colours.
     static HAS_COLOURS: Cell<bool> = const { Cell::new(false) };
 }
 

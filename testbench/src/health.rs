@@ -153,8 +153,14 @@ pub fn alarm_in_words(alarm: HealthStatus, last: &HealthReading) -> String {
 }
 
 /// Lists the reasons why the intervals of a reading may not contain the true values, one sentence without a full stop
-/// per reason; empty if the reading can be trusted. `samples` were used and `rejected` left out.
-pub fn doubts_in_words(status: HealthStatus, [samples, rejected]: [u32; 2]) -> Vec<String> {
+/// per reason; empty if the reading can be trusted.
+pub fn doubts_in_words(reading: &HealthReading) -> Vec<String> {
+    let HealthReading {
+        status,
+        samples,
+        rejected,
+        ..
+    } = *reading;
     let sentences = [
         (
             HealthStatus::NO_FORCE,

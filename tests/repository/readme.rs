@@ -5,7 +5,7 @@ use dashpot::document::read;
 /// Words that stand for numbers.
 const WORDS: [&str; 5] = ["two", "three", "four", "five", "six"];
 
-/// Numbers and number words of a text. Names such as `Cortex-M7` and `f32` are no numbers.
+/// Numbers in a text, in digits or in words, without those inside names such as `Cortex-M7` and `f32`.
 fn numbers(text: &str) -> Vec<&str> {
     let ends_word = |letter: char| !(letter.is_alphanumeric() || ".-_".contains(letter));
     let words = text

@@ -7,13 +7,10 @@ use cargo_metadata::camino::Utf8Path;
 use cargo_metadata::{CargoOpt, Metadata, MetadataCommand, Package};
 use dashpot::document::in_repository;
 
-/// Folders with a lock file; the first is the main workspace.
-const FOLDERS: [&str; 5] = [".", "capi", "firmware", "fuzz", "tests/no_std_consumer"];
-
 /// Metadata of each workspace with all features, so that it includes optional dependencies. The lock files must be
 /// up to date.
 pub static WORKSPACES: LazyLock<Vec<Metadata>> = LazyLock::new(|| {
-    let metadata = FOLDERS.map(|folder| {
+    let metadata = xtask::dependencies::WORKSPACES.map(|folder| {
         MetadataCommand::new()
             .manifest_path(in_repository(folder).join("Cargo.toml"))
             .features(CargoOpt::AllFeatures)

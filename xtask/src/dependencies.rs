@@ -3,14 +3,8 @@
 use crate::run::{Outcome, cargo};
 use crate::tools::CARGO_DENY;
 
-/// Manifests of the workspaces, each with a lock file.
-const MANIFESTS: [&str; 5] = [
-    "Cargo.toml",
-    "capi/Cargo.toml",
-    "firmware/Cargo.toml",
-    "fuzz/Cargo.toml",
-    "tests/no_std_consumer/Cargo.toml",
-];
+/// Folders of the workspaces, each with a lock file; the first is the main one.
+pub const WORKSPACES: [&str; 5] = [".", "capi", "firmware", "fuzz", "tests/no_std_consumer"];
 
 /// Checks licences, sources and duplicate versions. Needs no network.
 ///
@@ -33,8 +27,9 @@ pub fn advisories() -> Outcome {
 
 fn deny(options: &[&str], checks: &[&str]) -> Outcome {
     CARGO_DENY.install()?;
-    for manifest in MANIFESTS {
-        let of = ["deny", "--locked", "--manifest-path", manifest];
+    for folder in WORKSPACES {
+        let manifest = format!("{folder}/Cargo.toml");
+        let of = ["deny", "--locked", "--manifest-path", &manifest];
         let check = [
             "check",
             "--hide-inclusion-graph",

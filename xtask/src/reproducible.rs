@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Outcome, output_of, repository};
+use crate::run::{Outcome, git, output_of, repository};
 
 /// Flags of rustc that replace folders of this machine in texts of panics.
 ///
@@ -39,11 +39,7 @@ pub fn path_flags() -> Outcome<Vec<String>> {
 /// # Errors
 /// The repository's folder is no checkout.
 pub fn commit_time() -> Outcome<String> {
-    let mut git = Command::new("git");
-    git.args(["log", "-1", "--format=%ct"])
-        .current_dir(repository());
-    let time = output_of(git, "git log -1 --format=%ct")?;
-    Ok(time.trim().to_owned())
+    Ok(git(&["log", "-1", "--format=%ct"])?.trim().to_owned())
 }
 
 /// A link to the repository that has the same path on every Linux. Cargo derives names of symbols from the path of a

@@ -104,6 +104,13 @@ pub fn output_of(mut command: Command, line: &str) -> Outcome<String> {
     }
 }
 
+/// Runs git in the repository and returns its standard output.
+pub fn git(arguments: &[&str]) -> Outcome<String> {
+    let mut git = Command::new("git");
+    git.args(arguments).current_dir(repository());
+    output_of(git, &format!("git {}", arguments.join(" ")))
+}
+
 /// Returns cargo with these arguments, in the repository.
 pub fn cargo_command(arguments: &[&str]) -> Command {
     // Use the cargo that runs this program, or `cargo` if the program was started by hand.

@@ -1,9 +1,7 @@
 //! Checks that public interfaces have changed since the last tag only as the version number allows.
 
-use std::process::Command;
-
 use crate::packages::published;
-use crate::run::{Outcome, cargo, output_of, repository};
+use crate::run::{Outcome, cargo, git};
 use crate::tools::CARGO_SEMVER_CHECKS;
 
 /// Prefix of the tags of versions, such as `v0.1.0`.
@@ -52,12 +50,6 @@ pub fn check_interfaces() -> Outcome {
         ])?;
     }
     Ok(())
-}
-
-fn git(arguments: &[&str]) -> Outcome<String> {
-    let mut git = Command::new("git");
-    git.args(arguments).current_dir(repository());
-    output_of(git, &format!("git {}", arguments.join(" ")))
 }
 
 /// Returns the newest version's tag from a list in descending order; `None` if no tag names a version.

@@ -3,7 +3,7 @@
 use dashpot_core::health::{Estimate, HealthReading, HealthStatus};
 use serde::Serialize;
 
-use dashpot_testbench::health::stiffness_in_words;
+use dashpot_testbench::health::{doubts_in_words, stiffness_in_words};
 
 /// Health estimates with status names.
 #[derive(Debug, Serialize)]
@@ -22,7 +22,10 @@ pub struct Told {
     /// True if no status bit casts doubt on the intervals.
     pub trusted: bool,
     #[serde(skip)]
-    pub bits: HealthStatus,
+    bits: HealthStatus,
+    /// Why the reading is not trusted.
+    #[serde(skip)]
+    pub doubts: Vec<String>,
 }
 
 impl From<&HealthReading> for Told {
@@ -42,6 +45,7 @@ impl From<&HealthReading> for Told {
             added_friction_n: reading.added_friction_n,
             trusted: reading.is_trusted(),
             bits: reading.status,
+            doubts: doubts_in_words(reading),
         }
     }
 }

@@ -71,7 +71,7 @@ pub fn run(arguments: &MergeArguments) -> Outcome<()> {
     extension::write_merged(&study, &finished.rows, &arguments.files, &path)?;
     let mut report = Report::new(&study, &finished.rows, 0, Duration::ZERO);
     report.checked = checked;
-    report.warnings = even_track(&study)?;
+    report.warnings = even_track(&study, &shared)?;
     let to = (path.as_path(), dashpot_workers::threads());
     results.write(&study, finished, to, &shared, &mut report)?;
     print_report(results.format(), &report, sweep::print)

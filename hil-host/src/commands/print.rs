@@ -20,7 +20,7 @@ pub(super) fn counted(count: u64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Whether the user wants no reports.
+/// True if the user asked for no reports (`--quiet`).
 static IS_QUIET: AtomicBool = AtomicBool::new(false);
 
 /// Leaves out text reports, notes and progress from now on.

@@ -72,7 +72,18 @@ impl Digest {
         if !contact.is_standard(vehicle) {
             self.add_contact(contact);
         }
-        match &track.irregularity {
+        self.add_irregularity(&track.irregularity)
+    }
+
+    /// Adds an irregularity, independent of the name of its file.
+    ///
+    /// # Errors
+    /// Returns an error if the file of a measured irregularity cannot be read.
+    pub fn add_irregularity(
+        &mut self,
+        irregularity: &IrregularityParameters,
+    ) -> Result<(), StudyFileError> {
+        match irregularity {
             IrregularityParameters::Measured { file, options } => {
                 let bytes =
                     input::read(file).map_err(|error: FileError| StudyFileError::File(error))?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::curves::with_ending;
 use super::extension::{self, Kept, Moved};
-use super::rows::{Rows, RowsError};
+use super::rows::{self, Rows, RowsError};
 use super::study::Study;
 use dashpot_files::input;
 
@@ -16,17 +16,21 @@ use dashpot_files::input;
 pub fn rows_done(study: &Study, path: &Path) -> Result<Rows, RowsError> {
     let kept = Kept::read(path);
     let mut moved = Moved::default();
-    let mut rows = Rows::new();
+    let mut known = Rows::new();
     for file in [path, &with_ending(path, "partial")] {
         if !file.exists() {
             continue;
         }
         let bytes = input::read(file)?;
-        let end = bytes.iter().rposition(|byte| *byte == b'\n');
-        if let Some(end) = end {
-            let whole = (file, &bytes[..=end]);
-            rows.extend(extension::read_rows(study, &kept, whole, &mut moved)?);
+        let whole = rows::whole_lines(&bytes);
+        if !whole.is_empty() {
+            known.extend(extension::read_rows(
+                study,
+                &kept,
+                (file, whole),
+                &mut moved,
+            )?);
         }
     }
-    Ok(rows)
+    Ok(known)
 }

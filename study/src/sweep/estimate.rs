@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use serde::Serialize;
+
 use super::curves::Recorder;
 use super::plan::Plan;
 use super::run::{RunError, observe_run};
@@ -11,18 +13,18 @@ use super::shared::Shared;
 pub const PROBE: Duration = Duration::from_millis(300);
 
 /// Estimated time of the simulations of a plan, and what it is based on.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TimeEstimate {
     /// Estimated time of all simulations, s.
-    pub seconds: f64,
-    /// Number of threads, each of which ran the probe at the same time.
+    pub takes_s: f64,
+    /// Number of threads. All ran the probe at the same time.
     pub threads: usize,
     /// Number of the case that was run as a probe.
-    pub case: u64,
+    pub probe_case: u64,
     /// Simulated time of the probe on all threads together, s.
-    pub simulated_s: f64,
+    pub probe_simulated_s: f64,
     /// Time that the probe took, s.
-    pub took_s: f64,
+    pub probe_took_s: f64,
 }
 
 /// Part of a case that one thread ran.
@@ -83,11 +85,11 @@ impl Plan<'_> {
         // No case runs on more than one thread.
         let shared_work = (self.work() / rate).max(longest_work * threads as f64 / rate);
         Ok(Some(TimeEstimate {
-            seconds: shared_work,
+            takes_s: shared_work,
             threads,
-            case: number,
-            simulated_s: probed.iter().map(simulated).sum(),
-            took_s: took.unwrap_or_default().as_secs_f64(),
+            probe_case: number,
+            probe_simulated_s: probed.iter().map(simulated).sum(),
+            probe_took_s: took.unwrap_or_default().as_secs_f64(),
         }))
     }
 }
@@ -129,12 +131,12 @@ mod tests {
         let looks = AtomicU64::new(0);
         let clock = || Duration::from_millis(100 * looks.fetch_add(1, Ordering::Relaxed));
         let estimate = plan.estimate(&Shared::default(), &clock).unwrap().unwrap();
-        assert_eq!(estimate.case, 1);
-        assert_eq!(estimate.took_s, 0.4);
-        assert_eq!(estimate.simulated_s, 3.0 * 1.024);
+        assert_eq!(estimate.probe_case, 1);
+        assert_eq!(estimate.probe_took_s, 0.4);
+        assert_eq!(estimate.probe_simulated_s, 3.0 * 1.024);
         // The two equal cases are simulated once.
-        let expected_s = (1.5 + 4.0) / estimate.simulated_s * 0.4;
-        assert!((estimate.seconds - expected_s).abs() < 1e-9, "{estimate:?}");
+        let expected_s = (1.5 + 4.0) / estimate.probe_simulated_s * 0.4;
+        assert!((estimate.takes_s - expected_s).abs() < 1e-9, "{estimate:?}");
         let none = Plan::new(&study, &[], 1).unwrap();
         assert_eq!(none.estimate(&Shared::default(), &clock).unwrap(), None);
     }

@@ -81,11 +81,14 @@ impl Journal {
                 let bytes = input::read(path)?;
                 known = extension::read_rows(study, &kept, (path, &bytes), &mut moved)?;
             }
-            let bytes = whole_lines(&mut file).map_err(|error| FileError::read(&partial, error))?;
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes)
+                .map_err(|error| FileError::read(&partial, error))?;
+            let bytes = rows::whole_lines(&bytes);
             if !bytes.is_empty() {
-                let read = extension::read_rows(study, &kept, (&partial, &bytes), &mut moved)?;
+                let read = extension::read_rows(study, &kept, (&partial, bytes), &mut moved)?;
                 known.extend(read);
-                has_header = rows::ends_in_section_of(study, &bytes);
+                has_header = rows::ends_in_section_of(study, bytes);
             }
             check_shard(path, start.shard, &known, &moved)?;
             file.set_len(bytes.len() as u64)
@@ -245,18 +248,6 @@ impl Journal {
         let bytes = bytes.and_then(|bytes| self.file.write_all(&bytes));
         bytes.map_err(|error| cannot_write(&self.partial, error))
     }
-}
-
-/// Reads the whole lines of a journal. An incomplete last one was being written when the process ended.
-fn whole_lines(file: &mut File) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)?;
-    let last_newline = bytes.iter().rposition(|byte| *byte == b'\n');
-    bytes.truncate(last_newline.map_or(0, |last| last + 1));
-    if bytes.trim_ascii().is_empty() {
-        bytes.clear();
-    }
-    Ok(bytes)
 }
 
 /// Refuses rows of another shard. The cases of an extended study have other numbers, so they are in other shards.

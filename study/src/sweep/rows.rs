@@ -98,7 +98,18 @@ pub(super) fn ends_in_section_of(study: &Study, bytes: &[u8]) -> bool {
     has_columns && provenance(last).is_none_or(|[digest, ..]| digest == study.digest())
 }
 
-/// Reads study, version and physics from the first row under a header; `None` if there is no row.
+/// Returns the whole lines of rows to which a process may be adding; nothing if they are blank. The process was writing
+/// an incomplete last line when it ended, or when the file was read.
+pub(super) fn whole_lines(bytes: &[u8]) -> &[u8] {
+    let end = bytes.iter().rposition(|byte| *byte == b'\n');
+    let whole = &bytes[..end.map_or(0, |end| end + 1)];
+    match whole.trim_ascii() {
+        [] => &[],
+        _ => whole,
+    }
+}
+
+/// Reads study, version and physics from the first row below a header; `None` without a row.
 pub(super) fn provenance(section: &[u8]) -> Option<[String; 3]> {
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)

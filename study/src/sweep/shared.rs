@@ -6,6 +6,7 @@ use dashpot_rail::contact::{NotTheseTables, Tables};
 use dashpot_rail::track::Track;
 
 use super::contact_tables::{ContactTables, ContactTablesError};
+use dashpot_files::FileError;
 use dashpot_files::case::Case;
 use dashpot_files::track::TrackParameters;
 use dashpot_vehicle_run::contact::{Contact, ContactSetup, WheelOnRail};
@@ -71,10 +72,17 @@ impl Shared {
             });
             setup.contacts(&tables.collect::<Result<Vec<_>, _>>()?)
         })?;
-        let track = self.tracks.get(MAX_TRACKS, case.track.clone(), |track| {
+        Run::on(case, contacts, self.track(case)?)
+    }
+
+    /// Returns the track of a case.
+    ///
+    /// # Errors
+    /// Same errors as [`TrackParameters::build`].
+    pub fn track(&self, case: &Case) -> Result<Arc<Track>, FileError> {
+        self.tracks.get(MAX_TRACKS, case.track.clone(), |track| {
             track.build().map(Arc::new)
-        })?;
-        Run::on(case, contacts, track)
+        })
     }
 }
 

@@ -17,7 +17,7 @@ pub use platform::PLATFORMS;
 
 use crate::c_library;
 use crate::reproducible::{FixedPlace, commit_time};
-use crate::run::{Outcome, output_of, repository, run};
+use crate::run::{Outcome, git, repository, run};
 use crate::target_toolchain::TargetToolchain;
 use platform::Platform;
 use tree::Tree;
@@ -130,10 +130,7 @@ fn has_target(target: &str) -> Outcome {
 
 /// An archive is that of a commit.
 fn check_tree(allow_changes: bool) -> Outcome {
-    let mut git = Command::new("git");
-    git.args(["status", "--porcelain"])
-        .current_dir(repository());
-    let changes = output_of(git, "git status --porcelain")?;
+    let changes = git(&["status", "--porcelain"])?;
     match changes.lines().next() {
         Some(first) if !allow_changes => Err(format!(
             "files differ from the last commit, so the archives would be of no commit: `{first}`. Commit them, or \

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::run::{Outcome, output_of, repository};
+use crate::run::{Outcome, git, output_of, repository};
 
 /// A folder that is empty at first.
 #[derive(Debug)]
@@ -45,9 +45,7 @@ impl Tree {
     /// # Errors
     /// No such file is committed, or one cannot be read or written.
     pub fn copy_committed(&self, path: &str) -> Outcome {
-        let mut git = Command::new("git");
-        git.args(["ls-files", "--", path]).current_dir(repository());
-        let list = output_of(git, &format!("git ls-files -- {path}"))?;
+        let list = git(&["ls-files", "--", path])?;
         if list.is_empty() {
             return Err(format!("{path}: no such file is committed"));
         }

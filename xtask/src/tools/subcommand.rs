@@ -13,41 +13,28 @@ pub struct Subcommand {
 }
 
 /// Runs cargo with each feature.
-pub const CARGO_HACK: Subcommand = Subcommand {
-    package: "cargo-hack",
-    version: "0.6.46",
-    is_debug: false,
-};
+pub const CARGO_HACK: Subcommand = optimised("cargo-hack", "0.6.46");
 /// Builds and runs fuzz targets.
-pub const CARGO_FUZZ: Subcommand = Subcommand {
-    package: "cargo-fuzz",
-    version: "0.13.2",
-    is_debug: false,
-};
+pub const CARGO_FUZZ: Subcommand = optimised("cargo-fuzz", "0.13.2");
 /// Makes small changes to the code, one at a time, and lists the changes that no test notices.
-pub const CARGO_MUTANTS: Subcommand = Subcommand {
-    package: "cargo-mutants",
-    version: "27.1.0",
-    is_debug: false,
-};
+pub const CARGO_MUTANTS: Subcommand = optimised("cargo-mutants", "27.1.0");
 /// Finds changes to a public interface that the version number does not allow.
-pub const CARGO_SEMVER_CHECKS: Subcommand = Subcommand {
-    package: "cargo-semver-checks",
-    version: "0.51.0",
-    is_debug: false,
-};
+pub const CARGO_SEMVER_CHECKS: Subcommand = optimised("cargo-semver-checks", "0.51.0");
 /// Collects the licences of dependencies.
-pub const CARGO_ABOUT: Subcommand = Subcommand {
-    package: "cargo-about",
-    version: "0.9.3",
-    is_debug: false,
-};
+pub const CARGO_ABOUT: Subcommand = optimised("cargo-about", "0.9.3");
 /// Checks licences, sources, duplicate versions and published weaknesses of dependencies.
 pub const CARGO_DENY: Subcommand = Subcommand {
-    package: "cargo-deny",
-    version: "0.20.2",
     is_debug: true,
+    ..optimised("cargo-deny", "0.20.2")
 };
+
+const fn optimised(package: &'static str, version: &'static str) -> Subcommand {
+    Subcommand {
+        package,
+        version,
+        is_debug: false,
+    }
+}
 
 impl Subcommand {
     /// Builds and installs the subcommand if it is missing; any installed version will do.

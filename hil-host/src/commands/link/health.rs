@@ -23,7 +23,7 @@ use dashpot_files::{damper, input};
 use dashpot_host_link::HealthSample;
 use dashpot_recording::tick_grid::MeasuredGrid;
 use dashpot_recording::{Gaps, Measurement};
-use dashpot_testbench::health::{doubts_in_words, in_words, whole_in_words};
+use dashpot_testbench::health::{in_words, whole_in_words};
 
 /// Print the health estimates of one slot, optionally after loading a model and feeding a measurement.
 #[derive(Debug, Clone, clap::Args)]
@@ -242,7 +242,7 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
                 whole_in_words(values.force_zero_n)
             )?;
         }
-        for doubt in doubts_in_words(values.bits, [values.samples, values.rejected]) {
+        for doubt in &values.doubts {
             writeln!(out, "            {doubt}")?;
         }
         if values.rejected > 0 {

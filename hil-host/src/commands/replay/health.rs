@@ -17,7 +17,7 @@ use dashpot_recording::Measurement;
 use dashpot_recording::tick_grid::MeasuredGrid;
 use dashpot_report::health::page;
 use dashpot_testbench::health::{
-    History, Noise, alarm_in_words, alarm_name, doubts_in_words, in_words, watch, whole_in_words,
+    History, Noise, alarm_in_words, alarm_name, in_words, watch, whole_in_words,
 };
 
 /// Number of samples used to estimate the noise if it is not given.
@@ -317,11 +317,12 @@ impl HealthReport {
             };
             writeln!(out, "no alarm{but}")?;
         }
-        let counts = [self.values.samples, self.values.rejected];
-        for doubt in doubts_in_words(self.values.bits, counts) {
+        for doubt in &self.values.doubts {
             writeln!(out, "warning: {doubt}")?;
         }
-        if self.values.has(HealthStatus::LITTLE_EXCITATION) && counts[1] <= counts[0] {
+        if self.values.has(HealthStatus::LITTLE_EXCITATION)
+            && self.values.rejected <= self.values.samples
+        {
             writeln!(
                 out,
                 "note: at the end of the recording there is too little motion in contact to raise an alarm"

@@ -28,7 +28,7 @@ struct List {
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
     /// `None` if nothing is missing.
-    estimate: Option<Estimated>,
+    estimate: Option<TimeEstimate>,
     sweeps: Vec<Listed>,
 }
 
@@ -39,28 +39,6 @@ struct Listed {
     cases: u64,
     parameters: Vec<String>,
     seeds: usize,
-}
-
-/// Estimated time of the missing cases, and the probe that it is based on.
-#[derive(Serialize)]
-struct Estimated {
-    takes_s: f64,
-    threads: usize,
-    probe_case: u64,
-    probe_simulated_s: f64,
-    probe_took_s: f64,
-}
-
-impl From<TimeEstimate> for Estimated {
-    fn from(estimate: TimeEstimate) -> Self {
-        Self {
-            takes_s: estimate.seconds,
-            threads: estimate.threads,
-            probe_case: estimate.case,
-            probe_simulated_s: estimate.simulated_s,
-            probe_took_s: estimate.took_s,
-        }
-    }
 }
 
 /// Prints the list of cases of a study, whose rows are or will be in the file at `rows`.
@@ -111,7 +89,7 @@ fn listed(
         missing: missing.len(),
         simulations: plan.simulations(),
         refused,
-        estimate: plan.estimate(shared, clock)?.map(Estimated::from),
+        estimate: plan.estimate(shared, clock)?,
         sweeps: sweeps.collect(),
     })
 }

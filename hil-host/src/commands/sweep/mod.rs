@@ -201,7 +201,7 @@ pub fn run(arguments: &SweepArguments) -> Outcome<()> {
     let finished = journal.finish(&study)?;
     let mut report = Report::new(&study, &finished.rows, missing.len(), took);
     report.extended = extended;
-    report.warnings = even_track(&study)?;
+    report.warnings = even_track(&study, &shared)?;
     report.simulated = plan.simulations();
     match shard {
         None => results.write(

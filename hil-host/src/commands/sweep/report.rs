@@ -41,7 +41,7 @@ pub(in crate::commands) struct Report {
     /// Cases that `merge --check` repeated with bit-identical results.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(in crate::commands) checked: Option<Checked>,
-    /// What the model does not stand behind in the cases.
+    /// Warnings: results of cases that the model does not stand behind.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(in crate::commands) warnings: Vec<String>,
     /// Curves of the page that could not be used, and cases that ran again for them.

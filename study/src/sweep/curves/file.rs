@@ -101,7 +101,7 @@ pub struct KnownRows<'a> {
 }
 
 impl<'a> KnownRows<'a> {
-    /// Rows of a study, of which some are `moved` from an earlier study.
+    /// Rows of a study. Some may be `moved` from an earlier study.
     pub fn new(study: &'a Study, rows: &'a Rows, moved: &'a BTreeMap<(u64, String), u64>) -> Self {
         Self { study, rows, moved }
     }

@@ -1,4 +1,4 @@
-//! What differs between the outline of the rows and that of the same cases today.
+//! Differences between the outline kept with the rows and the outline of the same cases today.
 
 use super::outline::{AxisOutline, Outline, SweepOutline};
 use super::parts::DIGEST;

@@ -1,11 +1,11 @@
 //! Parts of a case by name, so that a message can name those that differ.
 
 use std::collections::BTreeMap;
+use std::fmt::Debug;
 
 use crate::sweep::digest::Digest;
 use dashpot_files::case::Case;
 use dashpot_files::study::StudyFileError;
-use dashpot_files::track::IrregularityParameters;
 
 /// First character of a part that is a digest instead of a number.
 pub const DIGEST: char = '#';
@@ -31,32 +31,19 @@ pub fn parts(case: &Case) -> Result<BTreeMap<String, String>, StudyFileError> {
         faults,
         events,
     } = case;
-    let digest_of = |text: String| {
-        let mut digest = Digest::default();
-        digest.add(&text);
-        format!("{DIGEST}{}", digest.hexadecimal())
-    };
-    let contact_digest = {
-        let mut digest = Digest::default();
-        digest.add_contact(contact);
-        format!("{DIGEST}{}", digest.hexadecimal())
-    };
-    let irregularity = match &track.irregularity {
-        IrregularityParameters::Measured { file, options } => {
-            let bytes = dashpot_files::input::read(file).map_err(StudyFileError::File)?;
-            digest_of(format!("{options:?} {bytes:?}"))
-        }
-        other => digest_of(format!("{other:?}")),
-    };
-    let layout = digest_of(format!("{:?} {:?}", track.layout, track.defects));
+    let mut contact_digest = Digest::default();
+    contact_digest.add_contact(contact);
+    let mut irregularity = Digest::default();
+    irregularity.add_irregularity(&track.irregularity)?;
+    let layout = digest_of(&(&track.layout, &track.defects));
     let parts = [
-        ("vehicle", digest_of(format!("{vehicle:?}"))),
-        ("support of the rails", digest_of(format!("{rails:?}"))),
-        ("faults", digest_of(format!("{faults:?}"))),
-        ("events", digest_of(format!("{events:?}"))),
+        ("vehicle", digest_of(vehicle)),
+        ("support of the rails", digest_of(rails)),
+        ("faults", digest_of(faults)),
+        ("events", digest_of(events)),
         ("layout of the track", layout),
-        ("irregularity of the track", irregularity),
-        ("contact of wheels and rails", contact_digest),
+        ("irregularity of the track", named(irregularity)),
+        ("contact of wheels and rails", named(contact_digest)),
         ("speed_m_per_s", format!("{speed_m_per_s:?}")),
         ("duration_s", format!("{duration_s:?}")),
         ("start_m", format!("{start_m:?}")),
@@ -69,4 +56,14 @@ pub fn parts(case: &Case) -> Result<BTreeMap<String, String>, StudyFileError> {
         ),
     ];
     Ok(parts.map(|(name, value)| (name.to_owned(), value)).into())
+}
+
+fn digest_of(value: &impl Debug) -> String {
+    let mut digest = Digest::default();
+    digest.add(value);
+    named(digest)
+}
+
+fn named(digest: Digest) -> String {
+    format!("{DIGEST}{}", digest.hexadecimal())
 }
