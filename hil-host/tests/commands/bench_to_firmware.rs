@@ -160,7 +160,7 @@ fn four_commands_lead_from_a_recording_to_firmware_and_find_a_worn_damper() {
     assert!(clearance_alarm_s < 10.0, "{report}");
 }
 
-/// If the force has the wrong unit, all samples are left out. Such a reading is not trusted and is refused as a baseline.
+/// With a force in the wrong unit, all samples are left out. Such a reading is not trusted and is no baseline.
 #[test]
 fn a_force_in_the_wrong_unit_is_no_healthy_damper() {
     let folder = tempfile::tempdir().unwrap();
