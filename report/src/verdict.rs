@@ -56,7 +56,7 @@ impl Verdict {
     }
 }
 
-/// Text with its verdict, coloured within [`print`].
+/// Text with its verdict, coloured within [`print()`].
 #[derive(Debug, Clone, Copy)]
 pub struct Marked<T> {
     verdict: Verdict,
