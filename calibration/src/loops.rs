@@ -148,6 +148,13 @@ pub(super) struct Factors {
     pub(super) force: f64,
 }
 
+impl Factors {
+    pub(super) const ONE: Self = Self {
+        displacement: 1.0,
+        force: 1.0,
+    };
+}
+
 /// Work of a recorded force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Work {

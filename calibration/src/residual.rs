@@ -45,7 +45,7 @@ pub(super) fn residual_rms_n(test: &LoopTest, forces_n: &[f64]) -> f64 {
 ///
 /// The effect of a parameter on the force lies in a band around the spectral lines of the motion. The highest octave is
 /// used even if it lies outside that band, so intervals are too wide rather than too narrow.
-fn correlation_samples(series: &[f64]) -> f64 {
+pub(super) fn correlation_samples(series: &[f64]) -> f64 {
     /// Number of windows to average over: enough even for the lowest octave, which contains only one spectral line.
     const WINDOWS: usize = 8;
     /// Maximum samples per window.

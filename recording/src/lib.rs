@@ -5,6 +5,7 @@
 mod channels;
 #[cfg(feature = "parquet")]
 pub mod columns;
+pub mod digest;
 mod error;
 mod force_history;
 mod gaps;

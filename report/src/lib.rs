@@ -6,6 +6,7 @@ mod error;
 pub mod health;
 pub mod page;
 pub mod plot;
+pub mod sheet;
 pub mod verdict;
 
 pub use error::DrawError;

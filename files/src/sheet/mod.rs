@@ -32,8 +32,28 @@ pub struct SheetParameters {
     pub fields: Vec<Field>,
     /// The tests, in order.
     pub tests: Vec<Test>,
+    /// How far a measured motion and temperature may be from those of a test.
+    pub tolerance: Tolerance,
     /// Name of the file in error messages.
     pub file: String,
+}
+
+/// How far a measured motion and temperature may be from those of a test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerance {
+    /// Difference of amplitude and of frequency (%).
+    pub motion_percent: f64,
+    /// Difference of the oil temperature (K).
+    pub temperature_k: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self {
+            motion_percent: 5.0,
+            temperature_k: 5.0,
+        }
+    }
 }
 
 /// Field in the header of a sheet.
@@ -69,6 +89,8 @@ pub struct Limit {
     pub min: Option<f64>,
     /// Maximum, in the unit of the index's key; `None` if unlimited.
     pub max: Option<f64>,
+    /// Nominal value, from which minimum and maximum were computed; `None` if they were given.
+    pub nominal: Option<f64>,
     /// Clause of the standard or contract that sets the limit.
     pub clause: Option<String>,
 }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{Field, Index, Limit, SheetFileError, SheetParameters, Test};
+use super::{Field, Index, Limit, SheetFileError, SheetParameters, Test, Tolerance};
 use crate::harmonic::Harmonic;
 use crate::lines::line_at;
 use crate::shipped::Found;
@@ -15,6 +15,8 @@ use crate::shipped::Found;
 #[serde(deny_unknown_fields)]
 pub(super) struct SheetTables {
     title: String,
+    motion_tolerance_percent: Option<f64>,
+    temperature_tolerance_k: Option<f64>,
     #[serde(default)]
     field: Vec<FieldTable>,
     #[serde(default)]
@@ -47,6 +49,8 @@ struct LimitTable {
     min: Option<f64>,
     #[serde(rename = "most")]
     max: Option<f64>,
+    nominal: Option<f64>,
+    tolerance_percent: Option<f64>,
     clause: Option<String>,
 }
 
@@ -61,6 +65,8 @@ impl SheetTables {
         if self.test.is_empty() {
             return Err(error_at(0, "no tests, allowed: one or more".into()));
         }
+        let tolerance = self.tolerance();
+        let tolerance = tolerance.map_err(|message| error_at(0, message))?;
         let mut tests = Vec::new();
         let mut names = BTreeSet::new();
         for table in self.test {
@@ -102,8 +108,30 @@ impl SheetTables {
             title: self.title,
             fields: fields.collect(),
             tests,
+            tolerance,
             file: found.name.clone(),
         })
+    }
+}
+
+/// Returns a percentage or temperature difference called `key`.
+fn checked(key: &str, value: f64, max: f64) -> Result<f64, String> {
+    match value > 0.0 && value <= max {
+        true => Ok(value),
+        false => Err(format!("{key} {value}, allowed: above 0, at most {max}")),
+    }
+}
+
+impl SheetTables {
+    fn tolerance(&self) -> Result<Tolerance, String> {
+        let mut tolerance = Tolerance::default();
+        if let Some(percent) = self.motion_tolerance_percent {
+            tolerance.motion_percent = checked("motion_tolerance_percent", percent, 50.0)?;
+        }
+        if let Some(kelvin) = self.temperature_tolerance_k {
+            tolerance.temperature_k = checked("temperature_tolerance_k", kelvin, 100.0)?;
+        }
+        Ok(tolerance)
     }
 }
 
@@ -136,22 +164,35 @@ impl TestTable {
 
 impl LimitTable {
     fn limit(&self, index: Index) -> Result<Limit, String> {
-        let is_finite = |end: Option<f64>| end.is_none_or(f64::is_finite);
-        let (min, max) = (self.min, self.max);
-        if !is_finite(min) || !is_finite(max) {
+        let values = [self.min, self.max, self.nominal];
+        if values.into_iter().flatten().any(|value| !value.is_finite()) {
             return Err("not finite, allowed: finite numbers".into());
         }
-        match (min, max) {
-            (None, None) => Err("give `least`, `most` or both".into()),
-            (Some(min), Some(max)) if min > max => {
+        let (min, max) = self.ends()?;
+        Ok(Limit {
+            index,
+            min,
+            max,
+            nominal: self.nominal,
+            clause: self.clause.clone(),
+        })
+    }
+
+    /// Returns minimum and maximum, which are given or computed from a nominal value and its tolerance.
+    fn ends(&self) -> Result<(Option<f64>, Option<f64>), String> {
+        match (self.min, self.max, self.nominal, self.tolerance_percent) {
+            (None, None, Some(nominal), Some(percent)) => {
+                let width = nominal.abs() * 0.01 * checked("tolerance_percent", percent, 1000.0)?;
+                Ok((Some(nominal - width), Some(nominal + width)))
+            }
+            (Some(min), Some(max), None, None) if min > max => {
                 Err(format!("`least` {min} is greater than `most` {max}"))
             }
-            _ => Ok(Limit {
-                index,
-                min,
-                max,
-                clause: self.clause.clone(),
-            }),
+            (Some(_), _, None, None) | (_, Some(_), None, None) => Ok((self.min, self.max)),
+            _ => Err(
+                "give `least`, `most` or both; or `nominal` together with `tolerance_percent`"
+                    .into(),
+            ),
         }
     }
 }

@@ -28,12 +28,14 @@ pub mod pil;
 pub mod print;
 pub mod progress;
 mod raw_name;
+mod recorded;
 pub mod recording;
 pub mod remedy;
 pub mod replay;
 pub mod response;
 pub mod rig;
 pub mod sensors;
+pub mod sheet;
 pub mod shell;
 pub mod shims;
 pub mod shipped;
@@ -63,6 +65,7 @@ pub enum Command {
     Shims(shims::ShimsArguments),
     Budget(budget::BudgetArguments),
     Export(export::ExportArguments),
+    Sheet(sheet::SheetArguments),
     Calibrate(calibrate::CalibrateArguments),
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
@@ -108,6 +111,7 @@ impl Command {
             Self::Shims(arguments) => shims::run(arguments),
             Self::Budget(arguments) => budget::run(arguments),
             Self::Export(arguments) => export::run(arguments),
+            Self::Sheet(arguments) => sheet::run(arguments),
             Self::Calibrate(arguments) => calibrate::run(arguments),
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),

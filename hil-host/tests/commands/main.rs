@@ -50,6 +50,7 @@ mod rig_protocol;
 mod rig_report;
 mod rig_sheet;
 mod rows_of_other_physics;
+mod sheet;
 mod shell;
 mod shims;
 mod shims_plates;

@@ -100,9 +100,9 @@ fn a_violated_limit_exits_with_1_and_the_sheet_is_written() {
         "4711 &amp; 4712",
         "tr class=\"over\"",
         "drawing 12, 3.4",
-        "0 of 1",
+        "<b>FAILED</b><span>1 of 1 limit violated</span>",
         "computed from its model, not measured",
-        "Forces against velocity",
+        "against its peak velocity",
     ] {
         assert!(page.contains(words), "{words}");
     }

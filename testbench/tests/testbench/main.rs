@@ -3,4 +3,5 @@
 mod damper_response;
 mod plate;
 mod sheet_file;
+mod steady;
 mod swept_sine;

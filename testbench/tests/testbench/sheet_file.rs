@@ -242,3 +242,57 @@ fn invalid_tests_are_reported_with_their_line_before_any_test_runs() {
         assert!(message.contains(expected), "{message}\nexpected {expected}");
     }
 }
+
+#[test]
+fn a_nominal_value_with_its_tolerance_is_a_limit() {
+    let limit = |keys: &str| {
+        let sheet = parse(&with(&format!("[test.limits.asymmetry_rate]\n{keys}")))?;
+        Ok::<_, SheetFileError>(sheet.tests[0].limits[0].clone())
+    };
+    let tolerance = limit("nominal = -0.2\ntolerance_percent = 10").unwrap();
+    assert_eq!(
+        (tolerance.min, tolerance.max),
+        (Some(-0.22), Some(-0.18000000000000002))
+    );
+    assert_eq!(tolerance.nominal, Some(-0.2));
+    for (keys, message) in [
+        (
+            "nominal = 1.0",
+            "or `nominal` together with `tolerance_percent`",
+        ),
+        (
+            "tolerance_percent = 5",
+            "or `nominal` together with `tolerance_percent`",
+        ),
+        (
+            "nominal = 1.0\ntolerance_percent = 5\nleast = 0.5",
+            "give `least`, `most` or both",
+        ),
+        (
+            "nominal = 1.0\ntolerance_percent = 0",
+            "tolerance_percent 0, allowed: above 0, at most 1000",
+        ),
+        ("nominal = nan\ntolerance_percent = 5", "not finite"),
+    ] {
+        let error = limit(keys).unwrap_err().to_string();
+        assert!(
+            error.starts_with("sheet.toml:") && error.contains(message),
+            "{keys}: {error}"
+        );
+    }
+}
+
+#[test]
+fn tolerances_of_motions_and_temperatures_have_ranges() {
+    let tolerance =
+        |keys: &str| parse(&format!("{keys}\n{}", with(""))).map(|sheet| sheet.tolerance);
+    let given = tolerance("motion_tolerance_percent = 2\ntemperature_tolerance_k = 10").unwrap();
+    assert_eq!((given.motion_percent, given.temperature_k), (2.0, 10.0));
+    let error = tolerance("motion_tolerance_percent = 60")
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        error,
+        "sheet.toml:1: motion_tolerance_percent 60, allowed: above 0, at most 50"
+    );
+}

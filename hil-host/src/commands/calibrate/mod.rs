@@ -4,7 +4,6 @@ mod damper_file;
 mod digits;
 mod numbers;
 mod page;
-mod recorded;
 mod report;
 pub mod words;
 
@@ -146,12 +145,13 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     request.check(&damper).map_err(in_words)?;
     let step_s = arguments.step_us.step_s();
     let bar = progress::bar(0, "reading");
-    let (mut recordings, mut loops) = (Vec::new(), Vec::new());
+    let (mut recordings, mut loops, mut inputs) = (Vec::new(), Vec::new(), Vec::new());
     for path in &arguments.input {
-        let (recorded, gaps) = recorded::read(path, &arguments.channels.channels())?;
+        let (recorded, gaps) = super::recorded::read(path, &arguments.channels.channels())?;
         let tests = LoopTest::from_recording(&recorded, step_s).map_err(in_words)?;
         recordings.push(Recording::new(&recorded, &gaps, tests.len()));
         loops.extend(tests);
+        inputs.push(recorded);
     }
     let mut indices = Vec::new();
     for path in &arguments.indices {
@@ -178,7 +178,7 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     });
     bar.finish_and_clear();
     let found = found.map_err(in_words)?;
-    let report = Report::new(arguments, &calibration, recordings, &found)?;
+    let report = Report::new(arguments, &calibration, &inputs, recordings, &found)?;
     let file = damper_file::text(&report, &found.damper)?;
     let page = match &arguments.page {
         Some(_) => page::write(&report, &calibration, &found)?,

@@ -205,10 +205,7 @@ fn index_table(report: &Report) -> Markup {
                 @for row in &report.indices {
                     @for (name, measured, before, after) in row.lines() {
                         tr {
-                            td {
-                                "±" (format!("{:.3}", row.measured.amplitude_m * 1e3))
-                                " mm at " (row.measured.frequency_hz) " Hz"
-                            }
+                            td { (row.motion("±")) }
                             td { (name) }
                             td { (measured) }
                             td { (format!("{before:.1}")) }

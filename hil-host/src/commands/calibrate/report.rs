@@ -14,6 +14,7 @@ use dashpot_calibration::{
 };
 use dashpot_files::output;
 use dashpot_recording::Gaps;
+use dashpot_testbench::TestbenchError;
 use dashpot_testbench::bench_test::{Indices, run_until_periodic};
 
 /// Half the width of the 95 % interval for the middle of a motion, in standard deviations of the noise.
@@ -189,6 +190,8 @@ pub(super) struct Loop {
 /// Indices of a test before and after calibration.
 #[derive(Serialize)]
 pub(super) struct IndexRow {
+    /// Name of the recording with this motion; `None` for a test of a table.
+    pub(super) recording: Option<String>,
     pub(super) measured: IndexTest,
     pub(super) before: Indices,
     pub(super) after: Indices,
@@ -224,6 +227,7 @@ impl Report {
     pub(super) fn new(
         arguments: &CalibrateArguments,
         calibration: &Calibration,
+        inputs: &[Recorded],
         recordings: Vec<Recording>,
         found: &Calibrated,
     ) -> Outcome<Self> {
@@ -272,17 +276,30 @@ impl Report {
             misses: fit.misses(test),
         });
         let before = arguments.damper.load()?;
-        let indices = calibration.indices.iter().map(|measured| -> Outcome<_> {
-            let indices_of = |damper| -> Outcome<Indices> {
+        let compared = |recording: Option<String>, measured: IndexTest| {
+            let indices_of = |damper| {
                 let cycle = run_until_periodic(damper, measured.motion(), calibration.step_s)?;
-                Ok(cycle.indices())
+                Ok::<Indices, TestbenchError>(cycle.indices())
             };
-            Ok(IndexRow {
-                measured: measured.clone(),
-                before: indices_of(&before)?,
-                after: indices_of(&found.damper)?,
+            let (before, after) = (indices_of(&before)?, indices_of(&found.damper)?);
+            Ok::<_, TestbenchError>(IndexRow {
+                recording,
+                measured,
+                before,
+                after,
             })
-        });
+        };
+        let tabled = calibration.indices.iter();
+        let tabled = tabled.map(|measured| compared(None, measured.clone()));
+        let mut indices = tabled.collect::<Result<Vec<_>, _>>()?;
+        let rig = found.rig(calibration);
+        for recorded in inputs {
+            // A motion that the damper cannot follow forever has no indices to compare with.
+            let motions = recorded.index_tests(rig).into_iter();
+            indices.extend(
+                motions.filter_map(|measured| compared(Some(recorded.name.clone()), measured).ok()),
+            );
+        }
         Ok(Self {
             damper: arguments.damper.damper.clone(),
             overrides: arguments.damper.overrides.clone(),
@@ -290,7 +307,7 @@ impl Report {
             numbers: numbers.collect(),
             recordings,
             loops: loops.collect(),
-            indices: indices.collect::<Outcome<_>>()?,
+            indices,
             held: calibration.rig,
             influences: found
                 .influences
@@ -427,9 +444,8 @@ impl Report {
         for row in &self.indices {
             writeln!(
                 out,
-                "  +-{:.3} mm at {} Hz{:>24} {:>11} {:>11}",
-                row.measured.amplitude_m * 1e3,
-                row.measured.frequency_hz,
+                "  {:<36} {:>11} {:>11} {:>11}",
+                row.motion("+-"),
                 "test",
                 "before",
                 "found"
@@ -447,12 +463,23 @@ impl Report {
 }
 
 impl IndexRow {
+    /// Describes the motion, with its recording.
+    pub(super) fn motion(&self, sign: &str) -> String {
+        let amplitude_mm = self.measured.amplitude_m * 1e3;
+        let frequency_hz = self.measured.frequency_hz;
+        match &self.recording {
+            None => format!("{sign}{amplitude_mm:.3} mm at {frequency_hz} Hz"),
+            Some(name) => format!("{name}: {sign}{amplitude_mm:.3} mm at {frequency_hz:.4} Hz"),
+        }
+    }
+
     /// Returns, for each measured index, its name, its measured value, and its values before and after calibration.
     pub(super) fn lines(&self) -> impl Iterator<Item = (&'static str, String, f64, f64)> {
         let IndexRow {
             measured,
             before,
             after,
+            ..
         } = self;
         let largest = |indices: &Indices| {
             indices

@@ -2,6 +2,8 @@
 
 mod sheet;
 
+pub(super) use sheet::publish;
+
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 

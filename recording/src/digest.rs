@@ -1,0 +1,33 @@
+//! Digest of a file.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use dashpot_files::FileError;
+use sha2::{Digest, Sha256};
+
+/// Bytes read at a time.
+const BLOCK: usize = 1 << 16;
+
+/// Returns the SHA-256 of the file at `path`, in hexadecimal digits as `sha256sum` prints them.
+///
+/// # Errors
+/// The file cannot be read.
+pub fn sha256(path: &Path) -> Result<String, FileError> {
+    let in_file = |error: io::Error| FileError::in_file(path, error);
+    let mut file = File::open(path).map_err(in_file)?;
+    let mut digest = Sha256::new();
+    let mut block = vec![0; BLOCK];
+    loop {
+        match file.read(&mut block).map_err(in_file)? {
+            0 => break,
+            count => digest.update(&block[..count]),
+        }
+    }
+    Ok(digest
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect())
+}
