@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod cause;
 mod determination;
 mod determined;
 mod diagnosis;
@@ -17,6 +18,7 @@ mod model;
 mod plausible;
 mod prior;
 mod profile;
+mod recorded_indices;
 mod remedy;
 mod request;
 mod residual;

@@ -39,11 +39,25 @@ struct Limits {
     high: f64,
 }
 
-/// Returns an HTML page: each parameter over time with a band of two standard deviations, its baseline and its limits.
+/// What may have changed, for the page.
+#[derive(Debug, Clone)]
+pub struct LikelyCauses {
+    /// Causes in words with their probabilities, the most likely first.
+    pub causes: Vec<(String, f64)>,
+    /// What a reader has to know about them.
+    pub remarks: Vec<String>,
+}
+
+/// Returns an HTML page: each parameter over time with a band of two standard deviations, its baseline and its limits;
+/// the force, the share of time in contact, and the likely causes of a change if they are known.
 ///
 /// # Errors
 /// Returns an error if a figure cannot be drawn.
-pub fn page(title: &str, history: &History) -> Result<String, DrawError> {
+pub fn page(
+    title: &str,
+    history: &History,
+    causes: Option<&LikelyCauses>,
+) -> Result<String, DrawError> {
     let parameters = parameters(history);
     let panels = parameters.iter().map(|parameter| plot(history, parameter));
     let plots = Figure {
@@ -60,13 +74,74 @@ pub fn page(title: &str, history: &History) -> Result<String, DrawError> {
         p.lead { (title) "." }
         (headline(history, &parameters))
         (alarms(history))
+        @if let Some(causes) = causes { (likely(causes)) }
         h2 { "Estimates" }
         (figure(&plots, &caption)?)
+        h2 { "Force" }
+        (figure(&force_and_contact(history), &html! {
+            "The band reaches from the least to the greatest force between two readings. Only samples with the mount "
+            "in contact and the damper not saturated tell about its condition."
+        })?)
         (footer(&html! {
             "Flow factor: flow divided by the nominal flow at the same force. Its inverse is the damping factor."
         }))
     };
     Ok(document("Dashpot: health of a damper", &body))
+}
+
+/// Lists the likely causes of a change.
+fn likely(likely: &LikelyCauses) -> Markup {
+    html! {
+        h2 { "Likely cause" }
+        div.wide.worded {
+            table {
+                thead { tr { th { "cause" } th { "probability" } } }
+                @for (cause, probability) in &likely.causes {
+                    tr { td { (cause) } td { (format!("{:.0} %", 100.0 * probability)) } }
+                }
+            }
+        }
+        @for remark in &likely.remarks { p { (remark) "." } }
+        p.note {
+            "Each cause was fitted to the end of the recording on its own, on the computer that wrote this page; the "
+            "estimates below are those of the target's filter."
+        }
+    }
+}
+
+fn force_and_contact(history: &History) -> Figure {
+    let readings = || history.readings.iter();
+    let force = readings().map(|point| {
+        let [least, greatest] = point.force_n.map(|force| force * 1e-3);
+        (point.time_s, least, greatest)
+    });
+    let share = readings().map(|point| (point.time_s, 100.0 * point.used_share));
+    let panels = [
+        panel(
+            "time, s",
+            "force, kN",
+            vec![Curve::band("force", RESULT, force)],
+        ),
+        panel(
+            "time, s",
+            "samples used, %",
+            vec![Curve::new("used", RESULT, share)],
+        ),
+    ];
+    Figure {
+        panels: panels.into_iter().map(beginning_at_values).collect(),
+        height: 260,
+        cursor_group: Some("time"),
+    }
+}
+
+/// Returns the panel with axes that begin and end near the values.
+fn beginning_at_values(panel: Panel) -> Panel {
+    Panel {
+        keeps_to_values: true,
+        sides: true,
+        ..panel
+    }
 }
 
 fn parameters(history: &History) -> [Parameter; 6] {
@@ -185,9 +260,7 @@ fn plot(history: &History, parameter: &Parameter) -> Panel {
     let limits = parameter.limits.into_iter();
     let limits = limits.flat_map(|limits| [("", limits.low), ("alarm limits", limits.high)]);
     curves.extend(limits.map(|(name, value)| Curve::new(name, LIMIT, level(value)).dashed()));
-    let mut panel = panel("time, s", &label(parameter), curves);
-    panel.keeps_to_values = true;
-    panel
+    beginning_at_values(panel("time, s", &label(parameter), curves))
 }
 
 /// Returns the name and unit of a parameter.

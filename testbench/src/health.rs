@@ -108,6 +108,61 @@ pub struct Reading {
     pub time_s: f64,
     /// The estimates.
     pub reading: HealthReading,
+    /// Least and greatest force since the reading before (N).
+    pub force_n: [f64; 2],
+    /// Share of the samples since the reading before that the estimate used: those with the mount in contact.
+    pub used_share: f64,
+}
+
+/// Samples between two readings.
+struct Interval {
+    force_n: [f64; 2],
+    samples: u64,
+    /// Samples that the estimate had used at the start.
+    used_before: u32,
+}
+
+impl Interval {
+    fn new(used_before: u32) -> Self {
+        Self {
+            force_n: [f64::INFINITY, f64::NEG_INFINITY],
+            samples: 0,
+            used_before,
+        }
+    }
+
+    fn add(&mut self, force_n: f64) {
+        let [least, greatest] = self.force_n;
+        self.force_n = [least.min(force_n), greatest.max(force_n)];
+        self.samples += 1;
+    }
+
+    fn reading(&self, time_s: f64, reading: HealthReading) -> Reading {
+        let used = reading.samples.saturating_sub(self.used_before);
+        Reading {
+            time_s,
+            reading,
+            force_n: self.force_n,
+            // A block is counted when it is complete, so it may belong to the interval before.
+            used_share: (f64::from(used) / self.samples.max(1) as f64).min(1.0),
+        }
+    }
+}
+
+/// Drops every second reading; the other one then covers both intervals.
+fn halve(readings: &mut Vec<Reading>) {
+    let merged = readings.chunks_exact(2).map(|pair| {
+        let [before, after] = [pair[0], pair[1]];
+        Reading {
+            force_n: [
+                before.force_n[0].min(after.force_n[0]),
+                before.force_n[1].max(after.force_n[1]),
+            ],
+            used_share: 0.5 * (before.used_share + after.used_share),
+            ..after
+        }
+    });
+    *readings = merged.collect();
 }
 
 /// Estimates over a recording.
@@ -241,7 +296,9 @@ pub fn watch(
     };
     let mut raised = HealthStatus::empty();
     let mut count = 0_u64;
+    let mut interval = Interval::new(0);
     for (displacement_m, force_n) in samples {
+        interval.add(force_n);
         health.tick(model, displacement_m as f32, force_n as f32);
         let time_s = count as f64 * step_s;
         count += 1;
@@ -254,23 +311,20 @@ pub fn watch(
         }
         if count.is_multiple_of(every) {
             if history.readings.len() == MAX_READINGS {
-                let mut number = 0_usize;
-                history.readings.retain(|_| {
-                    number += 1;
-                    number.is_multiple_of(2)
-                });
+                halve(&mut history.readings);
                 every *= 2;
             }
             if count.is_multiple_of(every) {
                 let reading = health.reading(model);
-                history.readings.push(Reading { time_s, reading });
+                history.readings.push(interval.reading(time_s, reading));
+                interval = Interval::new(reading.samples);
             }
         }
     }
     if !count.is_multiple_of(every) {
         let time_s = (count - 1) as f64 * step_s;
         let reading = health.reading(model);
-        history.readings.push(Reading { time_s, reading });
+        history.readings.push(interval.reading(time_s, reading));
     }
     history
 }

@@ -130,11 +130,11 @@ pub fn all() -> [(&'static str, &'static str, usize, &'static str); 8] {
         ("vehicle", &VEHICLE, 73, "time, s"),
         ("bank", &BANK, 4, "time, s"),
         ("study", &STUDY, 10, "time, s"),
-        ("sheet", &SHEET, 6, "peak velocity, m/s"),
+        ("sheet", &SHEET, 7, "peak velocity, m/s"),
         ("response", &RESPONSE, 3, "frequency, Hz"),
         // Three profiles, and two loops and the residual for each of four tests.
         ("calibration", &CALIBRATION, 15, "time, s"),
-        // Flow, stiffness, clearance, lag, force offset and friction.
-        ("health", &HEALTH, 6, "time, s"),
+        // Flow, stiffness, clearance, lag, force offset, friction, force and contact.
+        ("health", &HEALTH, 8, "time, s"),
     ]
 }

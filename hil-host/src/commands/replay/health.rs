@@ -8,14 +8,16 @@ use dashpot_core::health::{Baseline, Estimate, HealthModel, HealthReading, Healt
 use serde::{Deserialize, Serialize};
 
 use super::ReplayArguments;
+use super::causes::{causes, likely};
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::health_reading::Told;
 use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::streams;
+use dashpot_calibration::cause::Causes;
 use dashpot_files::input;
 use dashpot_recording::Measurement;
 use dashpot_recording::tick_grid::MeasuredGrid;
-use dashpot_report::health::page;
+use dashpot_report::health::{LikelyCauses, page};
 use dashpot_testbench::health::{
     History, Noise, alarm_in_words, alarm_name, in_words, watch, whole_in_words,
 };
@@ -65,6 +67,8 @@ pub(super) struct HealthReport {
     #[serde(flatten)]
     values: Told,
     alarms: Vec<Alarm>,
+    /// Likely causes of a change; `None` with a baseline, to which the bank of causes knows no way.
+    causes: Option<Causes>,
     page: String,
 }
 
@@ -139,9 +143,16 @@ impl Watched {
             arguments.damper.damper,
             input::name(&arguments.input).display()
         );
+        let causes = match options.health_baseline {
+            Some(_) => None,
+            None => causes(arguments, parameters)?,
+        };
+        let told = causes.as_ref().map(likely);
+        let mut report = HealthReport::new(last, &history, noise, page_path.display().to_string());
+        report.causes = causes;
         Ok(Some(Self {
-            text: page(&title, &history)?,
-            report: HealthReport::new(last, &history, noise, page_path.display().to_string()),
+            text: page(&title, &history, told.as_ref())?,
+            report,
             page: page_path.clone(),
         }))
     }
@@ -257,6 +268,7 @@ impl HealthReport {
             force_noise_n: noise.force_n,
             values: last.into(),
             alarms: alarms.collect(),
+            causes: None,
             page,
         }
     }
@@ -308,6 +320,15 @@ impl HealthReport {
                 "ALARM: {}, since {:.1} s",
                 alarm.sentence, alarm.time_s
             )?;
+        }
+        if let Some(causes) = &self.causes {
+            let LikelyCauses { causes, remarks } = likely(causes);
+            for (cause, probability) in causes {
+                writeln!(out, "likely cause: {cause} ({:.0} %)", 100.0 * probability)?;
+            }
+            for remark in remarks {
+                writeln!(out, "note: {remark}")?;
+            }
         }
         if self.alarms.is_empty() {
             let but = if self.values.trusted {

@@ -1,5 +1,6 @@
 //! `dashpot replay`: computes the force over a recorded motion.
 
+mod causes;
 mod health;
 
 use std::io::{self, Write};
