@@ -53,7 +53,7 @@ impl Calibration {
             (TEMPERATURE, self.assumed.temperature_uncertainty_k),
             (DENSITY, self.assumed.density_uncertainty_kg_per_m3),
         ];
-        let is_assumed = |key: &str| self.varied.iter().all(|varied| varied.key != key);
+        let is_assumed = |key: &str| self.varied.iter().all(|varied| varied.base() != key);
         both.into_iter()
             .filter(|(key, uncertainty)| *uncertainty > 0.0 && is_assumed(key))
             .collect()

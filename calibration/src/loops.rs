@@ -119,6 +119,8 @@ pub struct LoopTest {
     pub force_half_range_n: f64,
     /// Middle of the range of the recorded displacement (m); no force depends on it.
     pub displacement_offset_m: f64,
+    /// Oil temperature (degC); `None` is that of the damper.
+    pub temperature_c: Option<f64>,
 }
 
 /// The median counts as an estimate of zero force if the maximum and the minimum force differ from it by more than this
@@ -250,6 +252,7 @@ impl LoopTest {
             displacement_noise_m: displacement.noise,
             force_noise_n: force.noise,
             counted: from..to.max(from),
+            temperature_c: None,
             displacements_m: x,
             positions,
             forces_n,

@@ -1,10 +1,12 @@
 //! Compares the forces of a damper with those of the tests.
 
 use dashpot_core::CheckedParameters;
+use dashpot_core::parameters::Element;
 use nalgebra::DMatrix;
 
 use super::CalibrationError;
 use super::indices::IndexTest;
+use super::influence::TEMPERATURE;
 use super::keys::{FORCE_OFFSET, SKEW};
 use super::loops::LoopTest;
 use super::rig::HeldRig;
@@ -68,7 +70,7 @@ impl Model<'_> {
             .varied
             .iter()
             .zip(values)
-            .filter(|(varied, _)| !varied.is_rig_parameter())
+            .filter(|(varied, _)| !varied.is_rig_parameter() && varied.test().is_none())
             .map(|(varied, value)| (varied.key.as_str(), value))
             .chain(more.iter().copied())
             .collect();
@@ -83,16 +85,43 @@ impl Model<'_> {
             .collect()
     }
 
-    /// Returns the parameter at `key` if it is varied, otherwise `held`.
-    fn varied_or(&self, coordinates: &[f64], key: &str, held: f64) -> f64 {
-        let mut values = self.varied.iter().zip(coordinates);
-        let found = values.find(|(varied, _)| varied.key == key);
+    /// Returns the parameter `base` of a test (from 1) if it is varied, for this test or for all, otherwise `held`.
+    fn varied_or(&self, coordinates: &[f64], base: &str, test: usize, held: f64) -> f64 {
+        let values = self.varied.iter().zip(coordinates);
+        let mut values = values.filter(|(varied, _)| {
+            varied.base() == base && varied.test().is_none_or(|own| own == test)
+        });
+        let found = values.next();
         found.map_or(held, |(varied, coordinate)| varied.value_at(*coordinate))
     }
 
-    /// Returns what the force sensor reads at zero force (N).
-    pub(super) fn force_offset_n(&self, coordinates: &[f64]) -> f64 {
-        self.varied_or(coordinates, FORCE_OFFSET, self.rig.force_offset_n)
+    /// Returns what the force sensor reads at zero force in a test (N); tests count from 1.
+    pub(super) fn force_offset_n(&self, coordinates: &[f64], test: usize) -> f64 {
+        self.varied_or(coordinates, FORCE_OFFSET, test, self.rig.force_offset_n)
+    }
+
+    /// Returns the parameters of the damper that a test (from 1) has for itself: varied ones and its temperature.
+    fn own_parameters(
+        &self,
+        damper: &CheckedParameters,
+        coordinates: &[f64],
+        test: usize,
+    ) -> Vec<(&str, f64)> {
+        let values = self.varied.iter().zip(coordinates);
+        let own =
+            values.filter(|(varied, _)| varied.test() == Some(test) && !varied.is_rig_parameter());
+        let mut own: Vec<(&str, f64)> = own
+            .map(|(varied, coordinate)| (varied.base(), varied.value_at(*coordinate)))
+            .collect();
+        let is_own = own.iter().any(|(key, _)| *key == TEMPERATURE);
+        let given = self.loops[test - 1].temperature_c.filter(|_| !is_own);
+        if let (Some(given_c), Element::Physical(changed), Ok(nominal_c)) =
+            (given, &damper.element, self.damper.number(TEMPERATURE))
+        {
+            // A change of the damper's temperature, as an assumption that may be wrong, changes that of every test.
+            own.push((TEMPERATURE, given_c + changed.oil.temperature_c - nominal_c));
+        }
+        own
     }
 
     /// Returns the model's forces as the sensor would show them at the samples that count (N), by loop.
@@ -112,10 +141,24 @@ impl Model<'_> {
         if (self.is_cancelled)() {
             return Err(CalibrationError::Cancelled);
         }
-        let built = damper.build::<f64>(self.step_s)?;
-        let delay = self.varied_or(coordinates, SKEW, self.rig.skew_s) / self.step_s;
-        let offset_n = self.force_offset_n(coordinates);
-        let forces = self.loops.iter().map(|test| {
+        let mut built = Vec::new();
+        let forces = self.loops.iter().zip(1..).map(|(test, number)| {
+            let own = self.own_parameters(damper, coordinates, number);
+            if !built.iter().any(|(other, _)| *other == own) {
+                let changed = match own.is_empty() {
+                    true => damper.build::<f64>(self.step_s)?,
+                    false => KeyedParameters::new(self.damper.name(), damper)?
+                        .with(&own)?
+                        .build::<f64>(self.step_s)?,
+                };
+                built.push((own.clone(), changed));
+            }
+            let found = built.iter().find(|(other, _)| *other == own);
+            let Some((_, built)) = found else {
+                return Ok(Vec::new());
+            };
+            let skew_s = self.varied_or(coordinates, SKEW, number, self.rig.skew_s);
+            let offset_n = self.force_offset_n(coordinates, number);
             // The force depends only on how the displacement changes, so every motion is centred on zero, whatever the
             // sensor offset.
             let middle = test.displacement_offset_m;
@@ -125,9 +168,9 @@ impl Model<'_> {
                 .iter()
                 .map(|x| built.step(&mut state, *x - middle) + offset_n)
                 .collect();
-            test.at_counted(&forces, delay)
+            Ok(test.at_counted(&forces, skew_s / self.step_s))
         });
-        Ok(forces.collect())
+        forces.collect()
     }
 
     /// Returns model minus test, in standard deviations: samples of the loops, then indices.

@@ -8,11 +8,18 @@ use super::varied::Varied;
 use super::{CalibrationError, plausible};
 use dashpot_files::damper::KeyedParameters;
 
+/// Returns the key of a parameter that belongs to one test alone.
+fn own_key(key: &str, test: usize) -> String {
+    format!("{key}@{test}")
+}
+
 /// A user's request: parameters to vary, priors and rig parameters to hold.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// Parameters to vary, with optional bounds. Rig parameters vary whether or not they are listed.
     pub vary: Vec<(String, Option<[f64; 2]>)>,
+    /// Parameters to vary for each test on its own, with optional bounds.
+    pub vary_each: Vec<(String, Option<[f64; 2]>)>,
     /// Priors by key.
     pub priors: Vec<(String, Prior)>,
     /// Rig parameters to hold, by default at zero.
@@ -28,7 +35,9 @@ impl Request {
     /// Same errors as [`Request::varied`].
     pub fn check(&self, damper: &KeyedParameters) -> Result<(), CalibrationError> {
         self.check_names()?;
-        self.damper_parameters(damper).map(|_| ())
+        self.damper_parameters(damper)?;
+        self.own_parameters(damper, 1)?;
+        Ok(())
     }
 
     /// Returns the parameters that vary for `damper` and `loops`, and the values of the other rig parameters.
@@ -43,6 +52,7 @@ impl Request {
     ) -> Result<(Vec<Varied>, HeldRig), CalibrationError> {
         self.check_names()?;
         let mut varied = self.damper_parameters(damper)?;
+        varied.extend(self.own_parameters(damper, loops.len())?);
         let mut rig = HeldRig::default();
         for (key, value) in &self.hold {
             let held = if key == SKEW {
@@ -52,7 +62,19 @@ impl Request {
             };
             *held = value.unwrap_or(0.0);
         }
-        for key in RIG {
+        for (key, bounds) in &self.vary_each {
+            let tests = if is_rig_parameter(key) {
+                loops.len()
+            } else {
+                0
+            };
+            for test in 1..=tests {
+                let own = own_key(key, test);
+                varied.push(Varied::rig(&own, loops, *bounds, self.prior(key))?);
+            }
+        }
+        let is_own = |key: &str| self.vary_each.iter().any(|(each, _)| each == key);
+        for key in RIG.into_iter().filter(|key| !is_own(key)) {
             let named = self.vary.iter().find(|(varied, _)| varied == key);
             if loops.is_empty() {
                 let is_named = named.is_some() || self.prior(key).is_some();
@@ -87,6 +109,23 @@ impl Request {
         varied.collect()
     }
 
+    /// Returns the damper parameters that each test has for itself.
+    fn own_parameters(
+        &self,
+        damper: &KeyedParameters,
+        tests: usize,
+    ) -> Result<Vec<Varied>, CalibrationError> {
+        let each = self
+            .vary_each
+            .iter()
+            .filter(|(key, _)| !is_rig_parameter(key));
+        let own = each.flat_map(|(key, bounds)| {
+            (1..=tests)
+                .map(move |test| Varied::new(damper, &own_key(key, test), *bounds, self.prior(key)))
+        });
+        own.collect()
+    }
+
     fn prior(&self, key: &str) -> Option<Prior> {
         let mut given = self.priors.iter().filter(|(name, _)| name == key);
         given.next().map(|(_, prior)| *prior)
@@ -108,6 +147,7 @@ impl Request {
         let [vary, priors, hold] = [
             self.vary
                 .iter()
+                .chain(&self.vary_each)
                 .map(|(key, _)| key.as_str())
                 .collect::<Vec<_>>(),
             self.priors.iter().map(|(key, _)| key.as_str()).collect(),

@@ -14,7 +14,7 @@ use dashpot_files::damper::{KeyedParameters, range};
 /// A parameter that is varied.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Varied {
-    /// `table.key` of the damper file, [`SKEW`] or [`FORCE_OFFSET`].
+    /// `table.key` of the damper file, [`SKEW`] or [`FORCE_OFFSET`]; with `@N` at the end if it belongs to test N alone.
     pub key: String,
     /// Where the search starts, in the key's unit.
     pub start: f64,
@@ -28,6 +28,13 @@ pub struct Varied {
     /// True if the user chose the bounds; a parameter may then end at one of them.
     #[serde(skip)]
     pub(super) has_own_bounds: bool,
+}
+
+/// Splits a key such as `force_offset_n@2` into the parameter and the number of the test.
+pub(super) fn split_key(key: &str) -> (&str, Option<usize>) {
+    let own = key.rsplit_once('@');
+    let own = own.and_then(|(base, test)| Some((base, test.parse().ok()?)));
+    own.map_or((key, None), |(base, test)| (base, Some(test)))
 }
 
 /// A bound that a parameter is at.
@@ -54,12 +61,13 @@ impl Varied {
         bounds: Option<[f64; 2]>,
         prior: Option<Prior>,
     ) -> Result<Self, CalibrationError> {
-        let start = damper.number(key)?;
-        let (table, last) = key.rsplit_once('.').unwrap_or(("", key));
+        let (base, _) = split_key(key);
+        let start = damper.number(base)?;
+        let (table, last) = base.rsplit_once('.').unwrap_or(("", base));
         let plausible = plausible::plausible(table, last)
             .ok_or_else(|| CalibrationError::NotVaried { key: key.into() })?;
         let [lower, upper] = bounds.unwrap_or(plausible.bounds);
-        let is_allowed = |value| range(key).is_some_and(|range| range.contains(value));
+        let is_allowed = |value| range(base).is_some_and(|range| range.contains(value));
         // A logarithmic scale excludes zero.
         let is_ordered = lower < upper && (lower > 0.0 || !plausible.by_ratio);
         if !is_ordered || !is_allowed(lower) || !is_allowed(upper) {
@@ -67,7 +75,7 @@ impl Varied {
             return Err(CalibrationError::Bounds {
                 key: key.into(),
                 bounds: [lower, upper],
-                allowed: range(key).map_or("", |range| range.allowed),
+                allowed: range(base).map_or("", |range| range.allowed),
                 plausible: [a, b],
             });
         }
@@ -107,9 +115,10 @@ impl Varied {
         bounds: Option<[f64; 2]>,
         prior: Option<Prior>,
     ) -> Result<Self, CalibrationError> {
-        let default = rig::default_bounds(key, loops);
+        let (base, _) = split_key(key);
+        let default = rig::default_bounds(base, loops);
         if let Some(bounds) = bounds {
-            rig::check_bounds(key, bounds, default)?;
+            rig::check_bounds(base, bounds, default)?;
         }
         let mut varied = Self {
             key: key.into(),
@@ -154,7 +163,17 @@ impl Varied {
 
     /// True for a rig parameter, false for a damper parameter.
     pub fn is_rig_parameter(&self) -> bool {
-        rig::is_rig_parameter(&self.key)
+        rig::is_rig_parameter(self.base())
+    }
+
+    /// Returns the key without the number of the test.
+    pub fn base(&self) -> &str {
+        split_key(&self.key).0
+    }
+
+    /// Returns the number of the test, from 1, to which the parameter belongs alone.
+    pub fn test(&self) -> Option<usize> {
+        split_key(&self.key).1
     }
 
     /// Returns the bound that a value is at; `tolerance` is the allowed distance as a share of the range.
@@ -167,7 +186,7 @@ impl Varied {
         let bound = self.bounds[usize::from(!is_lower)];
         // A value that turns a part of the damper off, such as zero clearance or preload, is a physical limit.
         let is_physical = !self.by_ratio
-            && range(&self.key).is_some_and(|range| bound == range.min || bound == range.max);
+            && range(self.base()).is_some_and(|range| bound == range.min || bound == range.max);
         Some(Bound {
             value: bound,
             is_lower,
@@ -180,11 +199,11 @@ impl Varied {
     pub(super) fn wider(&self) -> Option<[f64; 2]> {
         const FACTOR: f64 = 10.0;
         let [lower, upper] = self.bounds;
-        let [lowest, highest] = match range(&self.key) {
+        let [lowest, highest] = match range(self.base()) {
             Some(range) => [range.min, range.max],
             None => [
-                -rig::max_magnitude(&self.key),
-                rig::max_magnitude(&self.key),
+                -rig::max_magnitude(self.base()),
+                rig::max_magnitude(self.base()),
             ],
         };
         let [lower, upper] = if self.by_ratio {

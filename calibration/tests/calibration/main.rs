@@ -3,3 +3,4 @@
 mod causes;
 mod fits;
 mod intervals_with_offsets;
+mod several_tests;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::failure::{Failure, Outcome};
 use super::recording::MeasurementArguments;
 use super::rig::publish;
-use super::{Format, recorded, streams};
+use super::{Format, counted, recorded, streams};
 use dashpot_calibration::Recorded;
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::sheet::SheetParameters;
@@ -131,16 +131,7 @@ fn line(path: &Path, recorded: &Recorded, temperature_c: Option<f64>) -> Outcome
 impl SheetArguments {
     /// Returns the oil temperature of each recording.
     fn temperatures_c(&self) -> Outcome<Vec<Option<f64>>> {
-        let count = self.input.len();
-        match self.temperature_c[..] {
-            [] => Ok(vec![None; count]),
-            [temperature_c] => Ok(vec![Some(temperature_c); count]),
-            ref each if each.len() == count => Ok(each.iter().copied().map(Some).collect()),
-            ref each => Err(Failure::wrong_use(format!(
-                "--temperature-c: {} values for {count} recordings; give one for all, or one for each --input",
-                each.len()
-            ))),
-        }
+        for_each(&self.temperature_c, self.input.len(), "each --input")
     }
 
     /// Returns the lines of the header that were given as options.
@@ -156,6 +147,20 @@ impl SheetArguments {
                 text: text.clone(),
             })
         })
+    }
+}
+
+/// Returns the temperature of each of `count` recordings, given once for all or once for each.
+pub(super) fn for_each(given: &[f64], count: usize, each: &str) -> Outcome<Vec<Option<f64>>> {
+    match given {
+        [] => Ok(vec![None; count]),
+        [temperature_c] => Ok(vec![Some(*temperature_c); count]),
+        _ if given.len() == count => Ok(given.iter().copied().map(Some).collect()),
+        _ => Err(Failure::wrong_use(format!(
+            "--temperature-c: {} values for {}; give one for all, or one for {each}",
+            given.len(),
+            counted(count as u64, "recording")
+        ))),
     }
 }
 
@@ -177,7 +182,7 @@ fn refuse_same_streams(arguments: &SheetArguments) -> Outcome<()> {
     Ok(())
 }
 
-fn temperature(text: &str) -> Result<f64, String> {
+pub(super) fn temperature(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok();
     let number = number.filter(|number| (-100.0..=300.0).contains(number));
     number.ok_or_else(|| "allowed: -100 to 300".into())

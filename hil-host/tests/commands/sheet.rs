@@ -155,7 +155,7 @@ fn wrong_use_says_what_to_give() {
     let folder = bench("5");
     let two = ["--temperature-c", "20", "--temperature-c", "30"];
     sheet(&two, folder.path()).code(2).stderr(contains(
-        "--temperature-c: 2 values for 1 recordings; give one for all, or one for each --input",
+        "--temperature-c: 2 values for 1 recording; give one for all, or one for each --input",
     ));
     sheet(&["--input", "-"], folder.path())
         .code(2)

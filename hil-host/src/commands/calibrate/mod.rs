@@ -2,13 +2,15 @@
 
 mod damper_file;
 mod digits;
+mod further;
 mod numbers;
 mod page;
 mod report;
 pub mod words;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use further::{Further, FurtherArguments};
 use numbers::{Held, NamedPrior, Variation};
 use report::{Recording, Report};
 
@@ -17,12 +19,13 @@ use super::step_size::{self, StepSize};
 use super::{DamperArguments, Format, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_calibration::{
-    Assumed, Calibration, CalibrationError, IndexTest, LoopTest, MAX_MISFIT, Progress,
+    Assumed, Calibration, CalibrationError, IndexTest, LoopTest, MAX_MISFIT, Progress, Recorded,
     TEMPERATURE_UNCERTAINTY_K,
 };
 use dashpot_files::FileError;
 use dashpot_files::damper::KeyedParameters;
 use dashpot_files::output::{cannot_write, write_bytes, write_whole_if};
+use dashpot_recording::Gaps;
 
 /// Identify damper parameters from bench tests: force-displacement loops or tables of their indices.
 ///
@@ -34,6 +37,9 @@ use dashpot_files::output::{cannot_write, write_bytes, write_whole_if};
   dashpot calibrate --damper reduced-vertical --input slow.csv --input fast.csv --displacement Weg \\
       --displacement-unit mm --vary reduced.damping_n_s_per_m=5e4:3e5 --vary mount.stiffness_n_per_m \\
       --output found.toml
+  dashpot calibrate --damper my.toml --input warm.mf4 --temperature-c 22 --input cold.mf4 --temperature-c -18 \\
+      --validate fast.mf4 --temperature-c 25 --vary orifice.discharge_coefficient --vary-each force_offset_n \\
+      --plan acceptance.toml --output found.toml
   dashpot calibrate --damper paper --indices table5.csv --vary orifice.diameter_m \\
       --prior orifice.diameter_m=2e-3:1e-4 --output found.toml
 
@@ -59,8 +65,22 @@ pub struct CalibrateArguments {
     indices: Vec<PathBuf>,
     /// Parameter to identify, starting from the damper's value. Bounds are in its unit; the default is a plausible
     /// range.
-    #[arg(long, value_name = "KEY[=MIN:MAX]", required = true)]
+    #[arg(
+        long,
+        value_name = "KEY[=MIN:MAX]",
+        required_unless_present = "vary_each"
+    )]
     vary: Vec<Variation>,
+    /// Parameter that each recorded test has for itself, such as oil.temperature_c or force_offset_n. Reports call that
+    /// of test 2 KEY@2; the damper file keeps the start.
+    #[arg(long, value_name = "KEY[=MIN:MAX]")]
+    vary_each: Vec<Variation>,
+    /// Oil temperature in the recordings, degrees Celsius: once for all, or once for each --input and then each
+    /// --validate, in their order [default: that of the damper].
+    #[arg(long, value_name = "C", value_parser = super::sheet::temperature, allow_negative_numbers = true)]
+    temperature_c: Vec<f64>,
+    #[command(flatten)]
+    further: FurtherArguments,
     /// Prior knowledge of a parameter: mean and standard deviation.
     #[arg(long, value_name = "KEY=MEAN:DEVIATION")]
     prior: Vec<NamedPrior>,
@@ -145,13 +165,13 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     request.check(&damper).map_err(in_words)?;
     let step_s = arguments.step_us.step_s();
     let bar = progress::bar(0, "reading");
+    let planned = arguments.further.planned()?;
     let (mut recordings, mut loops, mut inputs) = (Vec::new(), Vec::new(), Vec::new());
-    for path in &arguments.input {
-        let (recorded, gaps) = super::recorded::read(path, &arguments.channels.channels())?;
-        let tests = LoopTest::from_recording(&recorded, step_s).map_err(in_words)?;
-        recordings.push(Recording::new(&recorded, &gaps, tests.len()));
-        loops.extend(tests);
-        inputs.push(recorded);
+    for (path, temperature_c) in arguments.input.iter().zip(arguments.temperatures_c()?) {
+        let read = recorded_tests(arguments, path, temperature_c, &in_words)?;
+        recordings.push(Recording::new(&read.recorded, &read.gaps, read.tests.len()));
+        loops.extend(read.tests);
+        inputs.push(read.recorded);
     }
     let mut indices = Vec::new();
     for path in &arguments.indices {
@@ -178,7 +198,15 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     });
     bar.finish_and_clear();
     let found = found.map_err(in_words)?;
-    let report = Report::new(arguments, &calibration, &inputs, recordings, &found)?;
+    let further = Further::new(arguments, &planned, &calibration, &found, in_words)?;
+    let report = Report::new(
+        arguments,
+        &calibration,
+        &inputs,
+        recordings,
+        &found,
+        further,
+    )?;
     let file = damper_file::text(&report, &found.damper)?;
     let page = match &arguments.page {
         Some(_) => page::write(&report, &calibration, &found)?,
@@ -195,7 +223,44 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     print_report_beside(&arguments.output, arguments.format, &report, Report::print)
 }
 
+/// A recording with its tests.
+struct Read {
+    recorded: Recorded,
+    gaps: Gaps,
+    tests: Vec<LoopTest>,
+}
+
+/// Reads the tests of a recording at its temperature.
+fn recorded_tests(
+    arguments: &CalibrateArguments,
+    path: &Path,
+    temperature_c: Option<f64>,
+    in_words: impl Fn(CalibrationError) -> Failure,
+) -> Outcome<Read> {
+    let (recorded, gaps) = super::recorded::read(path, &arguments.channels.channels())?;
+    let step_s = arguments.step_us.step_s();
+    let mut tests = LoopTest::from_recording(&recorded, step_s).map_err(in_words)?;
+    for test in &mut tests {
+        test.temperature_c = temperature_c;
+    }
+    Ok(Read {
+        recorded,
+        gaps,
+        tests,
+    })
+}
+
 impl CalibrateArguments {
+    /// Returns the oil temperature of each recording, fitted ones first.
+    fn temperatures_c(&self) -> Outcome<Vec<Option<f64>>> {
+        let count = self.input.len() + self.further.validate.len();
+        super::sheet::for_each(
+            &self.temperature_c,
+            count,
+            "each --input and each --validate",
+        )
+    }
+
     /// Options that the advice in error messages depends on.
     fn given(&self) -> words::Given {
         let channels = self.channels.channels();
@@ -235,9 +300,16 @@ fn refuse_same_streams(arguments: &CalibrateArguments) -> Outcome<()> {
         .indices
         .iter()
         .map(|path| ("--indices", path.as_path()));
-    let read: Vec<_> = damper.into_iter().chain(inputs).chain(indices).collect();
+    let held_back = arguments.further.held_back();
+    let read = damper
+        .into_iter()
+        .chain(inputs)
+        .chain(held_back)
+        .chain(indices);
+    let read: Vec<_> = read.collect();
     streams::refuse_second_standard_input(&read)?;
-    streams::refuse_twice("--input", &arguments.input)?;
+    let recordings = [&arguments.input[..], &arguments.further.validate].concat();
+    streams::refuse_twice("--input and --validate", &recordings)?;
     streams::refuse_twice("--indices", &arguments.indices)?;
     streams::refuse_same_output(&[
         ("--output", Some(&arguments.output)),

@@ -94,6 +94,7 @@ fn pair(text: &str) -> Option<[f64; 2]> {
 /// Builds the calibration request from the options.
 pub(super) fn request(arguments: &CalibrateArguments) -> Request {
     let vary = arguments.vary.iter();
+    let each = arguments.vary_each.iter();
     let priors = arguments.prior.iter();
     let hold = arguments.hold.iter();
     // Without loops there is no skew to hold.
@@ -101,6 +102,7 @@ pub(super) fn request(arguments: &CalibrateArguments) -> Request {
     let no_skew = no_skew.then(|| (SKEW.to_owned(), None));
     Request {
         vary: vary.map(|one| (one.key.clone(), one.bounds)).collect(),
+        vary_each: each.map(|one| (one.key.clone(), one.bounds)).collect(),
         priors: priors.map(|one| (one.key.clone(), one.prior)).collect(),
         hold: hold
             .map(|one| (one.key.clone(), one.value))

@@ -48,6 +48,7 @@ pub(super) fn write(
         h2 { "Tests" }
         @if !report.loops.is_empty() { (loop_table(&report.loops)) }
         @if !report.indices.is_empty() { (index_table(report)) }
+        (report.further.tables())
         @for ((test, fit), row) in tests { (loop_figures(calibration.step_s, test, fit, row)?) }
         (footer(&html! {
             "The damper file is " code { (report.output) } "; its header lists the tests. docs/calibration.md "

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::digits::digits;
+use super::further::Further;
 use super::{CalibrateArguments, words};
 use crate::commands::counted;
 use crate::commands::failure::Outcome;
@@ -207,6 +208,8 @@ pub(super) struct Report {
     recordings: Vec<Recording>,
     pub(super) loops: Vec<Loop>,
     pub(super) indices: Vec<IndexRow>,
+    #[serde(flatten)]
+    pub(super) further: Further,
     /// Values of the rig's fixed parameters.
     held: HeldRig,
     /// Assumed properties of the oil and their effect on the parameters.
@@ -230,6 +233,7 @@ impl Report {
         inputs: &[Recorded],
         recordings: Vec<Recording>,
         found: &Calibrated,
+        further: Further,
     ) -> Outcome<Self> {
         let determination = &found.determination;
         let varied = calibration.varied.iter().enumerate();
@@ -308,6 +312,7 @@ impl Report {
             recordings,
             loops: loops.collect(),
             indices,
+            further,
             held: calibration.rig,
             influences: found
                 .influences
@@ -356,6 +361,7 @@ impl Report {
         writeln!(out)?;
         report.print_loops(out)?;
         report.print_indices(out)?;
+        report.further.print(out)?;
         let width = report
             .numbers
             .iter()
