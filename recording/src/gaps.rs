@@ -3,6 +3,7 @@
 use hdrhistogram::Histogram;
 use serde::Serialize;
 
+use super::interpolated::Interpolation;
 use super::location::{LeftOut, RowLocation};
 
 /// An interval longer than this many median intervals is a gap. Neither jitter of half an interval nor one or two lost
@@ -53,6 +54,19 @@ pub struct Gaps {
     /// this line may be cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
+    /// End of the rows if the file is an unfinished MDF4 file, which is read up to the last whole row.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unfinished: Option<UnfinishedEnd>,
+    /// How the force was brought to the times of the displacement, if it is in another group.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<Interpolation>,
+}
+
+/// End of the rows of an MDF4 file that its logger did not finish, because it crashed or lost power.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct UnfinishedEnd {
+    /// Bytes after the last whole row that are not read.
+    pub left_bytes: u64,
 }
 
 impl Intervals {
@@ -102,6 +116,8 @@ impl Intervals {
                 longest: None,
                 left_out,
                 unended_line: None,
+                unfinished: None,
+                interpolation: None,
             };
         }
         let median = counts.value_at_quantile(0.5);
@@ -114,6 +130,8 @@ impl Intervals {
             longest: self.longest.filter(|_| count > 0),
             left_out,
             unended_line: None,
+            unfinished: None,
+            interpolation: None,
         }
     }
 }

@@ -8,8 +8,10 @@ pub mod columns;
 mod error;
 mod force_history;
 mod gaps;
+mod groups;
 #[cfg(feature = "parquet")]
 mod guarded;
+mod interpolated;
 mod location;
 #[cfg(feature = "mdf")]
 mod mdf;
@@ -42,7 +44,8 @@ pub use channels::{Channel, Channels};
 pub(crate) use error::{MAX_GAP_TICKS, MAX_TICKS};
 pub use error::{RecordingError, remedy};
 pub use force_history::ForceHistory;
-pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
+pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps, UnfinishedEnd};
+pub use interpolated::Interpolation;
 pub use location::{LeftOut, RowLocation};
 pub use measurement::{MeasuredSample, Measurement};
 use open::{Origin, open_rows};

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::gap_report::unended;
+use super::gap_report::{unended, unfinished};
 use super::recording::ListingArguments;
 use super::remedy::with_remedy;
 use super::{Format, counted, nearest_nanosecond, print_answer};
@@ -196,6 +196,9 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ChannelsArguments) ->
     if let Some(line) = overview.unended_line {
         writeln!(out, "{}", unended(line))?;
     }
+    if let Some(end) = overview.unfinished {
+        writeln!(out, "{}", unfinished(end))?;
+    }
     writeln!(out, "\nto replay: {}", report.replay)
 }
 
@@ -248,7 +251,8 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
     Ok(())
 }
 
-fn six_digits(number: f64) -> String {
+/// Formats a number with up to six digits, without trailing zeros.
+pub(super) fn six_digits(number: f64) -> String {
     digits(number, 5)
 }
 
