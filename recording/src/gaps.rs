@@ -3,8 +3,8 @@
 use hdrhistogram::Histogram;
 use serde::Serialize;
 
-use super::interpolated::Interpolation;
 use super::location::{LeftOut, RowLocation};
+use super::notes::{Interpolation, UnfinishedEnd};
 
 /// An interval longer than this many median intervals is a gap. Neither jitter of half an interval nor one or two lost
 /// samples make a gap.
@@ -60,13 +60,6 @@ pub struct Gaps {
     /// How the force was brought to the times of the displacement, if it is in another group.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
-}
-
-/// End of the rows of an MDF4 file that its logger did not finish, because it crashed or lost power.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct UnfinishedEnd {
-    /// Bytes after the last whole row that are not read.
-    pub left_bytes: u64,
 }
 
 impl Intervals {

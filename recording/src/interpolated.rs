@@ -3,29 +3,12 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
 use super::error::RecordingError;
-use super::gaps::UnfinishedEnd;
 use super::location::RowLocation;
+use super::notes::{Interpolation, UnfinishedEnd};
 use super::rows::Source;
 use super::select::SelectedChannel;
 use dashpot_files::FileError;
-
-/// How a force from another group was brought to the times of the displacement.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Interpolation {
-    /// Number of the group of the displacement, from 1.
-    pub displacement_group: usize,
-    /// Number of the group of the force, from 1.
-    pub force_group: usize,
-    /// Rows of the displacement that were omitted because they are before the first or after the last force.
-    pub outside: u64,
-    /// Samples of the force that were omitted because they or their times are missing.
-    pub left_out: u64,
-    /// Longest interval between two samples of the force across which a value was interpolated (s).
-    pub longest_interval_s: Option<f64>,
-}
 
 /// A channel of the force's group, with its name in errors.
 pub(super) struct NamedChannel {

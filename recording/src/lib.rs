@@ -16,6 +16,7 @@ mod location;
 #[cfg(feature = "mdf")]
 mod mdf;
 mod measurement;
+mod notes;
 mod open;
 mod overview;
 #[cfg(feature = "parquet")]
@@ -44,10 +45,10 @@ pub use channels::{Channel, Channels};
 pub(crate) use error::{MAX_GAP_TICKS, MAX_TICKS};
 pub use error::{RecordingError, remedy};
 pub use force_history::ForceHistory;
-pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps, UnfinishedEnd};
-pub use interpolated::Interpolation;
+pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 pub use location::{LeftOut, RowLocation};
 pub use measurement::{MeasuredSample, Measurement};
+pub use notes::{Interpolation, UnfinishedEnd};
 use open::{Origin, open_rows};
 pub use overview::{ChannelOverview, Overview, TimeOverview, overview};
 pub use remedy::Remedy;

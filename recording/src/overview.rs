@@ -5,8 +5,9 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::channels::Channels;
-use super::gaps::{Gaps, Intervals, UnfinishedEnd};
+use super::gaps::{Gaps, Intervals};
 use super::location::LeftOut;
+use super::notes::UnfinishedEnd;
 use super::open::{Origin, open};
 use super::recording_file::RecordingFile;
 use super::rows::Source;

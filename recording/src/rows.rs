@@ -5,9 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::RecordingError;
-use super::gaps::{Gaps, Intervals, UnfinishedEnd};
-use super::interpolated::Interpolation;
+use super::gaps::{Gaps, Intervals};
 use super::location::{LeftOut, RowLocation};
+use super::notes::{Interpolation, UnfinishedEnd};
 use super::select::SelectedChannel;
 use dashpot_files::FileError;
 

@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::channels::six_digits;
 use super::counted;
+use super::rounded::six_digits;
 use dashpot_recording::{GAP_IN_MEDIANS, Gaps, Interpolation, RowLocation, UnfinishedEnd};
 
 /// Prints warnings about omitted rows, an uncertain end of the file and gaps, if there are any.

@@ -33,6 +33,7 @@ pub mod remedy;
 pub mod replay;
 pub mod response;
 pub mod rig;
+mod rounded;
 pub mod sensors;
 pub mod shell;
 pub mod shims;

@@ -14,7 +14,7 @@ use super::stored::Stored;
 use super::unfinished::Unfinished;
 use super::view::View;
 use crate::error::RecordingError;
-use crate::gaps::UnfinishedEnd;
+use crate::notes::UnfinishedEnd;
 
 /// A file as the library sees it, and the end of the records if the file is unfinished.
 pub(super) struct Finished {

@@ -18,8 +18,8 @@ use falcon_mdf::{Channel, ChannelGroup, Mf4Error, Mf4File, OpenOptions, SignalsC
 use self_cell::self_cell;
 
 use super::error::RecordingError;
-use super::gaps::UnfinishedEnd;
 use super::location::RowLocation;
+use super::notes::UnfinishedEnd;
 use super::recording_file::RecordingFile;
 use super::rows::Source;
 use super::select::ChannelInfo;
