@@ -76,6 +76,9 @@ pub fn read<'py>(
     if let Some(line) = gaps.unended_line {
         warn_of_unended(py, path, line)?;
     }
+    if gaps.unfinished.is_some() {
+        warn_of_unfinished(py, path)?;
+    }
     let arrays = PyDict::new(py);
     for (name, column) in columns {
         arrays.set_item(name, PyArray1::from_vec(py, column))?;
@@ -87,6 +90,16 @@ pub fn read<'py>(
 fn warn_of_unended(py: Python<'_>, path: &Path, line: u64) -> Outcome<()> {
     let words = format!(
         "{}:{line}: the last line has no line end: the file may have been cut off inside the last number of that line",
+        path.display()
+    );
+    py.import("warnings")?.call_method1("warn", (words,))?;
+    Ok(())
+}
+
+/// Warns that the logger did not finish an MDF4 file.
+fn warn_of_unfinished(py: Python<'_>, path: &Path) -> Outcome<()> {
+    let words = format!(
+        "{}: the logger did not finish this MDF4 file: rows are read up to the last whole one",
         path.display()
     );
     py.import("warnings")?.call_method1("warn", (words,))?;

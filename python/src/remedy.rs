@@ -29,6 +29,7 @@ fn in_arguments(remedy: Remedy) -> String {
         Remedy::SayWhetherHeader => "use header=True or header=False".into(),
         Remedy::GiveDecimalMark => "use decimal_mark=\"point\" or \"comma\"".into(),
         Remedy::SkipLines => "if the file begins with a title, remove its lines".into(),
+        Remedy::SkipTitle { lines } => format!("remove the {lines} lines before it"),
         Remedy::SkipInvalid => "use skip_invalid=True to skip rows with a missing value".into(),
     }
 }

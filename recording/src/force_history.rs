@@ -3,10 +3,10 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use super::RecordingError;
 use super::channels::Channels;
 use super::open::{Origin, open_rows};
 use super::unit::Quantity;
+use super::{RecordingError, UnfinishedEnd};
 use dashpot_files::FileError;
 
 /// Times this close together count as equal (s), because text files round times to the nanosecond.
@@ -18,6 +18,7 @@ const TIME_TOLERANCE_S: f64 = 1e-9;
 pub struct ForceHistory {
     samples: Vec<ForceSample>,
     unended_line: Option<u64>,
+    unfinished: Option<UnfinishedEnd>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,15 +59,22 @@ impl ForceHistory {
                 needed_s,
             }));
         }
+        let gaps = rows.gaps();
         Ok(Self {
             samples,
-            unended_line: rows.gaps().unended_line,
+            unended_line: gaps.unended_line,
+            unfinished: gaps.unfinished,
         })
     }
 
     /// Number of the last line if the text does not end with a line end. The last number of this line may be cut off.
     pub fn unended_line(&self) -> Option<u64> {
         self.unended_line
+    }
+
+    /// End of the rows if the file is an unfinished MDF4 file, which is read up to the last whole row.
+    pub fn unfinished(&self) -> Option<UnfinishedEnd> {
+        self.unfinished
     }
 
     /// Returns the force (N) at a time (s). Before the first and after the last sample the force is constant.

@@ -4,6 +4,7 @@ use hdrhistogram::Histogram;
 use serde::Serialize;
 
 use super::location::{LeftOut, RowLocation};
+use super::notes::{Interpolation, UnfinishedEnd};
 
 /// An interval longer than this many median intervals is a gap. Neither jitter of half an interval nor one or two lost
 /// samples make a gap.
@@ -53,6 +54,12 @@ pub struct Gaps {
     /// this line may be cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
+    /// End of the rows if the file is an unfinished MDF4 file, which is read up to the last whole row.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unfinished: Option<UnfinishedEnd>,
+    /// How the force was brought to the times of the displacement, if it is in another group.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<Interpolation>,
 }
 
 impl Intervals {
@@ -102,6 +109,8 @@ impl Intervals {
                 longest: None,
                 left_out,
                 unended_line: None,
+                unfinished: None,
+                interpolation: None,
             };
         }
         let median = counts.value_at_quantile(0.5);
@@ -114,6 +123,8 @@ impl Intervals {
             longest: self.longest.filter(|_| count > 0),
             left_out,
             unended_line: None,
+            unfinished: None,
+            interpolation: None,
         }
     }
 }

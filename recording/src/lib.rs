@@ -9,12 +9,15 @@ pub mod digest;
 mod error;
 mod force_history;
 mod gaps;
+mod groups;
 #[cfg(feature = "parquet")]
 mod guarded;
+mod interpolated;
 mod location;
 #[cfg(feature = "mdf")]
 mod mdf;
 mod measurement;
+mod notes;
 mod open;
 mod overview;
 #[cfg(feature = "parquet")]
@@ -46,6 +49,7 @@ pub use force_history::ForceHistory;
 pub use gaps::{GAP_IN_MEDIANS, Gap, Gaps};
 pub use location::{LeftOut, RowLocation};
 pub use measurement::{MeasuredSample, Measurement};
+pub use notes::{Interpolation, UnfinishedEnd};
 use open::{Origin, open_rows};
 pub use overview::{ChannelOverview, Overview, TimeOverview, overview};
 pub use remedy::Remedy;

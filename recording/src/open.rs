@@ -7,13 +7,15 @@ use std::path::Path;
 
 use super::RecordingError;
 use super::channels::Channels;
+use super::groups::{Selection, select_groups};
+use super::interpolated::{Force, Interpolated, NamedChannel};
 #[cfg(feature = "mdf")]
 use super::mdf::Mdf;
 #[cfg(feature = "parquet")]
 use super::parquet::Parquet;
 use super::recording_file::RecordingFile;
 use super::rows::Rows;
-use super::select::{label, select};
+use super::select::{SelectedChannel, group_label, label};
 use super::stream::{Kind, Stream};
 use super::text::Text;
 use super::unit::Quantity;
@@ -86,10 +88,37 @@ pub(super) fn open_rows<const N: usize>(
         Origin::Stream(name, _) => (*name).to_owned(),
     };
     let mut opened = open(origin, channels)?;
-    let chosen = select(opened.found(), opened.groups(), channels, quantities)
-        .map_err(|error| FileError::in_file(&path, error))?;
+    let Selection { chosen, apart } =
+        select_groups(opened.found(), opened.groups(), channels, quantities)
+            .map_err(|error| FileError::in_file(&path, error))?;
     let names = chosen.map(|chosen| label(opened.found(), chosen.index));
-    let rows = opened.rows(&chosen.map(|chosen| chosen.index), false)?;
+    let rows = match apart {
+        None => opened.rows(&chosen.map(|chosen| chosen.index), false)?,
+        Some((time, position)) => {
+            let force = chosen[position];
+            let named = |chosen: SelectedChannel| NamedChannel {
+                name: label(opened.found(), chosen.index),
+                chosen,
+            };
+            let grouped = |channel: SelectedChannel| {
+                let group = opened.found()[channel.index].group;
+                (group, group_label(opened.groups(), group))
+            };
+            let (named_time, named_force) = (named(time), named(force));
+            let groups = [grouped(chosen[0]), grouped(force)];
+            let mut own = chosen.map(|chosen| chosen.index).to_vec();
+            own.remove(position);
+            let main = opened.rows(&own, false)?;
+            let force = Force {
+                source: opened.rows(&[time.index, force.index], false)?,
+                time: named_time,
+                force: named_force,
+                skip_invalid: channels.skip_invalid,
+                position,
+            };
+            Box::new(Interpolated::new(&path, main, chosen[0], N, force, groups))
+        }
+    };
     Ok(Rows::new(&path, rows, names, chosen, channels.skip_invalid))
 }
 

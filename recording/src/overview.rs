@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::channels::Channels;
 use super::gaps::{Gaps, Intervals};
 use super::location::LeftOut;
+use super::notes::UnfinishedEnd;
 use super::open::{Origin, open};
 use super::recording_file::RecordingFile;
 use super::rows::Source;
@@ -28,6 +29,9 @@ pub struct Overview {
     /// Number of the last line if the text does not end with a line end. The last number of this line may be cut off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unended_line: Option<u64>,
+    /// End of the rows if the file is an unfinished MDF4 file, which is read up to the last whole row.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unfinished: Option<UnfinishedEnd>,
 }
 
 /// Overview of one channel.
@@ -121,6 +125,7 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
         channels: found.iter().enumerate().map(channel).collect(),
         times: Vec::new(),
         unended_line: None,
+        unfinished: None,
     };
     for channel in &mut overview.channels {
         channel.group = channel.group.filter(|_| !groups.is_empty());
@@ -148,8 +153,9 @@ pub fn overview(path: &Path, channels: &Channels) -> Result<Overview, FileError>
             CHANNELS
         };
         for indices in numeric.chunks(batch_size.max(1)) {
-            let unended = read(&mut *opened, indices, &mut overview.channels, &mut times)?;
-            overview.unended_line = overview.unended_line.or(unended);
+            let source = read(&mut *opened, indices, &mut overview.channels, &mut times)?;
+            overview.unended_line = overview.unended_line.or(source.unended_line());
+            overview.unfinished = overview.unfinished.or(source.unfinished());
         }
         overview.times.push(TimeOverview {
             group: (!groups.is_empty()).then_some(group + 1),
@@ -202,13 +208,13 @@ fn channel((index, found): (usize, &ChannelInfo)) -> ChannelOverview {
     }
 }
 
-/// Reads all rows of some channels of one group. Returns the number of the last line if it has no line end.
+/// Reads all rows of some channels of one group and returns their source at its end.
 fn read(
     opened: &mut dyn RecordingFile,
     indices: &[usize],
     channels: &mut [ChannelOverview],
     times: &mut Option<TimeScan>,
-) -> Result<Option<u64>, FileError> {
+) -> Result<Box<dyn Source>, FileError> {
     let mut source = opened.rows(indices, true)?;
     let mut values = vec![0.0; indices.len()];
     let mut rows = 0;
@@ -226,7 +232,7 @@ fn read(
     for index in indices {
         channels[*index].rows = rows;
     }
-    Ok(source.unended_line())
+    Ok(source)
 }
 
 impl ChannelOverview {

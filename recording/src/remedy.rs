@@ -29,4 +29,9 @@ pub enum Remedy {
     SkipInvalid,
     /// Skip the lines of a title before the header.
     SkipLines,
+    /// Skip this number of lines before the header.
+    SkipTitle {
+        /// Number of lines before the header.
+        lines: u64,
+    },
 }

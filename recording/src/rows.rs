@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::error::RecordingError;
 use super::gaps::{Gaps, Intervals};
 use super::location::{LeftOut, RowLocation};
+use super::notes::{Interpolation, UnfinishedEnd};
 use super::select::SelectedChannel;
 use dashpot_files::FileError;
 
@@ -27,6 +28,16 @@ pub(super) trait Source {
     /// Number of the last line if the text was read to its end and does not end with a line end. The last number of
     /// this line may be cut off.
     fn unended_line(&self) -> Option<u64> {
+        None
+    }
+
+    /// End of the rows if the file is an unfinished MDF4 file.
+    fn unfinished(&self) -> Option<UnfinishedEnd> {
+        None
+    }
+
+    /// How the force of another group was brought to the times of these rows.
+    fn interpolation(&self) -> Option<Interpolation> {
         None
     }
 }
@@ -121,6 +132,8 @@ impl<const N: usize> Rows<N> {
     pub(super) fn gaps(&self) -> Gaps {
         Gaps {
             unended_line: self.source.unended_line(),
+            unfinished: self.source.unfinished(),
+            interpolation: self.source.interpolation(),
             ..self.intervals.gaps(self.left_out)
         }
     }

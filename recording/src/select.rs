@@ -19,6 +19,8 @@ pub(super) struct ChannelInfo {
     pub(super) is_master: bool,
     /// Type of the values in the file.
     pub(super) kind: String,
+    /// True if the values are times with dates, which are read as seconds from the first, whatever unit is chosen.
+    pub(super) is_instant: bool,
     /// True if the values can be read as numbers.
     pub(super) is_number: bool,
     /// Reason why the numbers cannot be read: an unsupported width or bit position; `None` if they can be read.
@@ -139,7 +141,8 @@ pub(super) fn label(found: &[ChannelInfo], index: usize) -> String {
     }
 }
 
-fn group_number(group: &str, groups: &[String]) -> Result<usize, RecordingError> {
+/// Returns the index of the group with this name or number.
+pub(super) fn group_number(group: &str, groups: &[String]) -> Result<usize, RecordingError> {
     let mut named = (0..groups.len()).filter(|number| groups[*number] == group);
     if let (Some(number), None) = (named.next(), named.next()) {
         return Ok(number);
@@ -153,7 +156,8 @@ fn group_number(group: &str, groups: &[String]) -> Result<usize, RecordingError>
     }
 }
 
-fn find(
+/// Returns the index of the channel of a quantity, in `group` if it is known.
+pub(super) fn find(
     found: &[ChannelInfo],
     groups: &[String],
     group: Option<usize>,
@@ -251,7 +255,8 @@ fn by_number(text: &str, count: usize) -> Option<usize> {
     number.checked_sub(1).filter(|index| *index < count)
 }
 
-fn group_label(groups: &[String], number: usize) -> String {
+/// Returns the number of a group, from 1, and its name for messages.
+pub(super) fn group_label(groups: &[String], number: usize) -> String {
     match groups.get(number).map(String::as_str) {
         None | Some("") => (number + 1).to_string(),
         Some(name) => format!("{} ({name})", number + 1),
@@ -283,6 +288,9 @@ fn unit(
     channels: &Channels,
     quantity: Quantity,
 ) -> Result<Unit, RecordingError> {
+    if found.is_instant && quantity == Quantity::Time {
+        return Ok(quantity.units()[0]);
+    }
     if let Some(unit) = channels.channel(quantity).unit {
         return Ok(unit);
     }

@@ -6,8 +6,21 @@ use std::rc::Rc;
 
 use flate2::read::MultiGzDecoder;
 
-/// Number of bytes needed to detect any format.
+/// Number of bytes needed to detect most formats.
 const SIGNATURE_BYTES: usize = 8;
+
+/// Number of bytes needed to detect the version of an MDF file, which follows [`MDF`] or [`UNFINISHED_MDF`].
+const VERSION_BYTES: usize = 12;
+
+/// Start of an MDF file.
+pub(super) const MDF: [u8; 8] = *b"MDF     ";
+
+/// Start of an MDF file that its logger did not finish.
+pub(super) const UNFINISHED_MDF: [u8; 8] = *b"UnFinMF ";
+
+/// An MDF file of an old version, and a workaround.
+const OLD_MDF: &str = "an MDF file of a version before 4; save it as MDF4 with its own software, or with asammdf in \
+                       Python: asammdf.MDF(\"run.mdf\").convert(\"4.10\").save(\"run.mf4\")";
 
 const GZIP: &[u8] = b"\x1f\x8b";
 
@@ -25,7 +38,7 @@ pub(super) enum Kind {
 }
 
 /// First bytes of unsupported formats, with their names and workarounds.
-const UNSUPPORTED: [(&[u8], &str); 9] = [
+const UNSUPPORTED: [(&[u8], &str); 11] = [
     (
         b"PK\x03\x04",
         "a zip archive or an Excel workbook (it starts with PK); unpack it, or save the sheet as CSV",
@@ -56,8 +69,19 @@ const UNSUPPORTED: [(&[u8], &str); 9] = [
     ),
     (b"TDSm", "LabVIEW TDMS; export it as Parquet or CSV"),
     (
-        b"UnFinMF ",
-        "an unfinished MDF4 file; open and save it with the program that wrote it",
+        b"ARROW1\0\0",
+        "an Arrow file (Feather); save it as Parquet, with pandas in Python: \
+         pandas.read_feather(\"run.feather\").to_parquet(\"run.parquet\")",
+    ),
+    (
+        b"FEA1",
+        "an old Feather file (version 1); save it as Parquet, with pandas in Python: \
+         pandas.read_feather(\"run.feather\").to_parquet(\"run.parquet\")",
+    ),
+    (
+        b"\xff\xff\xff\xff",
+        "an Arrow stream; save it as Parquet, with pyarrow in Python: \
+         pyarrow.parquet.write_table(pyarrow.ipc.open_stream(\"run.arrows\").read_all(), \"run.parquet\")",
     ),
 ];
 
@@ -126,6 +150,11 @@ impl Stream {
         rest.by_ref()
             .take(SIGNATURE_BYTES as u64)
             .read_to_end(&mut head)?;
+        if head == MDF || head == UNFINISHED_MDF {
+            rest.by_ref()
+                .take((VERSION_BYTES - SIGNATURE_BYTES) as u64)
+                .read_to_end(&mut head)?;
+        }
         Ok(Self {
             head,
             rest,
@@ -136,8 +165,11 @@ impl Stream {
 
     /// Format of the file.
     pub(super) fn kind(&self) -> Kind {
-        if self.head.starts_with(b"MDF     ") {
-            return Kind::Mdf4;
+        if self.head.starts_with(&MDF) || self.head.starts_with(&UNFINISHED_MDF) {
+            return match self.head.get(MDF.len()) {
+                Some(b'2' | b'3') => Kind::Other(OLD_MDF),
+                _ => Kind::Mdf4,
+            };
         }
         if self.head.starts_with(b"PAR1") {
             return Kind::Parquet;
@@ -154,7 +186,7 @@ impl Stream {
         self.is_compressed
     }
 
-    /// First bytes of the file, at most [`SIGNATURE_BYTES`].
+    /// First bytes of the file, as many as were needed to detect its format.
     pub(super) fn head(&self) -> &[u8] {
         &self.head
     }

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::gap_report::unended;
+use super::gap_report::{unended, unfinished};
 use super::recording::ListingArguments;
 use super::remedy::with_remedy;
+use super::rounded::{six_digits, two_digits};
 use super::{Format, counted, nearest_nanosecond, print_answer};
 use crate::commands::failure::Outcome;
 use dashpot_files::input;
@@ -196,6 +197,9 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ChannelsArguments) ->
     if let Some(line) = overview.unended_line {
         writeln!(out, "{}", unended(line))?;
     }
+    if let Some(end) = overview.unfinished {
+        writeln!(out, "{}", unfinished(end))?;
+    }
     writeln!(out, "\nto replay: {}", report.replay)
 }
 
@@ -246,24 +250,4 @@ fn print_time(out: &mut dyn Write, time: &TimeOverview) -> io::Result<()> {
         )?;
     }
     Ok(())
-}
-
-fn six_digits(number: f64) -> String {
-    digits(number, 5)
-}
-
-fn two_digits(number: f64) -> String {
-    digits(number, 1)
-}
-
-/// Formats a number with up to `digits` digits after the first, without trailing zeros.
-fn digits(number: f64, digits: usize) -> String {
-    let text = format!("{number:.digits$e}");
-    match text.parse::<f64>() {
-        Ok(rounded) if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) => {
-            rounded.to_string()
-        }
-        Ok(rounded) => format!("{rounded:e}"),
-        Err(_) => text,
-    }
 }

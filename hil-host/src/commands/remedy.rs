@@ -31,6 +31,9 @@ fn in_options(remedy: Remedy) -> String {
         Remedy::SkipLines => {
             "if the file begins with a title, skip its lines with --skip-lines N".into()
         }
+        Remedy::SkipTitle { lines } => {
+            format!("skip the lines before it with --skip-lines {lines}")
+        }
         Remedy::SkipInvalid => "use --skip-invalid to skip rows with a missing value".into(),
     }
 }

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
+use super::gap_report::{interpolated, unended, unfinished};
 use super::recording::MeasurementArguments;
 use super::rig::publish;
 use super::{Format, counted, recorded, streams};
 use dashpot_calibration::Recorded;
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::sheet::SheetParameters;
-use dashpot_recording::digest;
+use dashpot_recording::{Gaps, digest};
 use dashpot_report::sheet::{Line, RecordingLine, SheetReport};
 use dashpot_testbench::measured_sheet::{SheetRecording, assign};
 use dashpot_testbench::steady::{Samples, SensorUncertainty, find};
@@ -74,9 +75,10 @@ pub fn run(arguments: &SheetArguments) -> Outcome<()> {
     refuse_same_streams(arguments)?;
     let temperatures_c = arguments.temperatures_c()?;
     let sheet = SheetParameters::load(&arguments.sheet)?;
-    let (mut recordings, mut lines) = (Vec::new(), Vec::new());
+    let (mut recordings, mut lines, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
     for (path, temperature_c) in arguments.input.iter().zip(temperatures_c) {
-        let (recorded, _) = recorded::read(path, &arguments.channels.channels())?;
+        let (recorded, gaps) = recorded::read(path, &arguments.channels.channels())?;
+        warnings.extend(doubts(&recorded.name, &gaps));
         let recording = SheetRecording {
             found: found(path, &recorded)?,
             name: recorded.name.clone(),
@@ -97,7 +99,24 @@ pub fn run(arguments: &SheetArguments) -> Outcome<()> {
     };
     let mut report = SheetReport::measured(&sheet, lines, &assigned, unused.collect(), sensors);
     report.fields.extend(arguments.fields());
+    report.warnings.extend(warnings);
     publish(&mut report, arguments.page.as_deref(), arguments.format)
+}
+
+/// Returns what makes a recording doubtful. Gaps do not, because they separate motions.
+fn doubts(name: &str, gaps: &Gaps) -> impl Iterator<Item = String> {
+    let left_out = (gaps.left_out.rows > 0).then(|| {
+        let rows = counted(gaps.left_out.rows, "row");
+        format!("omitted {rows} with a missing value")
+    });
+    let doubts = [
+        left_out,
+        gaps.unended_line.map(unended),
+        gaps.unfinished.map(unfinished),
+        gaps.interpolation.as_ref().map(interpolated),
+    ];
+    let named = |doubt: String| format!("{name}: {}", doubt.trim_start_matches("warning: "));
+    doubts.into_iter().flatten().map(named)
 }
 
 /// Returns the motions of a recording.

@@ -150,6 +150,20 @@ fn a_missing_test_is_named_and_a_foreign_motion_too() {
     );
 }
 
+/// A logger that crashed leaves a line without an end.
+#[test]
+fn a_doubtful_recording_is_named_on_the_sheet() {
+    let folder = bench("5");
+    let path = folder.path().join("bench.csv");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, text.trim_end()).unwrap();
+    let ended = sheet(&["--page", "page.html"], folder.path()).success();
+    let doubt = "bench.csv: the last line, line 4001, has no line end";
+    assert!(text_of(&ended).contains(&format!("warning: {doubt}")));
+    let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
+    assert!(page.contains(doubt));
+}
+
 #[test]
 fn wrong_use_says_what_to_give() {
     let folder = bench("5");

@@ -7,6 +7,7 @@ mod cut_last_lines_were_whole;
 mod damaged;
 mod decimals_were_whole_numbers;
 mod forms;
+mod found;
 mod half_floats_were_zeros;
 mod listed;
 mod mdf4;

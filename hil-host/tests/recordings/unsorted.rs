@@ -4,7 +4,7 @@ use std::path::Path;
 
 use dashpot_recording::{Channel, Channels};
 
-use crate::common::{dashpot, error_of, json_of};
+use crate::common::{dashpot, json_of};
 use crate::forms::{rows, samples};
 
 #[test]
@@ -83,24 +83,10 @@ fn texts_are_not_signals() {
     );
 }
 
-/// The library does not join records that are divided between data blocks: no row may be read from the following bytes,
-/// and none may be lost silently.
+/// The library drops records that are divided between data blocks, so it gets blocks that do not divide them.
 #[test]
-fn records_divided_between_blocks_are_refused() {
-    let path = samples().join("unsorted_parts.mf4");
-    let ended = dashpot(
-        &[
-            "replay",
-            "--input",
-            path.to_str().unwrap(),
-            "--displacement",
-            "Weg",
-            "--output",
-            "-",
-        ],
-        &samples(),
-    );
-    let error = error_of(&ended);
-    assert!(error.contains("the file declares 60 rows"), "{error}");
-    ended.code(1);
+fn records_divided_between_blocks_are_joined() {
+    let folder = tempfile::tempdir().unwrap();
+    let force = replayed("unsorted_parts.mf4", folder.path());
+    assert_eq!(force, replayed("plain.mf4", folder.path()));
 }

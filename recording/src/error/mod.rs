@@ -10,7 +10,7 @@ pub use remedy::remedy;
 
 use super::text_options::{DecimalMark, Separator};
 use super::unit::Quantity;
-use words::{decimal_comma, listed, mark_name, missing, no_row, numbered_list};
+use words::{apart, decimal_comma, listed, mark_name, missing, no_row, numbered_list};
 
 /// Maximum length of a recording in ticks: 24 hours at 10 kHz. Without a limit, one mistyped time would fill a disk.
 pub(crate) const MAX_TICKS: f64 = 864e6;
@@ -142,8 +142,8 @@ pub enum RecordingError {
     },
     /// The chosen channels are in different groups, so they have different times.
     #[error(
-        "{quantity}: channel {channel} is in group {group}, not in group {expected}; all channels must be in one \
-         group, because each group has its own times"
+        "{quantity}: channel {channel} is in group {group}, not in group {expected}; each group has its own times, and \
+         only a force may come from another group than the displacement"
     )]
     OtherGroup {
         /// Quantity that the channel measures.
@@ -154,6 +154,18 @@ pub enum RecordingError {
         group: String,
         /// Label of the group of the other channels.
         expected: String,
+    },
+    /// Displacement and force are in different groups without common times.
+    #[error("{}", apart(displacement, displacement_s.as_ref(), force, force_s.as_ref()))]
+    Apart {
+        /// Label of the group of the displacement.
+        displacement: String,
+        /// First and last time of the displacement (s).
+        displacement_s: Option<RangeInclusive<f64>>,
+        /// Label of the group of the force.
+        force: String,
+        /// First and last time of the force (s); `None` if it has no samples.
+        force_s: Option<RangeInclusive<f64>>,
     },
     /// The file does not state the unit.
     #[error("the file does not state the unit of {channel}")]
@@ -192,6 +204,14 @@ pub enum RecordingError {
         /// Cells of the first row.
         cells: String,
     },
+    /// Other lines precede the table.
+    #[error("the file begins with a title, `{}`; its table starts at line {}", first.escape_debug(), lines + 1)]
+    Title {
+        /// Number of lines before the table.
+        lines: u64,
+        /// Start of the first line.
+        first: String,
+    },
     /// The file has no usable rows.
     #[error("{}", no_row(*left_out))]
     NoRow {
@@ -222,6 +242,15 @@ pub enum RecordingError {
         /// Text of the cell, cut to 40 bytes.
         cell: String,
     },
+    /// A cell does not contain a time with its date, unlike the first row.
+    #[error(
+        "`{cell}` is not a time such as 2026-11-28T21:52:03.125Z, or only one of it and the first time states an \
+         offset from UTC"
+    )]
+    Instant {
+        /// Text of the cell, cut to 40 bytes.
+        cell: String,
+    },
     /// The decimal mark of a number differs from the chosen one or from that of earlier numbers.
     #[error(
         "`{cell}` has a decimal {}, unlike the numbers before it or the chosen decimal mark",
@@ -248,6 +277,12 @@ pub enum RecordingError {
         /// Format of the file.
         kind: &'static str,
         /// Message of the library that reads the format.
+        reason: String,
+    },
+    /// The logger did not finish the MDF4 file, and the rows that it has are not certain.
+    #[error("the MDF4 file is unfinished and cannot be read up to its last whole row: {reason}")]
+    Unfinished {
+        /// What makes the rows uncertain.
         reason: String,
     },
     /// The file has fewer rows than it declares.

@@ -36,6 +36,7 @@ impl RecordingError {
                 Some(Remedy::GiveUnit(*quantity))
             }
             Self::UnknownUnit { quantity, .. } => Some(Remedy::OverrideUnit(*quantity)),
+            Self::Title { lines, .. } => Some(Remedy::SkipTitle { lines: *lines }),
             Self::HeaderOrRow { .. } => Some(Remedy::SayWhetherHeader),
             Self::Mark { .. } => Some(Remedy::GiveDecimalMark),
             // A title was taken for the header. Further down, a longer line is damage.

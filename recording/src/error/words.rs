@@ -1,5 +1,7 @@
 //! Parts of error texts.
 
+use std::ops::RangeInclusive;
+
 use crate::text_options::{DecimalMark, Separator};
 use crate::unit::Quantity;
 
@@ -24,6 +26,25 @@ pub(super) fn missing(quantity: Quantity, name: &str, numbered: bool, found: &[S
         return format!("no header says which column is the {quantity}");
     }
     format!("column {name} is missing; the file has {}", listed(found))
+}
+
+/// Describes groups without common times.
+pub(super) fn apart(
+    displacement: &str,
+    displacement_s: Option<&RangeInclusive<f64>>,
+    force: &str,
+    force_s: Option<&RangeInclusive<f64>>,
+) -> String {
+    let period = |period: Option<&RangeInclusive<f64>>| match period {
+        Some(period) => format!("{} s to {} s", period.start(), period.end()),
+        None => "no samples".into(),
+    };
+    format!(
+        "no time of the displacement (group {displacement}: {}) is within the times of the force (group {force}: {}), \
+         so no force can be interpolated",
+        period(displacement_s),
+        period(force_s)
+    )
 }
 
 /// Lists the first names in quotes and counts the rest.

@@ -1,29 +1,38 @@
 //! Reads MDF4 files in blocks of bounded size.
 
+mod blocks;
+mod chain;
+mod finished;
 mod number;
+mod records;
+mod stored;
+mod unfinished;
+mod view;
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use falcon_mdf::io::range::read_seek_source;
-use falcon_mdf::{Channel, ChannelGroup, Mf4Error, Mf4File, SignalsChunks};
+use falcon_mdf::io::range::RangeSource;
+use falcon_mdf::{Channel, ChannelGroup, Mf4Error, Mf4File, OpenOptions, SignalsChunks};
 use self_cell::self_cell;
 
 use super::error::RecordingError;
 use super::location::RowLocation;
+use super::notes::UnfinishedEnd;
 use super::recording_file::RecordingFile;
 use super::rows::Source;
 use super::select::ChannelInfo;
+use blocks::CYCLE_COUNT;
 use dashpot_files::FileError;
+use finished::Finished;
 use number::{Reading, reading};
 
 /// Rows read at a time.
 const ROWS: usize = 1 << 14;
 
-/// Offset of the number of rows (`cg_cycle_count`) in a channel group block, where it follows the header, six links and
-/// the record number.
-const CYCLE_COUNT: u64 = 24 + 6 * 8 + 8;
+/// Maximum number of bytes of records that the library keeps from its scan of unsorted records.
+const MAX_KEPT: usize = 4 << 20;
 
 /// An MDF4 file with known channels.
 pub(super) struct Mdf {
@@ -35,6 +44,7 @@ pub(super) struct Mdf {
     paths: Vec<ChannelPath>,
     readings: Vec<Reading>,
     bytes: u64,
+    unfinished: Option<UnfinishedEnd>,
 }
 
 /// Position of a channel in the file, as indices.
@@ -66,6 +76,7 @@ struct MdfRows {
     row: u64,
     rows: u64,
     bytes: u64,
+    unfinished: Option<UnfinishedEnd>,
 }
 
 impl Mdf {
@@ -73,8 +84,17 @@ impl Mdf {
     pub(super) fn open(path: &Path, file: File) -> Result<Self, FileError> {
         let bytes = file.metadata().map_or(0, |data| data.len());
         let failed = |error: Mf4Error| damaged(path, &error);
-        let source = read_seek_source(file).map_err(failed)?;
-        let file = Mf4File::from_source(Arc::new(source)).map_err(failed)?;
+        let finished = Finished::new(file).map_err(|error| failed(error.into()))?;
+        let Finished { view, unfinished } =
+            finished.map_err(|error| FileError::in_file(path, error))?;
+        let source = RangeSource::new(view.end(), move |offset, buffer: &mut [u8]| {
+            Ok(view.read(offset, buffer)?)
+        });
+        let options = OpenOptions {
+            max_alloc: MAX_KEPT,
+            ..OpenOptions::default()
+        };
+        let file = Mf4File::from_source_with_options(Arc::new(source), options).map_err(failed)?;
         let (mut found, mut paths, mut groups) = (Vec::new(), Vec::new(), Vec::new());
         let mut readings = Vec::new();
         for group in file
@@ -102,6 +122,7 @@ impl Mdf {
                     group: number,
                     is_master: channel.is_time_channel(),
                     kind: kind(channel),
+                    is_instant: false,
                     is_number: is_number(channel) && reading.is_ok(),
                     unread: reading.err().filter(|_| is_number(channel)),
                     rows: Some(group.sample_count),
@@ -116,6 +137,7 @@ impl Mdf {
             paths,
             readings,
             bytes,
+            unfinished,
         })
     }
 
@@ -178,6 +200,7 @@ impl RecordingFile for Mdf {
             row: 0,
             rows,
             bytes: self.bytes,
+            unfinished: self.unfinished,
         }))
     }
 }
@@ -252,6 +275,10 @@ impl Source for MdfRows {
 
     fn location(&self) -> RowLocation {
         RowLocation::Row(self.row)
+    }
+
+    fn unfinished(&self) -> Option<UnfinishedEnd> {
+        self.unfinished
     }
 
     fn position(&self) -> u64 {

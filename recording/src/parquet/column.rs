@@ -100,6 +100,14 @@ impl Column {
                     value.wrapping_sub(*origin.get_or_insert(*value)) as f64
                 })
             }
+            // Timestamps of old programs: a day and the nanoseconds in it.
+            Some(ColumnReader::Int96ColumnReader(reader)) => {
+                let origin = &mut self.origin;
+                take(reader, present, count, values, |value| {
+                    let ns = value.to_nanos();
+                    ns.wrapping_sub(*origin.get_or_insert(ns)) as f64
+                })
+            }
             Some(ColumnReader::Int64ColumnReader(reader)) => {
                 take(reader, present, count, values, |value| *value as f64)
             }

@@ -16,6 +16,7 @@ pub(super) fn unit(column: &ColumnDescriptor) -> Option<String> {
         (Some(TimeUnit::MICROS), _)
         | (None, ConvertedType::TIMESTAMP_MICROS | ConvertedType::TIME_MICROS) => "us",
         (Some(TimeUnit::NANOS), _) => "ns",
+        (None, _) if column.physical_type() == Physical::INT96 => "ns",
         (None, _) => return None,
     };
     Some(name.to_owned())
@@ -56,6 +57,7 @@ pub(super) fn is_number(column: &ColumnDescriptor) -> bool {
     let physical = [
         Physical::INT32,
         Physical::INT64,
+        Physical::INT96,
         Physical::FLOAT,
         Physical::DOUBLE,
     ];
@@ -64,7 +66,7 @@ pub(super) fn is_number(column: &ColumnDescriptor) -> bool {
 
 pub(super) fn kind(column: &ColumnDescriptor) -> String {
     match (column.logical_type_ref(), column.physical_type()) {
-        (Some(LogicalType::Timestamp(_)), _) => "timestamp".into(),
+        (Some(LogicalType::Timestamp(_)), _) | (None, Physical::INT96) => "timestamp".into(),
         (Some(LogicalType::Time(_)), _) => "time".into(),
         (Some(LogicalType::String), _) => "text".into(),
         (_, Physical::DOUBLE) => "f64".into(),

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::decode::characters;
+use super::instant::Instant;
 use super::number::is_number;
 use crate::error::RecordingError;
 use crate::select::{ChannelInfo, bare};
@@ -73,7 +74,19 @@ pub(super) fn set_units(found: &mut [ChannelInfo], units: Vec<String>) {
     }
 }
 
-fn is_unit(text: &str) -> bool {
+/// Marks the columns whose cells in the first row are times with dates.
+pub(super) fn set_instants<'a>(found: &mut [ChannelInfo], cells: impl Iterator<Item = &'a [u8]>) {
+    for (found, cell) in found.iter_mut().zip(cells) {
+        if Instant::parse(cell.trim_ascii()).is_some() {
+            found.is_instant = true;
+            found.unit = Some("s".into());
+            found.kind = "timestamp".into();
+        }
+    }
+}
+
+/// True if the text is a known unit.
+pub(super) fn is_unit(text: &str) -> bool {
     let quantities = [Quantity::Time, Quantity::Displacement, Quantity::Force];
     quantities
         .iter()

@@ -5,10 +5,12 @@ mod decimal;
 mod decode;
 mod head;
 mod header;
+mod instant;
 mod number;
 mod plain_row;
 mod rows;
 mod separator;
+mod title;
 
 use std::io::{self, BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
@@ -78,6 +80,10 @@ impl Text {
         let mut source = BufReader::new(decode::decoded(stream, options.encoding));
         let skipped = head::skip_lines(&mut source, options.skip_lines).map_err(failed)?;
         let head = head::read(&mut source).map_err(failed)?;
+        if options.skip_lines == 0 {
+            title::check(head.whole_lines(), options.separator)
+                .map_err(|error| FileError::in_file(path, error))?;
+        }
         let separator = options
             .separator
             .unwrap_or_else(|| separator::separator(head.whole_lines()));
@@ -122,7 +128,16 @@ impl Text {
             if lines.read(&mut second)? {
                 let line = lines.line();
                 match header::units(separator::cells(&second, lines.separator)) {
-                    Some(units) => header::set_units(&mut found, units),
+                    Some(units) => {
+                        header::set_units(&mut found, units);
+                        // The first row decides which columns are times with dates.
+                        if lines.read(&mut second)? {
+                            pending = Some(PendingRow {
+                                line: lines.line(),
+                                record: second,
+                            });
+                        }
+                    }
                     None => {
                         pending = Some(PendingRow {
                             record: second,
@@ -137,6 +152,10 @@ impl Text {
                 record: first,
                 line: first_line,
             });
+        }
+        if let Some(row) = &pending {
+            let cells = separator::cells(&row.record, lines.separator);
+            header::set_instants(&mut found, cells);
         }
         Ok(Self {
             path: lines.path.clone(),

@@ -1,5 +1,6 @@
 //! Numbers in text, with a decimal point or a decimal comma.
 
+use super::instant::Instant;
 use crate::text_options::DecimalMark;
 
 /// Errors in a cell.
@@ -70,10 +71,12 @@ fn parse_decimal_comma(text: &str) -> Option<f64> {
     text.replacen(',', ".", 1).parse().ok()
 }
 
-/// True if a cell is a number with either decimal mark.
+/// True if a cell is a number with either decimal mark, or a time with its date.
 pub(super) fn is_number(cell: &[u8]) -> bool {
-    let text = std::str::from_utf8(cell.trim_ascii());
-    text.is_ok_and(|text| text.parse::<f64>().is_ok() || parse_decimal_comma(text).is_some())
+    let cell = cell.trim_ascii();
+    let text = std::str::from_utf8(cell);
+    Instant::parse(cell).is_some()
+        || text.is_ok_and(|text| text.parse::<f64>().is_ok() || parse_decimal_comma(text).is_some())
 }
 
 #[cfg(test)]

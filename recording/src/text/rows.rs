@@ -2,8 +2,10 @@
 
 use csv::ByteRecord;
 
+use super::instant::Instants;
 use super::number::{NotNumber, Numbers};
 use super::plain_row::PlainRows;
+use super::title::COMMENT;
 use super::{Lines, PendingRow, Text, decode};
 use crate::error::RecordingError;
 use crate::location::RowLocation;
@@ -20,6 +22,10 @@ pub(super) struct TextRows {
     cells: usize,
     /// One parser for all columns, or one per column if `lenient`.
     numbers: Vec<Numbers>,
+    /// Times with dates; `None` for a column of numbers.
+    instants: Vec<Option<Instants>>,
+    /// True if rows may leave out the last cell with its separator.
+    may_lack_last: bool,
     lenient: bool,
     /// Parser of plain rows; `None` if the CSV reader reads all rows.
     plain: Option<PlainRows>,
@@ -39,8 +45,17 @@ impl TextRows {
             None => (ByteRecord::new(), None),
         };
         let separator = lines.separator;
+        let is_instant =
+            |index: &usize| text.found.get(*index).is_some_and(|found| found.is_instant);
+        let instants: Vec<Option<Instants>> = indices
+            .iter()
+            .map(|index| is_instant(index).then(Instants::default))
+            .collect();
+        let has_instant = instants.iter().any(Option::is_some);
         Self {
-            plain: (!lenient)
+            may_lack_last: text.found.last().is_some_and(|last| last.name == COMMENT),
+            instants,
+            plain: (!lenient && !has_instant)
                 .then(|| PlainRows::new(separator, text.cells, indices))
                 .flatten(),
             lines,
@@ -76,7 +91,8 @@ impl TextRows {
         };
         let has_separator_at_end =
             cells == self.cells + 1 && self.record.get(self.cells).is_some_and(<[u8]>::is_empty);
-        if cells == self.cells || has_separator_at_end {
+        let lacks_last = self.may_lack_last && cells + 1 == self.cells;
+        if cells == self.cells || has_separator_at_end || lacks_last {
             return Ok(());
         }
         let error = RecordingError::Cells {
@@ -113,6 +129,20 @@ impl Source for TextRows {
         }
         self.check_length()?;
         for (index, value) in values.iter_mut().enumerate() {
+            if let Some(mut instants) = self.instants[index] {
+                *value = match instants.parse(self.cell(index)) {
+                    Some(time_s) => time_s,
+                    None if self.lenient => f64::NAN,
+                    None => {
+                        let cell = self.cell_text(index);
+                        let error = RecordingError::Instant { cell };
+                        let (path, name) = (&self.lines.path, &self.names[index]);
+                        return Err(self.location().error(path, name, error));
+                    }
+                };
+                self.instants[index] = Some(instants);
+                continue;
+            }
             let parser = if self.lenient { index } else { 0 };
             let mut numbers = self.numbers[parser];
             *value = match numbers.parse(self.cell(index)) {

@@ -57,7 +57,8 @@ fn most_in_first_row(head: &[u8]) -> Separator {
     best.1
 }
 
-fn rows(head: &[u8], separator: Separator) -> Vec<Vec<Vec<u8>>> {
+/// Splits the first [`ROWS`] rows of a text into cells.
+pub(super) fn rows(head: &[u8], separator: Separator) -> Vec<Vec<Vec<u8>>> {
     let mut reader = ReaderBuilder::new()
         .comment(Some(b'#'))
         .delimiter(separator.byte())

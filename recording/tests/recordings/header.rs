@@ -16,7 +16,7 @@ fn error_of(bytes: &[u8]) -> String {
 
 #[test]
 fn unsupported_formats_are_named() {
-    let cases: [(&[u8], &str); 4] = [
+    let cases: [(&[u8], &str); 9] = [
         (
             b"PK\x03\x04\x14\0\x06\0",
             "the file is a zip archive or an Excel workbook",
@@ -29,6 +29,26 @@ fn unsupported_formats_are_named() {
         (
             b"\x89HDF\r\n\x1a\n\0",
             "the file is HDF5 or a MAT-file (version 7.3)",
+        ),
+        (
+            b"MDF     3.30    made    \0\0\0\0",
+            "the file is an MDF file of a version before 4; save it as MDF4",
+        ),
+        (
+            b"UnFinMF 3.30    made    \0\0\0\0",
+            "the file is an MDF file of a version before 4; save it as MDF4",
+        ),
+        (
+            b"ARROW1\0\0\xff\xff\xff\xff",
+            "the file is an Arrow file (Feather); save it as Parquet",
+        ),
+        (
+            b"FEA1\0\0\0\0",
+            "the file is an old Feather file (version 1)",
+        ),
+        (
+            b"\xff\xff\xff\xff\x78\0\0\0",
+            "the file is an Arrow stream; save it as Parquet",
         ),
     ];
     for (bytes, expected) in cases {

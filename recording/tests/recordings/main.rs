@@ -5,6 +5,7 @@ mod columns;
 mod force_history;
 mod gaps;
 mod header;
+mod instants;
 #[cfg(feature = "mdf")]
 mod mdf;
 mod overview;
@@ -12,8 +13,13 @@ mod overview;
 mod parquet;
 mod plain_rows;
 mod position;
+#[cfg(feature = "mdf")]
+mod rates;
 mod remedies;
 mod separators;
 mod text;
 mod ticks;
+mod titles;
+#[cfg(feature = "mdf")]
+mod unfinished;
 mod writer;

@@ -111,18 +111,20 @@ fn the_first_missing_channel_is_reported() {
     }
 }
 
-/// Channels in different groups have different times.
+/// Only a force may come from another group: its samples are interpolated.
 #[test]
 fn channels_of_another_group_are_errors() {
-    let source = Box::new(Cursor::new(groups()));
     let channels = Channels {
-        group: Some("2".into()),
-        ..Channels::default()
+        time: Channel {
+            name: Some("#1".into()),
+            ..Channel::default()
+        },
+        ..in_group("2")
     };
-    let measurement = Measurement::read(Path::new("run7.mf4"), source, &channels);
-    let error = measurement.map(|_| ()).expect_err("a force elsewhere");
-    assert_eq!(remedy(&error), Some(Remedy::NameChannel(Quantity::Force)));
-    let expected = "run7.mf4: force: channel force_n is in group 1, not in group 2; all channels";
+    let error = error_of(&groups(), &channels);
+    assert_eq!(remedy(&error), Some(Remedy::NameChannel(Quantity::Time)));
+    let expected =
+        "run7.mf4: time: channel Time is in group 1, not in group 2; each group has its own times";
     assert!(error.to_string().starts_with(expected), "{error}");
     // A channel with another name is missing, not in another group.
     let source = Box::new(Cursor::new(groups()));
@@ -131,7 +133,7 @@ fn channels_of_another_group_are_errors() {
             name: Some("load".into()),
             ..Channel::default()
         },
-        ..channels
+        ..in_group("2")
     };
     let measurement = Measurement::read(Path::new("run7.mf4"), source, &channels);
     let error = measurement.map(|_| ()).expect_err("no such channel");

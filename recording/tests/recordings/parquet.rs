@@ -8,7 +8,7 @@ use dashpot_recording::writer::{Column, FileFormat, RowWriter};
 use dashpot_recording::{Channels, Recording, overview};
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use parquet::data_type::{DoubleType, FloatType, Int32Type, Int64Type};
+use parquet::data_type::{DoubleType, FloatType, Int32Type, Int64Type, Int96, Int96Type};
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::SerializedFileWriter;
@@ -179,4 +179,35 @@ fn compressed_files_are_read_from_a_copy() {
         let mut recording = Recording::open(file.path()).expect("a file");
         assert_eq!(recording.read_all().expect("valid rows").len(), 3);
     }
+}
+
+/// Old programs write timestamps as a Julian day and the nanoseconds in it.
+#[test]
+fn timestamps_of_96_bits_count_from_the_first() {
+    let schema = "message table { required int96 time; required float displacement_m; }";
+    let schema = parse_message_type(schema).expect("a schema");
+    let properties = Arc::new(WriterProperties::builder().build());
+    let mut writer =
+        SerializedFileWriter::new(Vec::new(), Arc::new(schema), properties).expect("memory");
+    let mut group = writer.next_row_group().expect("memory");
+    let mut column = group.next_column().expect("memory").expect("a column");
+    // One nanosecond before midnight, midnight, and one second later.
+    let ns = 86_400_000_000_000_u64 - 1;
+    let stamps = [(ns, 2_461_373), (0, 2_461_374), (1_000_000_000, 2_461_374)]
+        .map(|(ns, day)| Int96::from(vec![ns as u32, (ns >> 32) as u32, day]));
+    let typed = column.typed::<Int96Type>();
+    typed.write_batch(&stamps, None, None).expect("memory");
+    column.close().expect("memory");
+    let mut column = group.next_column().expect("memory").expect("a column");
+    let typed = column.typed::<FloatType>();
+    let written = typed.write_batch(&[1.0, 2.0, 3.0], None, None);
+    written.expect("memory");
+    column.close().expect("memory");
+    group.close().expect("memory");
+    let bytes = writer.into_inner().expect("memory");
+    let source = Box::new(Cursor::new(bytes));
+    let mut recording = Recording::read(Path::new("run7.parquet"), source).expect("a file");
+    let rows = recording.read_all().expect("rows");
+    let times_s: Vec<f64> = rows.iter().map(|row| row.time_s).collect();
+    assert_eq!(times_s, [0.0, 1e-9, 1.000_000_001]);
 }

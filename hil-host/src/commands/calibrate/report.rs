@@ -9,12 +9,12 @@ use super::further::Further;
 use super::{CalibrateArguments, words};
 use crate::commands::counted;
 use crate::commands::failure::Outcome;
-use crate::commands::gap_report::unended;
+use crate::commands::gap_report::{interpolated, unended, unfinished};
 use dashpot_calibration::{
     Calibrated, Calibration, HeldRig, IndexTest, Influence, Prior, RIG, Recorded, Warning,
 };
 use dashpot_files::output;
-use dashpot_recording::Gaps;
+use dashpot_recording::{Gaps, Interpolation, UnfinishedEnd};
 use dashpot_testbench::TestbenchError;
 use dashpot_testbench::bench_test::{Indices, run_until_periodic};
 
@@ -136,6 +136,12 @@ pub(super) struct Recording {
     /// Number of the last line, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
     unended_line: Option<u64>,
+    /// End of the rows, if it is an unfinished MDF4 file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unfinished: Option<UnfinishedEnd>,
+    /// How the force was brought to the times of the displacement, if it is in another group.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interpolation: Option<Interpolation>,
 }
 
 impl Recording {
@@ -146,6 +152,8 @@ impl Recording {
             too_short: recorded.too_short(),
             rows_left_out: gaps.left_out.rows,
             unended_line: gaps.unended_line,
+            unfinished: gaps.unfinished,
+            interpolation: gaps.interpolation,
         }
     }
 
@@ -356,6 +364,12 @@ impl Report {
             }
             if let Some(line) = recording.unended_line {
                 writeln!(out, "{}: {}", recording.file, unended(line))?;
+            }
+            if let Some(end) = recording.unfinished {
+                writeln!(out, "{}: {}", recording.file, unfinished(end))?;
+            }
+            if let Some(interpolation) = &recording.interpolation {
+                writeln!(out, "{}: {}", recording.file, interpolated(interpolation))?;
             }
         }
         writeln!(out)?;

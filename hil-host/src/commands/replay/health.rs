@@ -10,13 +10,14 @@ use serde::{Deserialize, Serialize};
 use super::ReplayArguments;
 use super::causes::{causes, likely};
 use crate::commands::failure::{Failure, Outcome};
+use crate::commands::gap_report::interpolated;
 use crate::commands::health_reading::Told;
 use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::streams;
 use dashpot_calibration::cause::Causes;
 use dashpot_files::input;
-use dashpot_recording::Measurement;
 use dashpot_recording::tick_grid::MeasuredGrid;
+use dashpot_recording::{Interpolation, Measurement};
 use dashpot_report::health::{LikelyCauses, page};
 use dashpot_testbench::health::{
     History, Noise, alarm_in_words, alarm_name, in_words, watch, whole_in_words,
@@ -70,6 +71,9 @@ pub(super) struct HealthReport {
     /// Likely causes of a change; `None` with a baseline, to which the bank of causes knows no way.
     causes: Option<Causes>,
     page: String,
+    /// How the force was brought to the times of the displacement, if it is in another group.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interpolation: Option<Interpolation>,
 }
 
 /// The part of an earlier report that is used as the baseline.
@@ -132,7 +136,7 @@ impl Watched {
             let set = model.set_baseline(baseline(path)?);
             set.map_err(|error| no_baseline(path, error))?;
         }
-        let history = history(arguments, &model)?;
+        let (history, interpolation) = history(arguments, &model)?;
         let Some(last) = history.last() else {
             return Err(Failure::new(
                 "the recording has no samples to estimate from",
@@ -150,6 +154,7 @@ impl Watched {
         let told = causes.as_ref().map(likely);
         let mut report = HealthReport::new(last, &history, noise, page_path.display().to_string());
         report.causes = causes;
+        report.interpolation = interpolation;
         Ok(Some(Self {
             text: page(&title, &history, told.as_ref())?,
             report,
@@ -232,8 +237,11 @@ fn no_baseline(path: &Path, reason: impl std::fmt::Display) -> Failure {
     ))
 }
 
-/// Returns the estimates along the recording.
-fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History> {
+/// Returns the estimates along the recording, and how its force was interpolated.
+fn history(
+    arguments: &ReplayArguments,
+    model: &HealthModel,
+) -> Outcome<(History, Option<Interpolation>)> {
     let step_s = arguments.step_us.step_s();
     let measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
     let mut ticks = MeasuredGrid::new(measurement, step_s)?;
@@ -253,7 +261,10 @@ fn history(arguments: &ReplayArguments, model: &HealthModel) -> Outcome<History>
     for (_, time_s) in &mut history.alarms {
         *time_s += start_s;
     }
-    failed.map_or(Ok(history), |error| Err(error.into()))
+    match failed {
+        Some(error) => Err(error.into()),
+        None => Ok((history, ticks.measurement().gaps().interpolation)),
+    }
 }
 
 impl HealthReport {
@@ -270,6 +281,7 @@ impl HealthReport {
             alarms: alarms.collect(),
             causes: None,
             page,
+            interpolation: None,
         }
     }
 
@@ -313,6 +325,9 @@ impl HealthReport {
             ),
         ] {
             writeln!(out, "{name:<22} {value:>20}{unit}")?;
+        }
+        if let Some(interpolation) = &self.interpolation {
+            writeln!(out, "{}", interpolated(interpolation))?;
         }
         for alarm in &self.alarms {
             writeln!(

@@ -7,10 +7,10 @@ use serde::Serialize;
 use super::choice::{Choice, Source};
 use super::rig::RigReport;
 use super::silence::Silence;
-use crate::commands::gap_report::unended;
+use crate::commands::gap_report::{unended, unfinished};
 use dashpot_files::case::Case;
 use dashpot_realtime::timing::{optional_span, span};
-use dashpot_recording::ForceHistory;
+use dashpot_recording::{ForceHistory, UnfinishedEnd};
 use dashpot_study::verification::Effect;
 
 /// Report on the external dampers.
@@ -41,6 +41,9 @@ pub(in crate::commands) struct OutsideDamper {
     /// Number of the last line of the file, if it has no line end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(in crate::commands) unended_line: Option<u64>,
+    /// End of the rows of the file, if it is an unfinished MDF4 file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(in crate::commands) unfinished: Option<UnfinishedEnd>,
     /// Answers that its target did not give; `None` for a recorded force.
     #[serde(flatten)]
     pub(in crate::commands) silence: Option<Silence>,
@@ -70,6 +73,7 @@ impl OutsideReport {
             source: choice.name.clone(),
             is_recorded: matches!(choice.source, Source::File(_)),
             unended_line: None,
+            unfinished: None,
             silence: *silence,
         });
         Self {
@@ -82,12 +86,13 @@ impl OutsideReport {
         }
     }
 
-    /// Records which files of recorded forces have no line end on their last line; `histories` is in the order of the
+    /// Records which files of recorded forces have an uncertain end; `histories` is in the order of the
     /// dampers.
     pub(super) fn add_unended<'a>(&mut self, histories: impl Iterator<Item = &'a ForceHistory>) {
         let recorded = self.dampers.iter_mut().filter(|damper| damper.is_recorded);
         for (damper, history) in recorded.zip(histories) {
             damper.unended_line = history.unended_line();
+            damper.unfinished = history.unfinished();
         }
     }
 
@@ -99,6 +104,7 @@ impl OutsideReport {
             source,
             is_recorded,
             unended_line,
+            unfinished: end,
             silence,
         } in &self.dampers
         {
@@ -107,11 +113,10 @@ impl OutsideReport {
                 continue;
             }
             let text = if *is_recorded {
-                let warning = unended_line.map(|line| format!("; {}", unended(line)));
-                format!(
-                    "recorded force from {source}{}",
-                    warning.unwrap_or_default()
-                )
+                let warnings = [unended_line.map(unended), end.map(unfinished)];
+                let warnings = warnings.into_iter().flatten();
+                let warnings: String = warnings.map(|warning| format!("; {warning}")).collect();
+                format!("recorded force from {source}{warnings}")
             } else {
                 format!(
                     "on {source}: exchange every {} us, force delayed by {} us{}",

@@ -1,0 +1,23 @@
+//! Numbers rounded for text.
+
+/// Formats a number with up to six digits, without trailing zeros.
+pub(super) fn six_digits(number: f64) -> String {
+    digits(number, 5)
+}
+
+/// Formats a number with up to two digits, without trailing zeros.
+pub(super) fn two_digits(number: f64) -> String {
+    digits(number, 1)
+}
+
+/// Formats a number with up to `digits` digits after the first, without trailing zeros.
+fn digits(number: f64, digits: usize) -> String {
+    let text = format!("{number:.digits$e}");
+    match text.parse::<f64>() {
+        Ok(rounded) if rounded == 0.0 || (1e-4..1e9).contains(&rounded.abs()) => {
+            rounded.to_string()
+        }
+        Ok(rounded) => format!("{rounded:e}"),
+        Err(_) => text,
+    }
+}
