@@ -104,7 +104,7 @@ pub fn run(arguments: &SheetArguments) -> Outcome<()> {
 }
 
 /// Returns what makes a recording doubtful. Gaps do not, because they separate motions.
-fn doubts(name: &str, gaps: &Gaps) -> impl Iterator<Item = String> {
+fn doubts(name: &str, gaps: &Gaps) -> Vec<String> {
     let left_out = (gaps.left_out.rows > 0).then(|| {
         let rows = counted(gaps.left_out.rows, "row");
         format!("omitted {rows} with a missing value")
@@ -116,7 +116,7 @@ fn doubts(name: &str, gaps: &Gaps) -> impl Iterator<Item = String> {
         gaps.interpolation.as_ref().map(interpolated),
     ];
     let named = |doubt: String| format!("{name}: {}", doubt.trim_start_matches("warning: "));
-    doubts.into_iter().flatten().map(named)
+    doubts.into_iter().flatten().map(named).collect()
 }
 
 /// Returns the motions of a recording.

@@ -83,14 +83,21 @@ fn table(lines: &[Line]) -> Option<usize> {
     if first.cells.len() == length && first.cells.last().is_some_and(|cell| !cell.is_empty()) {
         return Some(0);
     }
-    let start = lines.len() - lines.iter().rev().take_while(fits).count();
+    let has_number = |line: &Line| line.cells.iter().any(|cell| is_number(cell));
     let is_row = |line: &Line| {
-        line.cells.iter().any(|cell| is_number(cell))
-            && line
-                .cells
-                .iter()
-                .all(|cell| cell.is_empty() || is_number(cell))
+        let mut cells = line.cells.iter();
+        has_number(line) && cells.all(|cell| cell.is_empty() || is_number(cell))
     };
+    // So is a first line of names above a row with as many cells.
+    if let [_, second, ..] = lines
+        && first.cells.len() > 1
+        && first.cells.len() == second.cells.len()
+        && !has_number(first)
+        && is_row(second)
+    {
+        return Some(0);
+    }
+    let start = lines.len() - lines.iter().rev().take_while(fits).count();
     let first_row = start + lines[start..].iter().position(is_row)?;
     let is_table = lines.len() - first_row >= MIN_ROWS && lines[first_row..].iter().all(is_row);
     if !is_table {
@@ -101,11 +108,13 @@ fn table(lines: &[Line]) -> Option<usize> {
         return None;
     }
     // Above the rows is the header, or the units and above these the header.
-    match first_row - start {
-        0..=2 => Some(start),
-        _ if has_unit(&lines[first_row - 1]) => Some(first_row - 2),
-        _ => Some(first_row - 1),
-    }
+    let header = match first_row - start {
+        0..=2 => start,
+        _ if has_unit(&lines[first_row - 1]) => first_row - 2,
+        _ => first_row - 1,
+    };
+    // A line with numbers is a damaged row.
+    (header == first_row || !has_number(&lines[header])).then_some(header)
 }
 
 /// True if a cell is a known unit.
@@ -158,6 +167,8 @@ mod tests {
             ("time;x\n0\n\n1;2\n2;3\n", None),
             ("time;x\n0;1;2\n1;2;3\n", None),
             ("0,1\n1,2\n", None),
+            ("time,x\n0,1\n1\n-1,2,3E\n2,3,4\n3,4,5\n", None),
+            ("time,x\n0\n-1,2,3E\n2,3,4\n3,4,5\n", None),
             ("", None),
         ] {
             assert_eq!(before(text), expected, "{text:?}");
