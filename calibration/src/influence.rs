@@ -59,6 +59,14 @@ impl Calibration {
             .collect()
     }
 
+    /// Returns the mean of the recordings' own oil temperatures; `None` for another key, or if a recording has none.
+    fn mean_temperature_c(&self, key: &str) -> Option<f64> {
+        let temperatures = self.loops.iter().map(|test| test.temperature_c);
+        let temperatures: Vec<f64> = temperatures.collect::<Option<_>>()?;
+        let count = temperatures.len();
+        (key == TEMPERATURE && count > 0).then(|| temperatures.iter().sum::<f64>() / count as f64)
+    }
+
     /// Computes the effect of the assumed parameters on the parameters calibrated at `coordinates`.
     ///
     /// For each end of an assumed parameter's interval, one Gauss-Newton step gives the shift of the minimum.
@@ -92,7 +100,7 @@ impl Calibration {
                 .map(|(low, high)| [low, high]);
             Ok(Influence {
                 key: key.into(),
-                value,
+                value: self.mean_temperature_c(key).unwrap_or(value),
                 uncertainty,
                 shifts: shifts.collect(),
                 chi_square: [low.chi_square, high.chi_square],

@@ -3,6 +3,7 @@
 mod damper_file;
 mod digits;
 mod further;
+mod index_rows;
 mod numbers;
 mod page;
 mod report;

@@ -6,17 +6,16 @@ use serde::Serialize;
 
 use super::digits::digits;
 use super::further::Further;
+use super::index_rows::{self, IndexRow};
 use super::{CalibrateArguments, words};
 use crate::commands::counted;
 use crate::commands::failure::Outcome;
 use crate::commands::gap_report::{interpolated, unended, unfinished};
 use dashpot_calibration::{
-    Calibrated, Calibration, HeldRig, IndexTest, Influence, Prior, RIG, Recorded, Warning,
+    Calibrated, Calibration, HeldRig, Influence, Prior, RIG, Recorded, Warning,
 };
 use dashpot_files::output;
 use dashpot_recording::{Gaps, Interpolation, UnfinishedEnd};
-use dashpot_testbench::TestbenchError;
-use dashpot_testbench::bench_test::{Indices, run_until_periodic};
 
 /// Half the width of the 95 % interval for the middle of a motion, in standard deviations of the noise.
 ///
@@ -196,16 +195,6 @@ pub(super) struct Loop {
     pub(super) misses: bool,
 }
 
-/// Indices of a test before and after calibration.
-#[derive(Serialize)]
-pub(super) struct IndexRow {
-    /// Name of the recording with this motion; `None` for a test of a table.
-    pub(super) recording: Option<String>,
-    pub(super) measured: IndexTest,
-    pub(super) before: Indices,
-    pub(super) after: Indices,
-}
-
 /// The whole report.
 #[derive(Serialize)]
 pub(super) struct Report {
@@ -288,30 +277,13 @@ impl Report {
             misses: fit.misses(test),
         });
         let before = arguments.damper.load()?;
-        let compared = |recording: Option<String>, measured: IndexTest| {
-            let indices_of = |damper| {
-                let cycle = run_until_periodic(damper, measured.motion(), calibration.step_s)?;
-                Ok::<Indices, TestbenchError>(cycle.indices())
-            };
-            let (before, after) = (indices_of(&before)?, indices_of(&found.damper)?);
-            Ok::<_, TestbenchError>(IndexRow {
-                recording,
-                measured,
-                before,
-                after,
-            })
-        };
-        let tabled = calibration.indices.iter();
-        let tabled = tabled.map(|measured| compared(None, measured.clone()));
-        let mut indices = tabled.collect::<Result<Vec<_>, _>>()?;
-        let rig = found.rig(calibration);
-        for recorded in inputs {
-            // A motion that the damper cannot follow forever has no indices to compare with.
-            let motions = recorded.index_tests(rig).into_iter();
-            indices.extend(
-                motions.filter_map(|measured| compared(Some(recorded.name.clone()), measured).ok()),
-            );
-        }
+        let indices = index_rows::rows(
+            arguments,
+            calibration,
+            inputs,
+            [&before, &found.damper],
+            found,
+        )?;
         Ok(Self {
             damper: arguments.damper.damper.clone(),
             overrides: arguments.damper.overrides.clone(),
@@ -356,7 +328,8 @@ impl Report {
     /// # Errors
     /// The output cannot be written.
     pub(super) fn print(out: &mut dyn Write, report: &Self) -> io::Result<()> {
-        let tests = counted((report.loops.len() + report.indices.len()) as u64, "test");
+        let tabled = report.indices.iter().filter(|row| row.recording.is_none());
+        let tests = counted((report.loops.len() + tabled.count()) as u64, "test");
         writeln!(out, "{} calibrated from {tests}", report.before())?;
         for recording in &report.recordings {
             if let Some(left_out) = recording.left_out() {
@@ -479,69 +452,5 @@ impl Report {
             writeln!(out)?;
         }
         Ok(())
-    }
-}
-
-impl IndexRow {
-    /// Describes the motion, with its recording.
-    pub(super) fn motion(&self, sign: &str) -> String {
-        let amplitude_mm = self.measured.amplitude_m * 1e3;
-        let frequency_hz = self.measured.frequency_hz;
-        match &self.recording {
-            None => format!("{sign}{amplitude_mm:.3} mm at {frequency_hz} Hz"),
-            Some(name) => format!("{name}: {sign}{amplitude_mm:.3} mm at {frequency_hz:.4} Hz"),
-        }
-    }
-
-    /// Returns, for each measured index, its name, its measured value, and its values before and after calibration.
-    pub(super) fn lines(&self) -> impl Iterator<Item = (&'static str, String, f64, f64)> {
-        let IndexRow {
-            measured,
-            before,
-            after,
-            ..
-        } = self;
-        let largest = |indices: &Indices| {
-            indices
-                .max_extension_force_n
-                .max(indices.max_compression_force_n)
-        };
-        let lines = [
-            (
-                "largest force in extension, N",
-                measured
-                    .max_extension_force_n
-                    .map(|force| format!("{force:.1}")),
-                before.max_extension_force_n,
-                after.max_extension_force_n,
-            ),
-            (
-                "largest force in compression, N",
-                measured
-                    .max_compression_force_n
-                    .map(|force| format!("{force:.1}")),
-                before.max_compression_force_n,
-                after.max_compression_force_n,
-            ),
-            (
-                "energy per cycle, J",
-                measured
-                    .energy_per_cycle_j
-                    .map(|energy| format!("{energy:.1}")),
-                before.energy_per_cycle_j,
-                after.energy_per_cycle_j,
-            ),
-            (
-                "largest force, N",
-                measured
-                    .force_at_most_n
-                    .map(|force| format!("<= {force:.1}")),
-                largest(before),
-                largest(after),
-            ),
-        ];
-        lines
-            .into_iter()
-            .filter_map(|(name, measured, before, after)| Some((name, measured?, before, after)))
     }
 }
