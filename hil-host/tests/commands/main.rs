@@ -8,6 +8,7 @@ mod calibrate_advice_did_not_exist;
 mod calibrate_force_offset_was_refused;
 mod calibrate_linear_damper_passed_as_in_service;
 mod calibrate_oil_temperature_shifted_in_silence;
+mod calibrate_several;
 mod calibrate_start_from_another_preset_was_not_named;
 mod calibrate_wrong_sign_and_unit_were_not_named;
 mod case_options;
