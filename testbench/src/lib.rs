@@ -13,12 +13,14 @@ pub mod limits;
 pub mod motion;
 pub mod plate;
 pub mod published;
+pub mod recorded_health;
 pub mod replay;
 pub mod response;
 pub mod shim_valves;
 pub mod smoothing;
 pub mod step_errors;
 pub mod swept_sine;
+pub mod trend;
 pub mod verification;
 
 pub use error::TestbenchError;

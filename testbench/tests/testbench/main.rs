@@ -4,3 +4,4 @@ mod damper_response;
 mod plate;
 mod sheet_file;
 mod swept_sine;
+mod trend;
