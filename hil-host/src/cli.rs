@@ -13,7 +13,7 @@ const WIDTH: usize = 120;
 
 /// Commands in the order of the help.
 const GROUPS: [(&str, &[&str]); 7] = [
-    ("Recordings", &["channels", "replay", "calibrate"]),
+    ("Recordings", &["channels", "replay", "calibrate", "health"]),
     (
         "Dampers",
         &["rig", "response", "shims", "verify", "budget", "export"],

@@ -13,6 +13,7 @@ pub mod demonstrate;
 pub mod export;
 pub mod failure;
 mod gap_report;
+pub mod health;
 mod health_reading;
 pub mod hybrid;
 pub mod interruption;
@@ -64,6 +65,7 @@ pub enum Command {
     Budget(budget::BudgetArguments),
     Export(export::ExportArguments),
     Calibrate(calibrate::CalibrateArguments),
+    Health(Box<health::HealthArguments>),
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
     Vehicle(vehicle::VehicleArguments),
@@ -109,6 +111,7 @@ impl Command {
             Self::Budget(arguments) => budget::run(arguments),
             Self::Export(arguments) => export::run(arguments),
             Self::Calibrate(arguments) => calibrate::run(arguments),
+            Self::Health(arguments) => health::run(arguments),
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
             Self::Vehicle(arguments) => vehicle::run(arguments),

@@ -66,7 +66,10 @@ impl Summary {
             self.table
         );
         for row in &self.refused {
-            text += &format!("note: not used: {}: {}\n", row.file, row.refused_because);
+            // Errors from reading name the file already.
+            let reason = row.refused_because.strip_prefix(&row.file);
+            let reason = reason.map_or(&*row.refused_because, |rest| rest.trim_start_matches(": "));
+            text += &format!("note: not used: {}: {reason}\n", row.file);
         }
         for file in &self.files {
             text += &format!("wrote {file}\n");

@@ -144,12 +144,12 @@ fn the_worn_damper_is_first_and_its_date_is_within_the_interval() {
         .unwrap()
         .mount
         .clearance_m;
-    // 0.13 mm and 0.6 % a month.
+    // 0.13 mm, and 0.5 % of the damping, a month.
     write(folder.path(), "loose", 9, |month| {
         clearance(nominal + 0.13e-3 * month)
     });
     write(folder.path(), "thin-oil", 9, |month| {
-        flow(1.0 + 0.006 * month)
+        flow(1.0 / (1.0 - 0.005 * month))
     });
     // Not the nominal damper, but it does not change.
     write(folder.path(), "as-new", 9, |_| {
@@ -170,7 +170,11 @@ fn the_worn_damper_is_first_and_its_date_is_within_the_interval() {
 
     for (damper, parameter, truth_days) in [
         (0, Parameter::Clearance, 30.0 * (2.9e-3 - nominal) / 0.13e-3),
-        (1, Parameter::DampingFactor, 30.0 * 0.15 / 0.006),
+        (
+            1,
+            Parameter::DampingFactor,
+            30.0 * (1.0 - 1.0 / 1.15) / 0.005,
+        ),
     ] {
         let damper = &fleet.dampers[damper];
         let trend = damper.worst(Axis::Date);
