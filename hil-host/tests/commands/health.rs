@@ -216,7 +216,7 @@ fn what_is_wrong_with_a_folder_or_an_option_is_named() {
     assert!(error(&["--limit-clearance-m", "-1"], 2).contains("--limit-clearance-m"));
     assert!(error(&["--output", "x.mf4"], 2).contains("allowed: .csv, .parquet"));
     assert!(error(&["--output", "x", "--trends", "x"], 2).contains("--output and --trends"));
-    assert!(error(&["--output", "fleet/x.csv"], 2).contains("--output"));
+    assert!(error(&["--output", "fleet/recordings.csv"], 2).contains("--output"));
     assert!(error(&["--memory-s", "0"], 2).contains("--memory-s"));
     assert!(error(&["--set", "mount.clearance=1"], 2).contains("--set mount.clearance"));
     // A listed recording that is not there is listed with the reason.
