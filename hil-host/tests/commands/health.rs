@@ -218,7 +218,7 @@ fn what_is_wrong_with_a_folder_or_an_option_is_named() {
     assert!(error(&["--output", "x", "--trends", "x"], 2).contains("--output and --trends"));
     assert!(error(&["--output", "fleet/recordings.csv"], 2).contains("--output"));
     assert!(error(&["--memory-s", "0"], 2).contains("--memory-s"));
-    assert!(error(&["--set", "mount.clearance=1"], 2).contains("--set mount.clearance"));
+    assert!(error(&["--set", "mount.clearance=1"], 2).contains("after --set"));
     // A listed recording that is not there is listed with the reason.
     let text = text_of(&health(folder.path(), &["--mileage"]).success());
     assert!(
