@@ -13,7 +13,10 @@ const WIDTH: usize = 120;
 
 /// Commands in the order of the help.
 const GROUPS: [(&str, &[&str]); 7] = [
-    ("Recordings", &["channels", "replay", "sheet", "calibrate"]),
+    (
+        "Recordings",
+        &["channels", "replay", "sheet", "calibrate", "health"],
+    ),
     (
         "Dampers",
         &["rig", "response", "shims", "verify", "budget", "export"],

@@ -312,6 +312,7 @@ fn request(
         held.push((key.extract()?, value.extract()?));
     }
     Ok(Request {
+        vary_each: Vec::new(),
         vary: keys,
         priors: given,
         hold: held,

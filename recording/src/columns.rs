@@ -31,10 +31,31 @@ enum Column {
 /// # Errors
 /// Returns an error if a file cannot be read or written.
 pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
+    let open = || csv::Reader::from_path(from);
+    convert(from, open, to, texts)
+}
+
+/// Writes the CSV table in `text`, which must have a header, as the Parquet file `to`; `texts` as for [`write`].
+///
+/// # Errors
+/// Returns an error if the table is not CSV or the file cannot be written.
+pub fn write_text(text: &[u8], to: &Path, texts: &[&str]) -> Result<(), FileError> {
+    convert(to, || Ok(csv::Reader::from_reader(text)), to, texts)
+}
+
+/// Converts the table that `open` opens, which is read twice; errors in it name `from`.
+fn convert<R: io::Read>(
+    from: &Path,
+    open: impl Fn() -> Result<csv::Reader<R>, csv::Error>,
+    to: &Path,
+    texts: &[&str],
+) -> Result<(), FileError> {
     let unreadable = |error: csv::Error| FileError::in_file(from, error);
     let unwritable = |error: ParquetError| cannot_write(to, io::Error::other(error));
-    let are_numbers = numbers(from, texts)?;
-    let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
+    let are_numbers = open()
+        .and_then(|rows| numbers(rows, texts))
+        .map_err(unreadable)?;
+    let mut rows = open().map_err(unreadable)?;
     let names = rows.headers().map_err(unreadable)?.clone();
     let schema = schema(names.iter().zip(&are_numbers)).map_err(unwritable)?;
     let mut columns: Vec<Column> = are_numbers
@@ -88,14 +109,12 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
 }
 
 /// For each column, returns true if at least one cell is a number and all others are numbers or empty.
-fn numbers(from: &Path, texts: &[&str]) -> Result<Vec<bool>, FileError> {
-    let unreadable = |error: csv::Error| FileError::in_file(from, error);
-    let mut rows = csv::Reader::from_path(from).map_err(unreadable)?;
-    let names = rows.headers().map_err(unreadable)?;
+fn numbers<R: io::Read>(mut rows: csv::Reader<R>, texts: &[&str]) -> Result<Vec<bool>, csv::Error> {
+    let names = rows.headers()?;
     let mut only_numbers: Vec<bool> = names.iter().map(|name| !texts.contains(&name)).collect();
     let mut has_number = vec![false; only_numbers.len()];
     let mut row = csv::StringRecord::new();
-    while rows.read_record(&mut row).map_err(unreadable)? {
+    while rows.read_record(&mut row)? {
         for (index, cell) in row.iter().enumerate() {
             let is_number = cell.parse::<f64>().is_ok();
             only_numbers[index] &= is_number || cell.is_empty();

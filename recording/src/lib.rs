@@ -32,6 +32,7 @@ mod stream;
 pub mod stretches;
 #[cfg(feature = "parquet")]
 pub(crate) mod sums;
+pub mod table;
 mod text;
 mod text_options;
 pub mod tick_grid;

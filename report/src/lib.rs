@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 
 mod error;
+pub mod fleet;
 pub mod health;
 pub mod page;
 pub mod plot;

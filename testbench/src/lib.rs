@@ -14,6 +14,7 @@ pub mod measured_sheet;
 pub mod motion;
 pub mod plate;
 pub mod published;
+pub mod recorded_health;
 pub mod replay;
 pub mod response;
 pub mod shim_valves;
@@ -21,6 +22,7 @@ pub mod smoothing;
 pub mod steady;
 pub mod step_errors;
 pub mod swept_sine;
+pub mod trend;
 pub mod verification;
 
 pub use error::TestbenchError;

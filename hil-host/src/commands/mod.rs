@@ -13,6 +13,7 @@ pub mod demonstrate;
 pub mod export;
 pub mod failure;
 mod gap_report;
+pub mod health;
 mod health_reading;
 pub mod hybrid;
 pub mod interruption;
@@ -68,6 +69,7 @@ pub enum Command {
     Export(export::ExportArguments),
     Sheet(sheet::SheetArguments),
     Calibrate(calibrate::CalibrateArguments),
+    Health(Box<health::HealthArguments>),
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
     Vehicle(vehicle::VehicleArguments),
@@ -114,6 +116,7 @@ impl Command {
             Self::Export(arguments) => export::run(arguments),
             Self::Sheet(arguments) => sheet::run(arguments),
             Self::Calibrate(arguments) => calibrate::run(arguments),
+            Self::Health(arguments) => health::run(arguments),
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
             Self::Vehicle(arguments) => vehicle::run(arguments),

@@ -28,6 +28,7 @@ mod firmware_bank;
 mod force_limit_of_the_oil;
 mod gaps;
 mod garbage_among_rows;
+mod health;
 mod hybrid;
 mod hybrid_plan;
 mod interruption;

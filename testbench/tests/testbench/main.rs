@@ -5,3 +5,4 @@ mod plate;
 mod sheet_file;
 mod steady;
 mod swept_sine;
+mod trend;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use dashpot_core::CheckedParameters;
-use dashpot_core::health::{Baseline, Estimate, HealthModel, HealthReading, HealthStatus};
+use dashpot_core::health::{Baseline, Estimate, HealthReading, HealthStatus};
 use serde::{Deserialize, Serialize};
 
 use super::ReplayArguments;
@@ -16,15 +16,12 @@ use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::streams;
 use dashpot_calibration::cause::Causes;
 use dashpot_files::input;
-use dashpot_recording::tick_grid::MeasuredGrid;
-use dashpot_recording::{Interpolation, Measurement};
+use dashpot_recording::Interpolation;
 use dashpot_report::health::{LikelyCauses, page};
 use dashpot_testbench::health::{
-    History, Noise, alarm_in_words, alarm_name, in_words, watch, whole_in_words,
+    History, Noise, alarm_in_words, alarm_name, in_words, whole_in_words,
 };
-
-/// Number of samples used to estimate the noise if it is not given.
-const NOISE_SAMPLES: usize = 20_000;
+use dashpot_testbench::recorded_health;
 
 /// Options of the health estimate.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -136,7 +133,10 @@ impl Watched {
             let set = model.set_baseline(baseline(path)?);
             set.map_err(|error| no_baseline(path, error))?;
         }
-        let (history, interpolation) = history(arguments, &model)?;
+        let step_s = arguments.step_us.step_s();
+        let channels = arguments.recording.channels();
+        let (history, interpolation) =
+            recorded_health::history(&arguments.input, &channels, &model, step_s, step_s)?;
         let Some(last) = history.last() else {
             return Err(Failure::new(
                 "the recording has no samples to estimate from",
@@ -179,19 +179,8 @@ fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
     if let Some(noise) = sensors.noise() {
         return Ok(noise);
     }
-    let mut measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
-    let (mut times_s, mut displacements_m, mut forces_n) = (Vec::new(), Vec::new(), Vec::new());
-    while times_s.len() < NOISE_SAMPLES {
-        let Some(sample) = measurement.next_sample()? else {
-            break;
-        };
-        times_s.push(sample.time_s);
-        displacements_m.push(sample.displacement_m);
-        forces_n.push(sample.force_n);
-    }
-    let step_s = arguments.step_us.step_s();
-    let found = Noise::estimate(&times_s, &displacements_m, &forces_n, step_s);
-    let found = found.filter(|noise| noise.displacement_m > 0.0 && noise.force_n > 0.0);
+    let channels = arguments.recording.channels();
+    let found = recorded_health::noise(&arguments.input, &channels, arguments.step_us.step_s())?;
     let found = found.ok_or_else(|| {
         Failure::new(format!(
             "{}: cannot estimate the noise: this needs motion and at least 100 samples without a gap; \
@@ -235,36 +224,6 @@ fn no_baseline(path: &Path, reason: impl std::fmt::Display) -> Failure {
         "{}: {reason}; allowed: the report of a healthy run, from `dashpot replay --health FILE --format json`",
         input::name(path).display()
     ))
-}
-
-/// Returns the estimates along the recording, and how its force was interpolated.
-fn history(
-    arguments: &ReplayArguments,
-    model: &HealthModel,
-) -> Outcome<(History, Option<Interpolation>)> {
-    let step_s = arguments.step_us.step_s();
-    let measurement = Measurement::open(&arguments.input, &arguments.recording.channels())?;
-    let mut ticks = MeasuredGrid::new(measurement, step_s)?;
-    let start_s = ticks.start_s();
-    let mut failed = None;
-    let samples = std::iter::from_fn(|| match ticks.next_tick() {
-        Ok(tick) => tick.map(|tick| (tick.displacement_m, tick.force_n)),
-        Err(error) => {
-            failed = Some(error);
-            None
-        }
-    });
-    let mut history = watch(model, samples, step_s);
-    for reading in &mut history.readings {
-        reading.time_s += start_s;
-    }
-    for (_, time_s) in &mut history.alarms {
-        *time_s += start_s;
-    }
-    match failed {
-        Some(error) => Err(error.into()),
-        None => Ok((history, ticks.measurement().gaps().interpolation)),
-    }
 }
 
 impl HealthReport {
