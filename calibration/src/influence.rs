@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
 
+use super::keys::TEMPERATURE;
 use super::model::Model;
 use super::{Calibration, CalibrationError};
 use dashpot_files::damper::range;
@@ -10,9 +11,6 @@ use dashpot_files::damper::range;
 /// Default uncertainty of the oil temperature (K), as the half-width of the 95 % interval: for an indoor bench whose
 /// oil warms up.
 pub const TEMPERATURE_UNCERTAINTY_K: f64 = 5.0;
-
-/// Key of the oil temperature.
-pub const TEMPERATURE: &str = "oil.temperature_c";
 
 /// Key of the oil density.
 pub const DENSITY: &str = "oil.density_kg_per_m3";

@@ -13,3 +13,6 @@ pub const DISPLACEMENT_OFFSET: &str = "displacement_offset_m";
 
 /// Rig parameters that forces determine.
 pub const RIG: [&str; 2] = [SKEW, FORCE_OFFSET];
+
+/// Key of the oil temperature.
+pub const TEMPERATURE: &str = "oil.temperature_c";

@@ -6,8 +6,7 @@ use nalgebra::DMatrix;
 
 use super::CalibrationError;
 use super::indices::IndexTest;
-use super::influence::TEMPERATURE;
-use super::keys::{FORCE_OFFSET, SKEW};
+use super::keys::{FORCE_OFFSET, SKEW, TEMPERATURE};
 use super::loops::LoopTest;
 use super::rig::HeldRig;
 use super::varied::Varied;

@@ -14,7 +14,7 @@ use dashpot_files::damper::{KeyedParameters, range};
 /// A parameter that is varied.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Varied {
-    /// `table.key` of the damper file, [`SKEW`] or [`FORCE_OFFSET`]; with `@N` at the end if it belongs to test N alone.
+    /// `table.key` of the damper file, [`SKEW`] or [`FORCE_OFFSET`]; with `@N` if it belongs to test N alone.
     pub key: String,
     /// Where the search starts, in the key's unit.
     pub start: f64,

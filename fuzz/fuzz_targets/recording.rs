@@ -1,5 +1,6 @@
 //! Reads any bytes as a recording. Either they are refused, or the rows are finite and their times increase. Plain rows
-//! give the same samples and errors with and without the CSV reader.
+//! give the same samples with and without the CSV reader; of several reasons to refuse a file, the first one that has
+//! arrived is reported.
 #![no_main]
 
 use std::io::{self, Cursor, Read, Write};
@@ -34,7 +35,8 @@ fuzz_target!(|bytes: &[u8]| {
     let headed = [b"time_s,displacement_m\n", bytes].concat();
     for text in [bytes.to_vec(), headed] {
         let found = read(Box::new(Cursor::new(text.clone())));
-        assert_eq!(found, read(Box::new(Bytes(Cursor::new(text)))));
+        let by_bytes = read(Box::new(Bytes(Cursor::new(text))));
+        assert_eq!(found.as_ref().ok(), by_bytes.as_ref().ok());
         let Ok(samples) = found else {
             continue;
         };

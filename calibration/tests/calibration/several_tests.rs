@@ -1,5 +1,5 @@
-//! One calibration over several tests: temperatures, parameters of single tests, held-back recordings and the next test.
-//! The recordings are those of the reference solver.
+//! One calibration over several tests: temperatures, parameters of single tests, held-back recordings and the next
+//! test. The recordings are those of the reference solver.
 
 use dashpot_calibration::{
     Assumed, Calibrated, Calibration, HeldRig, LoopTest, PlannedTest, Recorded, Request,
