@@ -169,7 +169,7 @@ pub fn run(arguments: &CalibrateArguments) -> Outcome<()> {
     let planned = arguments.further.planned()?;
     let (mut recordings, mut loops, mut inputs) = (Vec::new(), Vec::new(), Vec::new());
     for (path, temperature_c) in arguments.input.iter().zip(arguments.temperatures_c()?) {
-        let read = recorded_tests(arguments, path, temperature_c, &in_words)?;
+        let read = recorded_tests(arguments, path, temperature_c, in_words)?;
         recordings.push(Recording::new(&read.recorded, &read.gaps, read.tests.len()));
         loops.extend(read.tests);
         inputs.push(read.recorded);
