@@ -35,7 +35,7 @@ pub fn write(from: &Path, to: &Path, texts: &[&str]) -> Result<(), FileError> {
     convert(from, open, to, texts)
 }
 
-/// Writes the CSV table in `text`, which must have a header, as the Parquet file `to`; `texts` as for [`write`].
+/// Writes the CSV table in `text`, which must have a header, as the Parquet file `to`; `texts` as for [`write()`].
 ///
 /// # Errors
 /// Returns an error if the table is not CSV or the file cannot be written.

@@ -1,6 +1,6 @@
 //! Steady harmonic cycles in the recording of a bench, and the indices of their mean loop with uncertainties.
 //!
-//! 1. A smoothing spline removes the noise of both signals ([`smooth`](crate::smoothing::smooth)).
+//! 1. A smoothing spline removes the noise of both signals ([`smooth`]).
 //! 2. Each rise of the displacement through its middle begins a cycle; a sine is fitted to it.
 //! 3. Successive cycles of equal amplitude and frequency form a motion.
 //! 4. Cycles at its ends whose displacement or force differs from that of the others are left out: the rig starts or
