@@ -80,8 +80,8 @@ const HEADINGS: [Heading; 26] = [
     Heading {
         text: "Fit",
         commands: &["calibrate"],
-        options: "indices vary-each temperature-c validate plan prior no-priors no-skew hold temperature-uncertainty-k density-uncertainty-kg-per-m3 \
-                  max-misfit-percent starts step-us",
+        options: "indices vary-each temperature-c validate plan prior no-priors no-skew hold \
+                  temperature-uncertainty-k density-uncertainty-kg-per-m3 max-misfit-percent starts step-us",
     },
     Heading {
         text: "Shards",

@@ -41,8 +41,8 @@ pub fn page(title: &str, fleet: &Fleet) -> Result<String, DrawError> {
         }
         (footer(&html! {
             "Each recording gives one reading, at its end. Lines are weighted by the deviations of the readings and by \
-             their scatter from recording to recording; intervals contain the true value in 95 % of cases if the wear is \
-             steady. docs/health.md describes the method, docs/out-of-service.md where the limits come from."
+             their scatter from recording to recording; intervals contain the true value in 95 % of cases if the wear \
+             is steady. docs/health.md describes the method, docs/out-of-service.md where the limits come from."
         }))
     };
     Ok(document("Dashpot: dampers of a fleet", &body))
