@@ -110,8 +110,8 @@ fn table(fleet: &Fleet, is_installed: bool) -> Markup {
             }
         }
         p {
-            "Damping, stiffness and clearance are those at the last reading, with 95 % intervals. Damping is relative to \
-             nominal. A stiffness that cannot be told from a rigid mount is “rigid”."
+            "Damping, stiffness and clearance are those at the last reading, with 95 % intervals. Damping is relative \
+             to nominal. A stiffness that cannot be told from a rigid mount is “rigid”."
         }
     }
 }

@@ -153,8 +153,8 @@ fn scatter_variance(points: &[Point], degrees: f64) -> f64 {
 }
 
 impl Line {
-    /// Fits a line; `None` with fewer than [`MIN_POINTS`] readings, at fewer than two abscissas, or with a deviation that
-    /// is not positive.
+    /// Fits a line; `None` with fewer than [`MIN_POINTS`] readings, at fewer than two abscissas, or with a deviation
+    /// that is not positive.
     pub fn fit(points: &[Point]) -> Option<Self> {
         let is_usable = |point: &Point| {
             point.x.is_finite() && point.y.is_finite() && point.sd.is_finite() && point.sd > 0.0
