@@ -156,7 +156,8 @@ fn in_folder(folder: &Path, model: String) -> String {
 fn reason(error: &csv::Error) -> String {
     match error.kind() {
         csv::ErrorKind::Deserialize { err, .. } => format!(
-            "{err}; columns: vehicle, damper, date, file; optional: mileage_km, temperature_c, serial_number, kind, model"
+            "{err}; columns: vehicle, damper, date, file; optional: mileage_km, temperature_c, serial_number, \
+             kind, model"
         ),
         _ => error.to_string(),
     }

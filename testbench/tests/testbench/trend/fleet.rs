@@ -1,4 +1,5 @@
-//! Fleets of recordings with known wear: the forces are those of the step with noise, the order and the dates are known.
+//! Fleets of recordings with known wear: the forces are those of the step with noise, the order and the dates are
+//! known.
 
 use std::f64::consts::TAU;
 use std::fs;
