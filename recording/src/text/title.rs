@@ -17,6 +17,9 @@ const LABVIEW_END: &[u8] = b"***End_of_Header***";
 /// Name of the last column of LabVIEW measurement files, which most rows leave out with its separator.
 pub(super) const COMMENT: &str = "Comment";
 
+/// Start of UTF-8 as some programs write it.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// A line of the text, split into cells.
 struct Line {
     /// Number of lines before it.
@@ -27,6 +30,7 @@ struct Line {
 /// Returns an error that states how many lines precede the table, if the text at `head` (whole lines) begins with other
 /// lines and its table was found. `separator` is the chosen separator.
 pub(super) fn check(head: &[u8], separator: Option<Separator>) -> Result<(), RecordingError> {
+    let head = head.strip_prefix(BYTE_ORDER_MARK).unwrap_or(head);
     let before = match head.starts_with(LABVIEW) {
         true => labview(head),
         false => lines_before_table(head, separator),
@@ -157,6 +161,8 @@ mod tests {
                 Some(2),
             ),
             ("Rig 7\r\nby hand\r\ntime,x\r\n0,1\r\n1,2\r\n", Some(2)),
+            ("\u{feff}#note\ntime,x\n0,1\n1,2\n", None),
+            ("\u{feff}Rig 7\ntime;x;F\n0;1;2\n1;2;3\n", Some(1)),
             ("#note\nRig 7\n0\t1\t2\n1\t2\t3\n", Some(2)),
             ("Rig;7;\nby;hand;\ntime;x;F\n0;1;2\n1;2;3\n", Some(2)),
             ("Rig;7;\ntime;x;F\ns;mm;N\n0;1;2\n1;2;3\n", Some(1)),
