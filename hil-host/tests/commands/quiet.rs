@@ -71,7 +71,7 @@ fn verdicts_have_colours_if_forced_and_are_plain_otherwise() {
     assert_eq!(with("CLICOLOR", &SHEET, folder.path()).stdout, plain.stdout);
     let coloured = with("CLICOLOR_FORCE", &SHEET, folder.path()).stdout;
     let coloured = String::from_utf8(coloured).unwrap();
-    assert!(coloured.contains("\x1b[32mwithin  \x1b[0m"), "{coloured}");
+    assert!(coloured.contains("\x1b[32mwithin   \x1b[0m"), "{coloured}");
     let stripped = ["\x1b[32m", "\x1b[31m", "\x1b[33m", "\x1b[0m"]
         .iter()
         .fold(coloured, |text, code| text.replace(code, ""));

@@ -13,8 +13,9 @@ use dashpot_report::health::LikelyCauses;
 use super::ReplayArguments;
 use crate::commands::failure::Outcome;
 
-/// End of the recording in which the cause of a change is looked for (s).
-const CAUSE_S: f64 = 30.0;
+/// End of the recording in which the cause of a change is looked for (s): short, because a model is fitted to all of
+/// it, so a change within it gives a value in between.
+const CAUSE_S: f64 = 8.0;
 
 /// Least probability of a cause that is shown.
 const SHOWN_PROBABILITY: f64 = 0.02;
