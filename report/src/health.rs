@@ -111,17 +111,26 @@ fn likely(likely: &LikelyCauses) -> Markup {
 
 fn force_and_contact(history: &History) -> Figure {
     let readings = || history.readings.iter();
-    let force = readings().map(|point| {
-        let [least, greatest] = point.force_n.map(|force| force * 1e-3);
-        (point.time_s, least, greatest)
-    });
+    let force = || {
+        let forces =
+            readings().map(|point| (point.time_s, point.force_n.map(|force| force * 1e-3)));
+        forces.collect::<Vec<_>>()
+    };
+    let end = |end: usize| {
+        force()
+            .into_iter()
+            .map(move |(time_s, ends)| (time_s, ends[end]))
+    };
+    let band = force().into_iter();
+    let band = band.map(|(time_s, [least, greatest])| (time_s, least, greatest));
+    let force = vec![
+        Curve::band("", RESULT, band),
+        Curve::new("", RESULT, end(0)),
+        Curve::new("force", RESULT, end(1)),
+    ];
     let share = readings().map(|point| (point.time_s, 100.0 * point.used_share));
     let panels = [
-        panel(
-            "time, s",
-            "force, kN",
-            vec![Curve::band("force", RESULT, force)],
-        ),
+        panel("time, s", "force, kN", force),
         panel(
             "time, s",
             "samples used, %",

@@ -7,7 +7,6 @@ use crate::processor::CORTEX_M7;
 use crate::run::{Outcome, cargo, cargo_with};
 use crate::rust_version;
 use crate::setup::install_for_tests;
-use crate::tags::check_interfaces;
 use crate::test_run::test;
 use crate::timings;
 use crate::tools::CARGO_HACK;
@@ -48,7 +47,6 @@ pub fn ci() -> Outcome {
         &["doc", "--workspace", "--no-deps"],
         &[("RUSTDOCFLAGS", "-D warnings")],
     )?;
-    check_interfaces()?;
     rehearse_publishing()?;
     rust_version::check()?;
     each_feature()?;

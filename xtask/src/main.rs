@@ -23,8 +23,7 @@ Usage: cargo xtask <command>
 
 Commands:
   test                   install the tools that tests need, then run every test
-  ci                     formatting, lints, documentation, public interfaces, packages, Rust versions, each feature,
-                         build time, test
+  ci                     formatting, lints, documentation, packages, Rust versions, each feature, build time, test
   timings [--tests]      build the command, or every test, into an empty folder; print the processor time of each
                          package and check the bounds of the command's build
   firmware               build the images for the target

@@ -90,7 +90,8 @@ impl Axis {
 }
 
 fn date(x: f64) -> Option<NaiveDate> {
-    NaiveDate::from_num_days_from_ce_opt(x.round() as i32)
+    let day = x.is_finite().then(|| x.round() as i32);
+    day.and_then(NaiveDate::from_num_days_from_ce_opt)
 }
 
 /// Formats a number in whole units with a space before each three digits.
