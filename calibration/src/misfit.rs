@@ -119,7 +119,7 @@ impl Model<'_> {
 }
 
 /// Returns the root mean square of a test's forces about their mean (N).
-fn force_rms_n(test: &LoopTest) -> f64 {
+pub(super) fn force_rms_n(test: &LoopTest) -> f64 {
     let forces = test.counted_forces_n();
     let count = forces.len().max(1) as f64;
     let mean = forces.iter().sum::<f64>() / count;

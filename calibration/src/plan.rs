@@ -24,7 +24,7 @@ pub struct PlannedTest {
     pub temperature_c: Option<f64>,
 }
 
-/// What a test would tell.
+/// How much a test would narrow the parameters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Promise {
     /// Name of the test.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::loops::LoopTest;
+use super::misfit::force_rms_n;
 use super::model::Model;
 use super::residual::correlation_samples;
 use super::{Calibrated, Calibration, CalibrationError};
@@ -86,10 +87,8 @@ impl Predicted {
         let measured = test.counted_forces_n();
         let count = measured.len().max(1) as f64;
         let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / count;
-        let force_mean = mean(&mut measured.iter().copied());
-        let force_rms_n =
-            mean(&mut measured.iter().map(|force| (force - force_mean).powi(2))).sqrt();
         let pairs = || measured.iter().zip(forces_n);
+        let force_rms_n = force_rms_n(test);
         let mean_n = mean(&mut pairs().map(|(force, model)| force - model));
         let residuals: Vec<f64> = pairs()
             .map(|(force, model)| force - model - mean_n)

@@ -25,9 +25,5 @@ pub fn sha256(path: &Path) -> Result<String, FileError> {
             count => digest.update(&block[..count]),
         }
     }
-    Ok(digest
-        .finalize()
-        .iter()
-        .map(|byte| format!("{byte:02x}"))
-        .collect())
+    Ok(dashpot_files::hexadecimal(&digest.finalize()))
 }

@@ -111,18 +111,9 @@ fn likely(likely: &LikelyCauses) -> Markup {
 
 fn force_and_contact(history: &History) -> Figure {
     let readings = || history.readings.iter();
-    let force = || {
-        let forces =
-            readings().map(|point| (point.time_s, point.force_n.map(|force| force * 1e-3)));
-        forces.collect::<Vec<_>>()
-    };
-    let end = |end: usize| {
-        force()
-            .into_iter()
-            .map(move |(time_s, ends)| (time_s, ends[end]))
-    };
-    let band = force().into_iter();
-    let band = band.map(|(time_s, [least, greatest])| (time_s, least, greatest));
+    let end = |end: usize| readings().map(move |point| (point.time_s, point.force_n[end] * 1e-3));
+    let band = end(0).zip(end(1));
+    let band = band.map(|((time_s, least), (_, greatest))| (time_s, least, greatest));
     let force = vec![
         Curve::band("", RESULT, band),
         Curve::new("", RESULT, end(0)),

@@ -70,7 +70,7 @@ pub struct Causes {
     /// All causes.
     pub causes: Vec<Cause>,
     /// Root mean square of the force that even the best cause does not explain, beyond the noise, as a share of the
-    /// force. Above [`MAX_UNEXPLAINED`] none of the causes explains the recording.
+    /// force. If it is above [`MAX_UNEXPLAINED`], no cause explains the recording.
     pub unexplained: f64,
     /// Offset of the force fitted along with the best cause (N).
     pub force_offset_n: f64,

@@ -1,4 +1,4 @@
-//! Least value of a function of one variable.
+//! Minimum of a function of one variable.
 
 /// Golden section, `(sqrt(5) - 1)/2`.
 const GOLDEN: f64 = 0.618_033_988_749_894_8;

@@ -24,7 +24,7 @@ pub(super) struct FurtherArguments {
     plan: Option<String>,
 }
 
-/// What the tests that were not fitted tell.
+/// Results about tests that were not fitted.
 #[derive(Debug, Serialize)]
 pub(super) struct Further {
     /// Tests that were held back.
@@ -62,7 +62,7 @@ impl FurtherArguments {
 }
 
 impl Further {
-    /// Predicts the tests that were held back, and computes what each of the `planned` tests would tell.
+    /// Predicts the held-back tests, and computes how much each of the `planned` tests would narrow the parameters.
     ///
     /// # Errors
     /// A recording cannot be read, or a damper cannot be built.

@@ -17,10 +17,10 @@ use crate::commands::failure::Outcome;
 /// it, so a change within it gives a value in between.
 const CAUSE_S: f64 = 8.0;
 
-/// Least probability of a cause that is shown.
+/// Causes with a smaller probability are not shown.
 const SHOWN_PROBABILITY: f64 = 0.02;
 
-/// Returns the likely causes of what the end of the recording shows; `None` if it is too short to tell.
+/// Returns the likely causes of a change at the end of the recording; `None` if it is too short to tell.
 pub(super) fn causes(
     arguments: &ReplayArguments,
     parameters: &CheckedParameters,
