@@ -26,6 +26,7 @@ mod request;
 mod residual;
 mod rig;
 mod varied;
+pub mod vehicle_sensors;
 mod warning;
 
 pub use determination::{Determination, Determined};

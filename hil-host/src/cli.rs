@@ -15,7 +15,14 @@ const WIDTH: usize = 120;
 const GROUPS: [(&str, &[&str]); 7] = [
     (
         "Recordings",
-        &["channels", "replay", "sheet", "calibrate", "health"],
+        &[
+            "channels",
+            "replay",
+            "sheet",
+            "calibrate",
+            "health",
+            "vehicle-sensors",
+        ],
     ),
     (
         "Dampers",

@@ -27,3 +27,13 @@ pub fn sha256(path: &Path) -> Result<String, FileError> {
     }
     Ok(dashpot_files::hexadecimal(&digest.finalize()))
 }
+
+/// Returns the SHA-256 of bytes, in hexadecimal digits.
+///
+/// ```
+/// let digest = dashpot_recording::digest::sha256_of(b"abc");
+/// assert_eq!(&digest[..8], "ba7816bf"); // FIPS 180-2, example 1
+/// ```
+pub fn sha256_of(bytes: &[u8]) -> String {
+    dashpot_files::hexadecimal(&Sha256::digest(bytes))
+}

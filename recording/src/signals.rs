@@ -137,6 +137,11 @@ impl Signals {
     }
 }
 
+/// Unit without the marks of exponents, so that m/s2, m/s^2 and m/s² are the same.
+fn plain(unit: &str) -> String {
+    unit.replace('^', "").replace('\u{b2}', "2")
+}
+
 /// Returns the channels of the signals that the file has, and for each signal wanted the place of its channel among
 /// them. All are in the group of the first.
 fn find(
@@ -158,7 +163,7 @@ fn find(
             continue;
         };
         if let Some(stated) = &found[index].unit
-            && stated != unit
+            && plain(stated) != plain(unit)
         {
             return Err(RecordingError::SignalUnit {
                 channel: label(found, index),

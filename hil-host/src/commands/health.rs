@@ -141,7 +141,7 @@ pub fn run(arguments: &HealthArguments) -> Outcome<()> {
     if let Some(path) = &arguments.page {
         let title = format!(
             "{}, with the model {}",
-            arguments.history.display(),
+            folder_name(&arguments.history),
             arguments.damper.damper
         );
         write_bytes(path, fleet::page(&title, &fleet)?.as_bytes())?;
@@ -173,6 +173,14 @@ pub fn run(arguments: &HealthArguments) -> Outcome<()> {
             counted(count as u64, "recording")
         ))),
     }
+}
+
+/// Name of a folder, also of `.`.
+fn folder_name(folder: &Path) -> String {
+    let whole = folder.canonicalize();
+    let whole = whole.unwrap_or_else(|_| folder.to_owned());
+    let name = whole.file_name().unwrap_or(whole.as_os_str());
+    name.to_string_lossy().into_owned()
 }
 
 /// Checks the settings with the damper of the options; those of single recordings are checked with them.

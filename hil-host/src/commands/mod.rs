@@ -47,6 +47,7 @@ pub mod sweep;
 pub mod tables;
 mod tick_times;
 pub mod vehicle;
+pub mod vehicle_sensors;
 pub mod verify;
 mod wheel_rail;
 
@@ -70,6 +71,7 @@ pub enum Command {
     Sheet(sheet::SheetArguments),
     Calibrate(calibrate::CalibrateArguments),
     Health(Box<health::HealthArguments>),
+    VehicleSensors(vehicle_sensors::VehicleSensorsArguments),
     Contact(contact::ContactArguments),
     Modes(modes::ModesArguments),
     Vehicle(vehicle::VehicleArguments),
@@ -117,6 +119,7 @@ impl Command {
             Self::Sheet(arguments) => sheet::run(arguments),
             Self::Calibrate(arguments) => calibrate::run(arguments),
             Self::Health(arguments) => health::run(arguments),
+            Self::VehicleSensors(arguments) => vehicle_sensors::run(arguments),
             Self::Contact(arguments) => contact::run(arguments),
             Self::Modes(arguments) => modes::run(arguments),
             Self::Vehicle(arguments) => vehicle::run(arguments),

@@ -67,6 +67,7 @@ mod vehicle;
 mod vehicle_contact;
 mod vehicle_events;
 mod vehicle_realtime;
+mod vehicle_sensors;
 mod verify;
 mod verify_probed;
 mod wheel_load_beyond_the_model;
