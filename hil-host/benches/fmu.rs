@@ -12,7 +12,7 @@ use std::ptr;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use dashpot_core::Damper;
-use dashpot_export::fmu::{Fmu, Interface, NamedDamper, compile};
+use dashpot_export::fmu::{Fmu, Interface, NamedDamper, Target, compile};
 use dashpot_files::damper;
 use libloading::{Library, Symbol};
 
@@ -99,7 +99,13 @@ fn bench_fmu(
     let fmu = Fmu::of_dampers(Interface::Three, "it", dampers, STEP_S, false).expect("a name");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("it.so");
-    std::fs::write(&path, compile(&fmu).expect("a C compiler").content).expect("a temporary file");
+    std::fs::write(
+        &path,
+        compile(&fmu, &Target::here())
+            .expect("a C compiler")
+            .content,
+    )
+    .expect("a temporary file");
     let token = CString::new(fmu.token()).expect("a token");
     let (mut displacements_m, mut forces_n) = (vec![0.0; count], vec![0.0; count]);
     group.throughput(Throughput::Elements(u64::from(TICKS) * count as u64));

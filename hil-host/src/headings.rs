@@ -70,12 +70,12 @@ const HEADINGS: [Heading; 26] = [
     Heading {
         text: "FMU",
         commands: &["export"],
-        options: "fmi also loadable sources-only",
+        options: "fmi also loadable platform sources-only",
     },
     Heading {
         text: "FMU of a vehicle",
         commands: &["export"],
-        options: "case outside library",
+        options: "case outside ssp library",
     },
     Heading {
         text: "Fit",

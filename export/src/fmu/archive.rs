@@ -14,11 +14,11 @@ const LICENCE: (&str, &str) = (
     include_str!("../../LICENSE-MIT"),
 );
 
-/// Packs the FMU, with a compiled library if there is one. The same content gives the same bytes.
+/// Packs the FMU, with its compiled libraries. The same content gives the same bytes.
 ///
 /// # Errors
 /// Returns an error if a file name is not valid in an archive.
-pub fn archive(fmu: &Fmu, binary: Option<&Binary>) -> ZipResult<Vec<u8>> {
+pub fn archive(fmu: &Fmu, binaries: &[Binary]) -> ZipResult<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
@@ -31,19 +31,18 @@ pub fn archive(fmu: &Fmu, binary: Option<&Binary>) -> ZipResult<Vec<u8>> {
     put("modelDescription.xml", fmu.description().as_bytes(), false)?;
     put("documentation/index.html", fmu.page().as_bytes(), false)?;
     put(LICENCE.0, LICENCE.1.as_bytes(), false)?;
-    if let Some(Binary {
-        platform,
-        extension,
-        content,
-    }) = binary
-    {
-        let name = format!("binaries/{platform}/{}.{extension}", fmu.identifier);
-        put(&name, content, true)?;
+    for (name, content) in fmu.icon_files() {
+        put(name, &content, false)?;
+    }
+    for binary in binaries {
+        let (folder, extension) = (&binary.folder, binary.extension);
+        let name = format!("binaries/{folder}/{}.{extension}", fmu.identifier);
+        put(&name, &binary.content, true)?;
     }
     for (name, content) in &fmu.resources {
         put(&format!("resources/{name}"), content, false)?;
     }
-    if fmu.library.is_none() {
+    if fmu.has_sources() {
         for (name, text) in &fmu.sources {
             put(&format!("sources/{name}"), text.as_bytes(), false)?;
         }

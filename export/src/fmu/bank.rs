@@ -7,6 +7,7 @@ use dashpot_core::parameters::MAX_CLEARANCE_M;
 use maud::{Markup, html};
 
 use super::sources::{Source, fixed, of_interface, with_own_names};
+use super::terminals::Terminal;
 use super::variable::{Kind, Variable};
 use super::{Fmu, Interface, check, token_of};
 use crate::standalone::{constants_of, header_of_step, source_with_bank};
@@ -90,12 +91,13 @@ impl Fmu {
             // End of the step that ends closest to 1 s.
             stop_s: nearest_nanosecond((1.0 / step_s).round() * step_s),
             variables: all_variables(dampers),
+            terminals: terminals(dampers.len()),
             has_input_derivatives: true,
             may_end: false,
             about: about::<T>(step_s, is_loaded),
             resources,
             sources,
-            library: None,
+            libraries: Vec::new(),
         })
     }
 }
@@ -107,6 +109,30 @@ fn all_variables<T>(dampers: &[NamedDamper<T>]) -> Vec<Variable> {
         _ => variables(&format!("damper[{number}]."), named.clearance_m),
     };
     (1..).zip(dampers).flat_map(of_damper).collect()
+}
+
+/// One terminal for each damper: its two ends.
+fn terminals(dampers: usize) -> Vec<Terminal> {
+    let members = |prefix: String| {
+        let members = ["displacement_m", "velocity_m_per_s", "force_n"];
+        members
+            .map(|member| (member, format!("{prefix}{member}")))
+            .into()
+    };
+    let terminal = |number: usize| Terminal {
+        name: if dampers == 1 {
+            "damper".into()
+        } else {
+            format!("damper_{number}")
+        },
+        description: "Ends of the damper",
+        members: members(if dampers == 1 {
+            String::new()
+        } else {
+            format!("damper[{number}].")
+        }),
+    };
+    (1..=dampers).map(terminal).collect()
 }
 
 /// Variables of a damper, in the same order as in `model.c`; their names start with `prefix`.

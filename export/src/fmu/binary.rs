@@ -1,16 +1,18 @@
-//! Compiles the library of an FMU for this platform with an installed C compiler.
+//! Compiles the library of an FMU for a platform with an installed C compiler.
 
 use std::env;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::{Fmu, Interface, Machine};
+use super::{Fmu, Machine, Platform};
 
 /// Compiled library of an FMU.
 #[derive(Debug)]
 pub struct Binary {
     /// Name of the platform's folder.
+    pub folder: String,
+    /// Name of the platform.
     pub platform: String,
     /// Extension of the library's file name.
     pub extension: &'static str,
@@ -21,13 +23,13 @@ pub struct Binary {
 /// Ways to avoid a [`CompileError`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
-    /// Use another C compiler: [`compile`] reads the environment variable `CC`.
+    /// Use another C compiler.
     OtherCompiler,
-    /// Export sources only, without a library for this platform.
+    /// Export sources only, without a library.
     SourcesOnly,
     /// Use FMI 3, which has a folder for every platform.
     Fmi3,
-    /// Use a vehicle library that was built for this platform.
+    /// Use a vehicle library that was built for the platform.
     OtherLibrary,
 }
 
@@ -64,7 +66,7 @@ pub enum CompileError {
         compiler: String,
         /// Type of the built file; `None` if it has no known header.
         found: Option<Machine>,
-        /// Name of the platform's folder.
+        /// Name of the platform.
         platform: String,
         /// Type of library that the platform loads.
         needed: Machine,
@@ -79,10 +81,16 @@ pub enum CompileError {
         library: PathBuf,
         /// Type of its object files.
         found: Machine,
-        /// Name of the platform's folder.
+        /// Name of the platform.
         platform: String,
         /// Type of library that the platform loads.
         needed: Machine,
+    },
+    /// There is no vehicle library for the platform.
+    #[error("no vehicle library for {platform}")]
+    NoLibrary {
+        /// Name of the platform.
+        platform: String,
     },
     /// Cannot read the vehicle library, or cannot use a temporary folder for the compiler's files.
     #[error("cannot prepare the compilation: {0}")]
@@ -97,15 +105,15 @@ impl CompileError {
                 &[Remedy::OtherCompiler, Remedy::SourcesOnly]
             }
             Self::Platform { .. } => &[Remedy::Fmi3, Remedy::SourcesOnly],
-            Self::OtherLibrary { .. } => &[Remedy::OtherLibrary],
+            Self::OtherLibrary { .. } | Self::NoLibrary { .. } => &[Remedy::OtherLibrary],
             Self::Files(_) => &[],
         }
     }
 }
 
-/// Linker options for a Rust library. Only the functions of the interface stay visible, and unused code is removed.
-#[cfg(target_os = "linux")]
-const RUST_LIBRARY_OPTIONS: [&str; 6] = [
+/// Linker options for a Rust library on Linux. Only the functions of the interface stay visible, and unused code is
+/// removed.
+const LINUX_OPTIONS: [&str; 6] = [
     "-Wl,--exclude-libs,ALL",
     "-Wl,--gc-sections",
     "-Wl,--strip-all",
@@ -113,8 +121,36 @@ const RUST_LIBRARY_OPTIONS: [&str; 6] = [
     "-lpthread",
     "-ldl",
 ];
-#[cfg(not(target_os = "linux"))]
-const RUST_LIBRARY_OPTIONS: [&str; 0] = [];
+/// Linker options for a Rust library on Windows, with the system's libraries that it calls.
+const WINDOWS_OPTIONS: [&str; 8] = [
+    "-Wl,--gc-sections",
+    "-Wl,--strip-all",
+    "-static-libgcc",
+    "-lkernel32",
+    "-lntdll",
+    "-luserenv",
+    "-lws2_32",
+    "-ldbghelp",
+];
+
+/// A platform and what builds for it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// The platform.
+    pub platform: Platform,
+    /// C compiler with options, separated by spaces. If it is empty, `cc`.
+    pub compiler: String,
+}
+
+impl Target {
+    /// This platform, with the compiler in the environment variable `CC`.
+    pub fn here() -> Self {
+        Self {
+            platform: Platform::here(),
+            compiler: env::var("CC").unwrap_or_default(),
+        }
+    }
+}
 
 /// Describes the type of a file.
 fn described(found: Option<&Machine>) -> String {
@@ -124,27 +160,21 @@ fn described(found: Option<&Machine>) -> String {
     )
 }
 
-/// Compiles an FMU for this platform with the compiler in the environment variable `CC`, or else `cc`.
+/// Compiles an FMU for a platform.
 ///
 /// # Errors
-/// Returns an error if the compiler is missing, fails or builds for another platform, or if the platform has no folder.
-pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
-    let platform = platform(fmu.interface)?;
-    let needed = Machine::here();
-    if let Some(library) = &fmu.library {
-        let found = Machine::of_archive(&std::fs::read(library)?);
-        // If the type of the archive is unknown, the linker checks it.
-        if let Some(found) = found.filter(|found| !found.links_into(&needed)) {
-            let library = library.clone();
-            return Err(CompileError::OtherLibrary {
-                library,
-                found,
-                platform,
-                needed,
-            });
-        }
-    }
-    let extension = env::consts::DLL_EXTENSION;
+/// Returns an error if the compiler is missing, fails or builds for another platform, if the platform has no folder, or
+/// if the FMU needs a library that was not given for the platform.
+pub fn compile(fmu: &Fmu, target: &Target) -> Result<Binary, CompileError> {
+    let platform = &target.platform;
+    let folder_name = platform
+        .folder(fmu.interface)
+        .ok_or_else(|| CompileError::Platform {
+            platform: platform.to_string(),
+        })?;
+    let needed = platform.machine();
+    let linked = linked(fmu, platform)?;
+    let extension = platform.extension();
     let folder = tempfile::tempdir()?;
     for (name, text) in &fmu.sources {
         std::fs::write(folder.path().join(name), text)?;
@@ -152,7 +182,7 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
     for (name, text) in fmu.headers() {
         std::fs::write(folder.path().join(name), text)?;
     }
-    let (compiler, options) = compiler(&env::var("CC").unwrap_or_default());
+    let (compiler, options) = compiler(&target.compiler);
     let library = folder.path().join(format!("library.{extension}"));
     let mut command = Command::new(&compiler);
     command
@@ -160,18 +190,24 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
         .args([
             "-std=c99",
             "-O2",
-            "-fPIC",
             "-shared",
-            "-fvisibility=hidden",
             "-DFMI2_OVERRIDE_FUNCTION_PREFIX",
             "-DFMI3_OVERRIDE_FUNCTION_PREFIX",
             "-o",
         ])
         .arg(&library)
         .args(fmu.compiled());
-    if let Some(library) = &fmu.library {
-        command.arg(std::path::absolute(library)?);
-        command.args(RUST_LIBRARY_OPTIONS);
+    match platform.is_windows() {
+        true => command.args(["-static-libgcc", "-Wl,--strip-all"]),
+        false => command.args(["-fPIC", "-fvisibility=hidden"]),
+    };
+    if let Some(linked) = linked {
+        command.arg(std::path::absolute(linked)?);
+        if platform.is_linux() {
+            command.args(LINUX_OPTIONS);
+        } else if platform.is_windows() {
+            command.args(WINDOWS_OPTIONS);
+        }
     }
     command
         .arg("-lm")
@@ -192,12 +228,13 @@ pub fn compile(fmu: &Fmu) -> Result<Binary, CompileError> {
         return Err(CompileError::OtherMachine {
             compiler,
             found,
-            platform,
+            platform: platform.to_string(),
             needed,
         });
     }
     Ok(Binary {
-        platform,
+        folder: folder_name,
+        platform: platform.to_string(),
         extension,
         content,
     })
@@ -213,27 +250,27 @@ fn compiler(cc: &str) -> (String, Vec<String>) {
     }
 }
 
-/// Folder for this platform's libraries (FMI 3.0, section 2.5.1.4.1; FMI 2.0.4, section 2.3).
-fn platform(interface: Interface) -> Result<String, CompileError> {
-    let (processor, system) = (env::consts::ARCH, env::consts::OS);
-    let processor = if processor == "arm" {
-        "aarch32"
-    } else {
-        processor
+/// Returns the Rust library of the platform, if the FMU needs one.
+fn linked<'a>(fmu: &'a Fmu, platform: &Platform) -> Result<Option<&'a Path>, CompileError> {
+    if fmu.has_sources() {
+        return Ok(None);
+    }
+    let mut libraries = fmu.libraries.iter();
+    let Some((_, library)) = libraries.find(|(of, _)| of == platform) else {
+        return Err(CompileError::NoLibrary {
+            platform: platform.to_string(),
+        });
     };
-    let system_name = if system == "macos" { "darwin" } else { system };
-    match (interface, processor) {
-        (Interface::Three, _) => Ok(format!("{processor}-{system_name}")),
-        (Interface::Two, "x86_64") => {
-            let short = if system == "windows" {
-                "win"
-            } else {
-                system_name
-            };
-            Ok(format!("{short}64"))
-        }
-        (Interface::Two, _) => Err(CompileError::Platform {
-            platform: format!("{processor}-{system_name}"),
+    let needed = platform.machine();
+    let found = Machine::of_archive(&std::fs::read(library)?);
+    // If the type of the archive is unknown, the linker checks it.
+    match found.filter(|found| !found.links_into(&needed)) {
+        None => Ok(Some(library)),
+        Some(found) => Err(CompileError::OtherLibrary {
+            library: library.clone(),
+            found,
+            platform: platform.to_string(),
+            needed,
         }),
     }
 }

@@ -1,15 +1,17 @@
 //! Description of an FMU: `modelDescription.xml`, and `buildDescription.xml` of FMI 3.
 
-use std::fmt::Write;
-
-use maud::Escaper;
-
-use super::variable::{Kind, UNITS, Variable};
+use super::variable::{Kind, UNITS, Unit, Variable};
+use super::xml::Xml;
 use super::{Fmu, Interface};
 
 /// No output depends on an input at the same communication point, so a loop of connected FMUs is never an algebraic
 /// loop.
 const NO_DEPENDENCIES: (&str, &str) = ("dependencies", "");
+
+/// Whose work the FMU is, as in CITATION.cff and the licence.
+const AUTHOR: &str = "The Dashpot developers";
+const COPYRIGHT: &str = "Copyright (c) 2026 The Dashpot developers";
+const LICENCE: &str = "MIT OR Apache-2.0; the text of the first is in documentation/licenses";
 
 const CATEGORIES: [(&str, &str); 3] = [
     (
@@ -42,6 +44,10 @@ impl Fmu {
                 ("modelName", &self.identifier),
                 (token, &self.token),
                 ("description", &self.title),
+                ("author", AUTHOR),
+                ("version", env!("CARGO_PKG_VERSION")),
+                ("copyright", COPYRIGHT),
+                ("license", LICENCE),
                 ("generationTool", version),
                 ("variableNamingConvention", naming),
             ],
@@ -61,7 +67,7 @@ impl Fmu {
                     capabilities.push(("canInterpolateInputs", "true"));
                 }
                 capabilities.push(("canNotUseMemoryManagementFunctions", "true"));
-                if self.library.is_some() {
+                if !self.has_sources() {
                     xml.empty("CoSimulation", &capabilities);
                 } else {
                     xml.open("CoSimulation", &capabilities);
@@ -82,9 +88,17 @@ impl Fmu {
             }
         }
         xml.open("UnitDefinitions", &[]);
-        for (unit, base) in UNITS {
-            xml.open("Unit", &[("name", unit)]);
-            xml.line(&format!("<BaseUnit {base}/>"));
+        let is_used = |unit: &&Unit| {
+            self.variables
+                .iter()
+                .any(|variable| variable.unit == unit.name)
+        };
+        for unit in UNITS.iter().filter(is_used) {
+            xml.open("Unit", &[("name", unit.name)]);
+            xml.line(&format!("<BaseUnit {}/>", unit.base));
+            if let Some((name, factor)) = unit.display {
+                xml.empty("DisplayUnit", &[("name", name), ("factor", factor)]);
+            }
             xml.close("Unit");
         }
         xml.close("UnitDefinitions");
@@ -128,7 +142,10 @@ impl Fmu {
 
     fn variables(&self, xml: &mut Xml) {
         xml.open("ModelVariables", &[]);
-        self.variable(xml, 0, None);
+        // FMI 2 needs no variable for the time, and old importers ask for its start value, which the standard forbids.
+        if self.interface == Interface::Three {
+            self.variable(xml, 0, None);
+        }
         let mut outputs = Vec::new();
         for (reference, variable) in (1..).zip(&self.variables) {
             self.variable(xml, reference, Some(variable));
@@ -143,8 +160,8 @@ impl Fmu {
                 for list in ["Outputs", "InitialUnknowns"] {
                     xml.open(list, &[]);
                     for reference in &outputs {
-                        // Position in the list of variables; time is number 1.
-                        let index = (reference + 1).to_string();
+                        // Position in the list of variables, which is the reference.
+                        let index = reference.to_string();
                         xml.empty("Unknown", &[("index", &index), NO_DEPENDENCIES]);
                     }
                     xml.close(list);
@@ -203,10 +220,11 @@ impl Fmu {
         if !description.is_empty() {
             head.push(("description", description));
         }
-        if let Some(variable) = variable
-            && !variable.unit.is_empty()
-        {
-            own.insert(0, ("unit", variable.unit));
+        let unit =
+            variable.and_then(|variable| UNITS.iter().find(|unit| unit.name == variable.unit));
+        if let Some(unit) = unit {
+            own.extend([("unit", unit.name), ("nominal", unit.nominal)]);
+            own.extend(unit.display.map(|(name, _)| ("displayUnit", name)));
         }
         let is_integer = variable.is_some_and(|variable| matches!(variable.kind, Kind::Counter));
         match (self.interface, is_integer) {
@@ -221,50 +239,4 @@ impl Fmu {
             }
         }
     }
-}
-
-/// XML document under construction.
-struct Xml {
-    text: String,
-    depth: usize,
-}
-
-impl Xml {
-    fn new() -> Self {
-        Self {
-            text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".into(),
-            depth: 0,
-        }
-    }
-
-    fn line(&mut self, line: &str) {
-        // Writing to a String does not fail.
-        let _ = writeln!(self.text, "{:width$}{line}", "", width = 2 * self.depth);
-    }
-
-    fn open(&mut self, element: &str, attributes: &[(&str, &str)]) {
-        self.line(&format!("<{element}{}>", with_values(attributes)));
-        self.depth += 1;
-    }
-
-    fn empty(&mut self, element: &str, attributes: &[(&str, &str)]) {
-        self.line(&format!("<{element}{}/>", with_values(attributes)));
-    }
-
-    fn close(&mut self, element: &str) {
-        self.depth -= 1;
-        self.line(&format!("</{element}>"));
-    }
-}
-
-fn with_values(attributes: &[(&str, &str)]) -> String {
-    let mut text = String::new();
-    for (name, value) in attributes {
-        let _ = write!(text, " {name}=\"");
-        // File names may contain control characters, but XML must not.
-        let value = value.replace(char::is_control, " ");
-        let _ = Escaper::new(&mut text).write_str(&value);
-        text.push('"');
-    }
-    text
 }

@@ -76,15 +76,22 @@ const MEMBER_SIZE: std::ops::Range<usize> = 48..58;
 impl Machine {
     /// Returns the type of shared library that this process can load.
     pub fn here() -> Self {
-        let format = match env::consts::OS {
-            "windows" => Format::Pe,
-            "macos" | "ios" => Format::MachO,
-            _ => Format::Elf,
-        };
         Self {
-            format,
             bits: usize::BITS as u8,
-            processor: Processor::Known(env::consts::ARCH),
+            ..Self::shared(env::consts::ARCH, env::consts::OS)
+        }
+    }
+
+    /// Returns the type of shared library of a system, for a processor with its name in `std::env::consts::ARCH`.
+    pub(super) fn shared(processor: &'static str, system: &str) -> Self {
+        Self {
+            format: match system {
+                "windows" => Format::Pe,
+                "macos" | "ios" | "darwin" => Format::MachO,
+                _ => Format::Elf,
+            },
+            bits: if processor.contains("64") { 64 } else { 32 },
+            processor: Processor::Known(processor),
             is_shared: true,
         }
     }

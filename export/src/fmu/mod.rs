@@ -10,9 +10,13 @@ mod binary;
 mod description;
 mod machine;
 mod page;
+mod platform;
 mod sources;
+mod system;
+mod terminals;
 mod variable;
 mod vehicle;
+mod xml;
 
 use std::path::PathBuf;
 
@@ -21,11 +25,14 @@ use sha2::{Digest, Sha256};
 
 pub use archive::archive;
 pub use bank::NamedDamper;
-pub use binary::{Binary, CompileError, Remedy, compile};
+pub use binary::{Binary, CompileError, Remedy, Target, compile};
 pub use machine::Machine;
+pub use platform::{Platform, UnknownPlatform};
+pub use system::{Part, system};
 
 use super::{ExportError, name};
 use sources::Source;
+use terminals::Terminal;
 use variable::Variable;
 
 /// Version of the FMI standard.
@@ -57,6 +64,7 @@ pub struct Fmu {
     step_s: f64,
     stop_s: f64,
     variables: Vec<Variable>,
+    terminals: Vec<Terminal>,
     /// True if the FMU accepts derivatives of inputs.
     has_input_derivatives: bool,
     /// True if a run may end within a communication step.
@@ -66,9 +74,9 @@ pub struct Fmu {
     /// Name and content of the files in the resources folder.
     resources: Vec<(String, Vec<u8>)>,
     sources: Vec<Source>,
-    /// Library to link with the sources. Such an FMU contains no sources, because an importer does not have the
-    /// library.
-    library: Option<PathBuf>,
+    /// Libraries to link with the sources, one for each platform. An FMU with libraries contains no sources, because
+    /// an importer does not have them.
+    libraries: Vec<(Platform, PathBuf)>,
 }
 
 impl Fmu {
@@ -94,7 +102,7 @@ impl Fmu {
 
     /// True if the FMU contains sources that an importer can compile.
     pub fn has_sources(&self) -> bool {
-        self.library.is_none()
+        self.libraries.is_empty()
     }
 }
 

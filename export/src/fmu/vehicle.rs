@@ -6,10 +6,12 @@ use std::path::PathBuf;
 use maud::{Markup, html};
 
 use super::sources::of_interface;
+use super::terminals::Terminal;
 use super::variable::{Kind, Variable};
-use super::{Fmu, Interface, check, token_of};
+use super::{Fmu, Interface, Platform, check, token_of};
 use crate::ExportError;
 use dashpot_files::nearest_nanosecond;
+use dashpot_vehicle_run::signals::slug;
 use dashpot_vehicle_run::{Coupled, CoupledCase, CoupledVariable, Input};
 
 /// Units by the suffix of a variable's name, longest first.
@@ -24,8 +26,8 @@ const UNITS: [(&str, &str); 6] = [
 
 impl Fmu {
     /// Returns the FMU of a vehicle with the variables of `coupled`. The names of its functions start with
-    /// `identifier`, which consists of ASCII letters, digits and `_`. `library` is the static library of
-    /// `dashpot-vehicle-model`; `tables` are the names and contents of the files with the contact
+    /// `identifier`, which consists of ASCII letters, digits and `_`. `libraries` are the static library of
+    /// `dashpot-vehicle-model` for each platform; `tables` are the names and contents of the files with the contact
     /// tables.
     ///
     /// # Errors
@@ -37,16 +39,20 @@ impl Fmu {
         case: &CoupledCase,
         coupled: &Coupled,
         tables: Vec<(String, Vec<u8>)>,
-        library: PathBuf,
+        libraries: Vec<(Platform, PathBuf)>,
     ) -> Result<Self, ExportError> {
         check(identifier)?;
         let json =
             serde_json::to_vec(case).map_err(|error| ExportError::Case(error.to_string()))?;
-        let bytes = fs::read(&library).map_err(|error| ExportError::Library {
-            path: library.clone(),
-            reason: error.to_string(),
-        })?;
-        let token = token_of(identifier, interface, [json.as_slice(), bytes.as_slice()]);
+        let read = |(_, library): &(Platform, PathBuf)| {
+            fs::read(library).map_err(|error| ExportError::Library {
+                path: library.clone(),
+                reason: error.to_string(),
+            })
+        };
+        let contents: Vec<Vec<u8>> = libraries.iter().map(read).collect::<Result<_, _>>()?;
+        let parts = contents.iter().map(Vec::as_slice);
+        let token = token_of(identifier, interface, std::iter::once(&*json).chain(parts));
         let step_s = coupled.step_s();
         let mut sources = of_interface(interface);
         sources.push((
@@ -77,6 +83,7 @@ impl Fmu {
             ),
             step_s,
             stop_s: nearest_nanosecond(coupled.duration_s()),
+            terminals: case.outside.iter().map(|damper| terminal(damper)).collect(),
             variables,
             has_input_derivatives: false,
             may_end: true,
@@ -85,8 +92,21 @@ impl Fmu {
                 .chain(tables)
                 .collect(),
             sources,
-            library: Some(library),
+            libraries,
         })
+    }
+}
+
+/// Terminal of an external damper, for the terminal of a damper's FMU.
+fn terminal(damper: &str) -> Terminal {
+    let name = slug(damper);
+    let members = ["displacement_m", "velocity_m_per_s", "force_n"];
+    Terminal {
+        members: members
+            .map(|member| (member, format!("{name}_{member}")))
+            .into(),
+        description: "Ends of an external damper",
+        name,
     }
 }
 

@@ -2,7 +2,15 @@
 
 #define _POSIX_C_SOURCE 200809L
 
+#if defined(_WIN32)
+#include <windows.h>
+#define dlopen(name, mode) ((void *)LoadLibraryA(name))
+#define dlsym(library, name) ((void *)GetProcAddress((HMODULE)(library), name))
+#define dlerror() "the library cannot be loaded"
+#define dlclose(library) FreeLibrary((HMODULE)(library))
+#else
 #include <dlfcn.h>
+#endif
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>

@@ -8,6 +8,7 @@ mod driver;
 mod forces;
 mod judge;
 mod loaded;
+mod platforms;
 mod refused;
 mod vehicle;
 

@@ -15,7 +15,7 @@ use crate::common::{dashpot, error_of, program};
 use crate::source;
 
 /// Returns the vehicle library, built once. Built with the workspace, it shares all that the tests have compiled.
-fn library() -> &'static Path {
+pub fn library() -> &'static Path {
     static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
     LIBRARY.get_or_init(|| {
         let printed = cargo_output(&[

@@ -38,6 +38,11 @@ pub const AARCH64_LIBC: Tool = header("aarch64-linux-gnu-gcc", "stdio.h", "libc6
 /// Emulator of programs for the 64-bit Arm processor.
 pub const QEMU_AARCH64: Tool = program("qemu-aarch64", "qemu-user");
 
+/// C compiler for 64-bit Windows.
+pub const MINGW_GCC: Tool = program("x86_64-w64-mingw32-gcc", "gcc-mingw-w64-x86-64-win32");
+/// Lists the libraries that a Windows library imports.
+pub const MINGW_OBJDUMP: Tool = program("x86_64-w64-mingw32-objdump", "binutils-mingw-w64-x86-64");
+
 /// Finds installed libraries for a compiler.
 pub const PKG_CONFIG: Tool = program("pkg-config", "pkg-config");
 /// Builds C programs with installed libraries.
@@ -67,7 +72,7 @@ pub const SBATCH: Tool = program("sbatch", "slurm-wlm");
 pub const PARALLEL: Tool = program("parallel", "parallel");
 
 /// Tools that tests need.
-pub const TEST_TOOLS: [Tool; 19] = [
+pub const TEST_TOOLS: [Tool; 21] = [
     GCC,
     CLANG,
     GXX,
@@ -80,6 +85,8 @@ pub const TEST_TOOLS: [Tool; 19] = [
     AARCH64_GCC,
     AARCH64_LIBC,
     QEMU_AARCH64,
+    MINGW_GCC,
+    MINGW_OBJDUMP,
     PKG_CONFIG,
     CMAKE,
     MAKE,

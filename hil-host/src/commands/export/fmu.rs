@@ -11,7 +11,9 @@ use super::named::constant_name;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
 use dashpot_export::Word;
-use dashpot_export::fmu::{CompileError, Fmu, Interface, NamedDamper, Remedy, archive, compile};
+use dashpot_export::fmu::{
+    Binary, CompileError, Fmu, Interface, NamedDamper, Platform, Remedy, Target, archive, compile,
+};
 use dashpot_files::Scalar;
 use dashpot_files::damper;
 use dashpot_files::output::{self, write_bytes};
@@ -19,7 +21,7 @@ use dashpot_files::output::{self, write_bytes};
 /// Options of an FMU.
 #[derive(Debug, Clone, clap::Args)]
 pub(super) struct FmuArguments {
-    /// Write a co-simulation FMU of this FMI version, with a binary for this platform and C sources.
+    /// Write a co-simulation FMU of this FMI version, with binaries and C sources.
     #[arg(
         long,
         value_name = "2|3",
@@ -44,16 +46,73 @@ pub(super) struct FmuArguments {
     /// Damper of the vehicle, by name and number, whose force becomes an input of the FMU. May be repeated.
     #[arg(long, value_name = "DAMPER")]
     pub(super) outside: Vec<String>,
-    /// Vehicle library built by `cargo build --release -p dashpot-vehicle-model` [default: the one next to this
-    /// program].
-    #[arg(long, value_name = "FILE")]
-    pub(super) library: Option<PathBuf>,
-    /// Omit the binary for this platform: needs no C compiler here, and the importer compiles the sources.
-    #[arg(long)]
+    /// Write the vehicle, an FMU of each external damper and their connections as one SSP file.
+    #[arg(long, requires = "case")]
+    pub(super) ssp: bool,
+    /// Vehicle library built by `cargo build --release -p dashpot-vehicle-model`, for this platform or for another one
+    /// [default for this platform: the one next to this program]. May be repeated.
+    #[arg(long, value_name = "FILE|PLATFORM=FILE", value_parser = platform_library)]
+    pub(super) library: Vec<(Option<Platform>, PathBuf)>,
+    /// Add a binary for another platform: processor and system, and its C compiler with options, such as
+    /// x86_64-windows=x86_64-w64-mingw32-gcc. This platform has cc, or the one in the variable CC. May be repeated.
+    #[arg(long = "platform", value_name = "PLATFORM=COMPILER", value_parser = target)]
+    pub(super) targets: Vec<Target>,
+    /// Omit all binaries: needs no C compiler here, and the importer compiles the sources.
+    #[arg(long, conflicts_with = "targets")]
     sources_only: bool,
 }
 
+fn target(text: &str) -> Result<Target, String> {
+    let (platform, compiler) = text.split_once('=').ok_or("allowed: PLATFORM=COMPILER")?;
+    let platform = platform
+        .parse::<Platform>()
+        .map_err(|error| error.to_string())?;
+    match compiler.trim() {
+        "" => Err("no compiler; allowed: PLATFORM=COMPILER".into()),
+        compiler => Ok(Target {
+            platform,
+            compiler: compiler.to_owned(),
+        }),
+    }
+}
+
+/// Reads a file, or a platform and a file; a file may contain `=`.
+fn platform_library(text: &str) -> Result<(Option<Platform>, PathBuf), String> {
+    let pair = text
+        .split_once('=')
+        .map(|(platform, file)| (platform.parse::<Platform>(), file));
+    Ok(match pair {
+        Some((Ok(platform), file)) => (Some(platform), file.into()),
+        _ => (None, text.into()),
+    })
+}
+
 impl FmuArguments {
+    /// Platforms of the binaries: this one, if none is given for it, and the given ones.
+    ///
+    /// # Errors
+    /// A platform is given twice.
+    pub(super) fn targets(&self) -> Outcome<Vec<Target>> {
+        let mut targets = Vec::new();
+        let is_here = |target: &Target| target.platform == Platform::here();
+        if !self.targets.iter().any(is_here) {
+            targets.push(Target::here());
+        }
+        for target in &self.targets {
+            if targets
+                .iter()
+                .any(|other: &Target| other.platform == target.platform)
+            {
+                let platform = &target.platform;
+                return Err(Failure::wrong_use(format!(
+                    "--platform {platform}: given twice; give each once"
+                )));
+            }
+            targets.push(target.clone());
+        }
+        Ok(targets)
+    }
+
     /// Returns the requested interface; `None` without `--fmi`.
     ///
     /// # Errors
@@ -61,7 +120,7 @@ impl FmuArguments {
     pub(super) fn interface(&self) -> Outcome<Option<Interface>> {
         let vehicle_options = [
             ("--outside", !self.outside.is_empty()),
-            ("--library", self.library.is_some()),
+            ("--library", !self.library.is_empty()),
         ];
         if self.case.is_none()
             && let Some((option, _)) = vehicle_options.iter().find(|(_, is_given)| *is_given)
@@ -74,6 +133,7 @@ impl FmuArguments {
             ("--also", !self.also.is_empty()),
             ("--loadable", self.loadable),
             ("--sources-only", self.sources_only),
+            ("--platform", !self.targets.is_empty()),
             ("--case", self.case.is_some()),
         ];
         match (
@@ -124,9 +184,8 @@ struct Report<'a> {
     output: String,
     step_s: f64,
     token: &'a str,
-    /// Platform of the binary; `None` for an FMU with sources only.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    platform: Option<String>,
+    /// Platforms of the binaries.
+    platforms: Vec<String>,
     fmu_bytes: usize,
 }
 
@@ -167,14 +226,20 @@ pub(super) fn fmu_name(arguments: &ExportArguments, content: &str) -> String {
 }
 
 /// Describes a compile error and its remedies in terms of command-line options.
-fn cannot_compile(error: &CompileError) -> Failure {
+fn cannot_compile(error: &CompileError, target: &Target) -> Failure {
+    let platform = &target.platform;
+    let is_here = *platform == Platform::here();
     let remedies = error.remedies().iter().map(|remedy| match remedy {
-        Remedy::OtherCompiler => "another C compiler in the variable CC",
-        Remedy::SourcesOnly => "no library for this platform with --sources-only",
-        Remedy::Fmi3 => "--fmi 3",
-        Remedy::OtherLibrary => "a library for this platform with --library FILE",
+        Remedy::OtherCompiler if is_here => "another C compiler in the variable CC".to_owned(),
+        Remedy::OtherCompiler => format!("another C compiler with --platform {platform}=COMPILER"),
+        Remedy::SourcesOnly => "no library with --sources-only".to_owned(),
+        Remedy::Fmi3 => "--fmi 3".to_owned(),
+        Remedy::OtherLibrary if is_here => {
+            "a library for this platform with --library FILE".to_owned()
+        }
+        Remedy::OtherLibrary => format!("a library for it with --library {platform}=FILE"),
     });
-    let remedies: Vec<&str> = remedies.collect();
+    let remedies: Vec<String> = remedies.collect();
     // A compiler's messages may span several lines.
     let separator = match error {
         CompileError::Failed { .. } => "\n",
@@ -186,19 +251,47 @@ fn cannot_compile(error: &CompileError) -> Failure {
     })
 }
 
-/// Compiles the FMU unless `--sources-only` is given, writes it and prints a report.
+/// Compiles and writes the FMU, and prints a report.
 ///
 /// # Errors
 /// The compiler fails; the file cannot be written.
 pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) -> Outcome<()> {
+    let (platforms, bytes) = packed(arguments, fmu)?;
+    report(arguments, fmu, content, platforms, &bytes)
+}
+
+/// Compiles the FMU unless `--sources-only` is given, and returns its platforms and its file.
+///
+/// # Errors
+/// The compiler fails.
+pub(super) fn packed(arguments: &ExportArguments, fmu: &Fmu) -> Outcome<(Vec<String>, Vec<u8>)> {
+    let targets = match arguments.fmu.sources_only {
+        true => Vec::new(),
+        false => arguments.fmu.targets()?,
+    };
+    let binaries = targets
+        .iter()
+        .map(|target| compile(fmu, target).map_err(|error| cannot_compile(&error, target)));
+    let binaries: Vec<Binary> = binaries.collect::<Outcome<_>>()?;
+    let bytes = archive(fmu, &binaries).map_err(|error| Failure::new(error.to_string()))?;
+    let platforms = binaries.into_iter().map(|binary| binary.platform);
+    Ok((platforms.collect(), bytes))
+}
+
+/// Writes the file and prints a report.
+///
+/// # Errors
+/// The file cannot be written.
+pub(super) fn report(
+    arguments: &ExportArguments,
+    fmu: &Fmu,
+    content: Content,
+    platforms: Vec<String>,
+    bytes: &[u8],
+) -> Outcome<()> {
     // Round to the picosecond to remove the rounding error of the product.
     let step_us = (fmu.step_s() * 1e12).round() / 1e6;
-    let binary = match arguments.fmu.sources_only {
-        true => None,
-        false => Some(compile(fmu).map_err(|error| cannot_compile(&error))?),
-    };
-    let bytes = archive(fmu, binary.as_ref()).map_err(|error| Failure::new(error.to_string()))?;
-    write_bytes(&arguments.output, &bytes)?;
+    write_bytes(&arguments.output, bytes)?;
     let report = Report {
         content,
         fmi: fmu.interface().number(),
@@ -206,7 +299,7 @@ pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) ->
         output: output::name(&arguments.output).display().to_string(),
         step_s: fmu.step_s(),
         token: fmu.token(),
-        platform: binary.map(|binary| binary.platform),
+        platforms,
         fmu_bytes: bytes.len(),
     };
     print_report_beside(
@@ -214,10 +307,11 @@ pub(super) fn write(arguments: &ExportArguments, fmu: &Fmu, content: Content) ->
         arguments.format,
         &report,
         |out, report| {
-            let library = match (&report.platform, fmu.has_sources()) {
-                (Some(platform), true) => format!("binary for {platform} and sources"),
-                (Some(platform), false) => format!("binary for {platform}"),
-                (None, _) => "sources only".into(),
+            let platforms = report.platforms.join(", ");
+            let library = match (platforms.is_empty(), fmu.has_sources()) {
+                (false, true) => format!("binary for {platforms}, and sources"),
+                (false, false) => format!("binary for {platforms}"),
+                (true, _) => "sources only".into(),
             };
             writeln!(
                 out,
