@@ -120,7 +120,7 @@ fn library(
     if named.is_none() && !is_here {
         return Err(Failure::new(format!(
             "no vehicle library for {platform}; give it with --library {platform}=FILE. `cargo build --release \
-             --target TRIPLE --package dashpot-vehicle-model` builds it as target/TRIPLE/release/{LIBRARY}"
+             --target TRIPLE -p dashpot-vehicle-model` builds it as target/TRIPLE/release/{LIBRARY}"
         )));
     }
     let beside = || Some(std::env::current_exe().ok()?.parent()?.join(LIBRARY));
@@ -129,8 +129,8 @@ fn library(
         return Ok((platform, library));
     }
     Err(Failure::new(format!(
-        "{}: vehicle library not found; give it with --library FILE. `cargo build --release --package \
-         dashpot-vehicle-model` builds it as target/release/{LIBRARY} in the project folder",
+        "{}: vehicle library not found; give it with --library FILE. `cargo build --release -p \
+         dashpot-hil -p dashpot-vehicle-model` builds it as target/release/{LIBRARY} in the project folder",
         library.display()
     )))
 }
