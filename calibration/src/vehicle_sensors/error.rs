@@ -49,7 +49,7 @@ pub enum SensorsError {
     },
     /// Times are not equally spaced.
     #[error(
-        "{recording}: {step_s} s between two rows at {time_s} s; allowed: equal steps, here {usual_s} s"
+        "{recording}: {step_s:.6} s between two rows at {time_s:.6} s; allowed: equal steps, here {usual_s:.6} s"
     )]
     Steps {
         /// Name of the recording.
