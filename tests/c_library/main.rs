@@ -3,6 +3,7 @@
 mod clang_reorders_forces;
 mod header;
 mod host;
+mod misra;
 mod standalone;
 mod targets;
 mod transfer;

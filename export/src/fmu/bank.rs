@@ -10,7 +10,7 @@ use super::sources::{Source, fixed, of_interface, with_own_names};
 use super::terminals::Terminal;
 use super::variable::{Kind, Variable};
 use super::{Fmu, Interface, check, token_of};
-use crate::standalone::{constants_of, header_of_step, source_with_bank};
+use crate::standalone::{INCLUDES, constants_of, header_of_step, source_with_bank};
 use crate::{ExportError, Word};
 use dashpot_files::nearest_nanosecond;
 
@@ -190,8 +190,10 @@ fn source<T: Word>(
     is_loaded: bool,
 ) -> String {
     let mut text = String::from(
-        "/* The step of a damper, and the constants of the dampers of this FMU. */\n\n#include \"damper.h\"\n\n",
+        "/* The step of a damper, and the constants of the dampers of this FMU. */\n\n",
     );
+    text += INCLUDES;
+    text += "#include \"damper.h\"\n\n";
     text += &source_with_bank::<T>("DAMPER");
     let mut names = Vec::new();
     for (number, named) in (1..).zip(dampers) {

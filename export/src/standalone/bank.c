@@ -238,6 +238,3 @@ static void prefix_step_bank(const prefix_damper *dampers, prefix_state *states,
         (void)prefix_step(&dampers[number], &states[number], displacements_m[number]);
     }
 }
-
-#undef PREFIX_SHUFFLE
-#undef PREFIX_HAS_VECTORS

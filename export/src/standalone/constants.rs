@@ -49,7 +49,7 @@ pub(super) fn declarations<T: Word>(constant: &str, damper: &Damper<T>) -> Strin
         "/* The damper as built: step with it, or copy it to change the clearance of the copy. */\n\
          extern const {name}_damper {name}_as_built;\n\n\
          /* Value of {name}_digest(&{name}_as_built) if the forces equal those of the Rust model. */\n\
-         #define {constant}_DIGEST UINT32_C({:#010x})\n",
+         #define {constant}_DIGEST {:#010x}U\n",
         digest(damper)
     )
 }
@@ -59,6 +59,7 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
     let words = T::words(damper);
     let (scalars, rest) = words.split_at(SCALARS);
     let (revisions, pieces) = rest.split_at(REVISIONS);
+    let zero = hexadecimal(T::ZERO);
     let mut text = format!("\nstatic const {prefix}_row {name}_rows[{ROWS}] = {{\n",);
     for side in pieces.chunks(PIECES * PIECE_WORDS) {
         let pieces: Vec<&[u64]> = side.chunks(PIECE_WORDS).collect();
@@ -73,14 +74,14 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
             // Writing to a String does not fail.
             let _ = writeln!(
                 text,
-                "    {},\n    {{{{{}, {}, 0, 0}}}},",
+                "    {},\n    {{{{{}, {}, {zero}, {zero}}}}},",
                 cubics.collect::<Vec<_>>().join(",\n    "),
                 knot(index),
                 knot(index + 1),
             );
         }
     }
-    let zeros = ["    {{0, 0, 0, 0}}"; PIECE_ROWS * SPARE_PIECES];
+    let zeros = vec![format!("    {{{{{zero}, {zero}, {zero}, {zero}}}}}"); PIECE_ROWS * SPARE_PIECES];
     let _ = writeln!(text, "{}", zeros.join(",\n"));
     let bins = damper.bins();
     let _ = write!(
@@ -96,10 +97,9 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
         let _ = writeln!(text, "    {},", row.join(", "));
     }
     let _ = write!(text, "}};\n\nconst {prefix}_damper {name}_as_built = {{\n");
-    let bits = 8 * size_of::<T>();
     for (index, word) in scalars.iter().enumerate() {
         if BIT_BOUNDS.contains(&index) {
-            let _ = writeln!(text, "    UINT{bits}_C({word:#x}),");
+            let _ = writeln!(text, "    {word:#x}U,");
             continue;
         }
         let mut number = T::from_word(*word);
@@ -109,7 +109,7 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
         let _ = writeln!(text, "    {},", hexadecimal(number));
     }
     for revision in revisions {
-        let _ = writeln!(text, "    UINT32_C({revision:#010x}),");
+        let _ = writeln!(text, "    {revision:#010x}U,");
     }
     let _ = write!(text, "    {name}_rows,\n    {name}_bins\n}};\n");
     text

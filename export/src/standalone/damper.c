@@ -2,7 +2,16 @@
 #ifdef PREFIX_REGISTER
 #define PREFIX_ALWAYS(number) __asm__ volatile("" : PREFIX_REGISTER(number))
 #else
-#define PREFIX_ALWAYS(number) (void)0
+#define PREFIX_ALWAYS(number) ((void)0)
+#endif
+
+/* A function that is rarely called and must not be inlined. */
+#if defined(__GNUC__) || defined(__clang__)
+#define PREFIX_COLD static __attribute__((noinline, cold))
+#elif defined(_MSC_VER)
+#define PREFIX_COLD static __declspec(noinline)
+#else
+#define PREFIX_COLD static
 #endif
 
 /* True if maximum and minimum are single instructions: Armv8-M and Armv8-A in single precision, and Cortex-M7 if the
@@ -14,6 +23,8 @@
 #define PREFIX_HAS_MAXIMUM 0
 #endif
 
+#define PREFIX_ZERO ((prefix_real)0.0)
+#define PREFIX_ONE ((prefix_real)1.0)
 /* gamma of both stages, 1 - 1/sqrt 2, and 1 - gamma. */
 #define PREFIX_GAMMA ((prefix_real)0x1.2bec333018866p-2)
 #define PREFIX_REST_OF_GAMMA ((prefix_real)0x1.6a09e667f3bcdp-1)
@@ -35,29 +46,27 @@
 #define PREFIX_MARK_BITS 0xffc0U
 
 /* Initial value and factor of the hash FNV-1a (Fowler, Noll, Vo; 32 bit). */
-#define PREFIX_HASH_START UINT32_C(0x811c9dc5)
-#define PREFIX_HASH_FACTOR UINT32_C(0x01000193)
+#define PREFIX_HASH_START 0x811c9dc5U
+#define PREFIX_HASH_FACTOR 0x01000193U
 
-enum {
-    /* Pieces and bins per side. */
-    PREFIX_PIECES = 64,
-    PREFIX_BINS = 2048,
-    /* Rows of a piece: three cubics in z, the reach beyond the knot of the piece (coefficients of 1, z, z^2, z^3), and
-     * the knots. Two pieces of zeros follow those of both sides. */
-    PREFIX_FLOW = 0,            /* times the step (m), with the sign of the stretch */
-    PREFIX_POTENTIAL = 1,       /* flow potential times the step (m^2), positive */
-    PREFIX_STIFFNESS = 2,       /* force over stretch beyond the clearance (N/m) */
-    PREFIX_KNOTS = 3,           /* where the piece and the next one begin (m), two unused numbers */
-    PREFIX_ROWS_PER_PIECE = 4,
-    PREFIX_ROWS = PREFIX_ROWS_PER_PIECE * (2 * PREFIX_PIECES + 2),
-    /* Leading bits of a number's fraction that contribute to the index of a bin. */
-    PREFIX_BIN_FRACTION_BITS = 7,
-    /* Sizes of a number, of its fraction, and of the fraction's bits below those that give the index of a bin. */
-    PREFIX_REAL_BYTES = sizeof(prefix_real),
-    PREFIX_REAL_BITS = 8 * PREFIX_REAL_BYTES,
-    PREFIX_FRACTION_BITS = (PREFIX_REAL_BYTES == 4 ? FLT_MANT_DIG : DBL_MANT_DIG) - 1,
-    PREFIX_BIN_SHIFT = PREFIX_FRACTION_BITS - PREFIX_BIN_FRACTION_BITS
-};
+/* Bins per side. */
+#define PREFIX_BINS 2048U
+/* Rows of a piece: three cubics in z, the reach beyond the knot of the piece (coefficients of 1, z, z^2, z^3), and the
+ * knots. A side has 64 pieces; two pieces of zeros follow those of both sides. */
+#define PREFIX_FLOW 0U       /* times the step (m), with the sign of the stretch */
+#define PREFIX_POTENTIAL 1U  /* flow potential times the step (m^2), positive */
+#define PREFIX_STIFFNESS 2U  /* force over stretch beyond the clearance (N/m) */
+#define PREFIX_KNOTS 3U      /* where the piece and the next one begin (m), two unused numbers */
+#define PREFIX_ROWS_PER_PIECE 4U
+/* Leading bits of a number's fraction that contribute to the index of a bin. */
+#define PREFIX_BIN_FRACTION_BITS 7U
+/* Sizes of a number, of its fraction, and of the fraction's bits below those that give the index of a bin. */
+#define PREFIX_REAL_BITS SCALAR_BITSU
+#define PREFIX_REAL_BYTES (PREFIX_REAL_BITS / 8U)
+#define PREFIX_FRACTION_BITS SCALAR_FRACTION_BITSU
+#define PREFIX_BIN_SHIFT (PREFIX_FRACTION_BITS - PREFIX_BIN_FRACTION_BITS)
+/* All bits of a number but its sign. */
+#define PREFIX_MAGNITUDE_BITS ((prefix_bits)(~(prefix_bits)0U) >> 1U)
 
 /* A number and its bits. */
 typedef union prefix_word {
@@ -89,7 +98,7 @@ PREFIX_INLINE prefix_real prefix_real_of(prefix_bits bits)
 PREFIX_INLINE prefix_real prefix_magnitude(prefix_real value)
 {
 #if !defined(__GNUC__)
-    return prefix_real_of(prefix_bits_of(value) & (prefix_bits)-1 >> 1);
+    return prefix_real_of(prefix_bits_of(value) & PREFIX_MAGNITUDE_BITS);
 #elif SCALAR_BITS == 32
     return __builtin_fabsf(value);
 #else
@@ -103,7 +112,7 @@ PREFIX_INLINE prefix_real prefix_larger(prefix_real value, prefix_real other)
 #if PREFIX_HAS_MAXIMUM
     return __builtin_fmaxf(value, other);
 #else
-    return value > other ? value : other;
+    return (value > other) ? value : other;
 #endif
 }
 
@@ -112,14 +121,14 @@ PREFIX_INLINE prefix_real prefix_smaller(prefix_real value, prefix_real other)
 #if PREFIX_HAS_MAXIMUM
     return __builtin_fminf(value, other);
 #else
-    return value < other ? value : other;
+    return (value < other) ? value : other;
 #endif
 }
 
 /* True if a number is neither NaN nor infinite. */
 PREFIX_INLINE bool prefix_is_finite(prefix_real value)
 {
-    const prefix_bits exponent = ((prefix_bits)-1 >> 1) >> PREFIX_FRACTION_BITS << PREFIX_FRACTION_BITS;
+    const prefix_bits exponent = (PREFIX_MAGNITUDE_BITS >> PREFIX_FRACTION_BITS) << PREFIX_FRACTION_BITS;
 
     return (prefix_bits_of(value) & exponent) != exponent;
 }
@@ -128,7 +137,7 @@ PREFIX_INLINE bool prefix_is_finite(prefix_real value)
  * exceed those of every number. */
 PREFIX_INLINE bool prefix_is_within(prefix_real value, prefix_bits bound)
 {
-    return bound >= (prefix_bits)(prefix_bits_of(value) << 1);
+    return bound >= (prefix_bits)(prefix_bits_of(value) << 1U);
 }
 
 /* The product a b, always rounded. */
@@ -184,7 +193,7 @@ typedef struct prefix_stage {
  * bits. */
 PREFIX_INLINE prefix_bits prefix_exceeds(prefix_bits reach, prefix_real knot)
 {
-    return (prefix_bits)(prefix_bits_of(knot) - reach) >> (PREFIX_REAL_BITS - 1);
+    return (prefix_bits)(prefix_bits_of(knot) - reach) >> (PREFIX_REAL_BITS - 1U);
 }
 
 /* Finds the stage whose stretch and flow sum to `reach` (m). The exponent and leading bits of the reach beyond the
@@ -194,13 +203,13 @@ PREFIX_INLINE void prefix_solve(const prefix_damper *damper, prefix_real reach, 
 {
     /* The same as max(|reach| - offset, 0) + knot, but needs no constant zero. */
     const prefix_real knot = damper->first_knot_m;
-    const prefix_real place = prefix_larger(prefix_magnitude(reach) - damper->offset_m + knot, knot);
+    const prefix_real place = prefix_larger((prefix_magnitude(reach) - damper->offset_m) + knot, knot);
     const prefix_bits bits = prefix_bits_of(place);
-    const unsigned side = (unsigned)(prefix_bits_of(reach) >> (PREFIX_REAL_BITS - 1));
+    const unsigned side = (unsigned)(prefix_bits_of(reach) >> (PREFIX_REAL_BITS - 1U));
     const unsigned bin = (unsigned)(bits >> PREFIX_BIN_SHIFT) % PREFIX_BINS;
-    const prefix_row *const first = &damper->rows[PREFIX_ROWS_PER_PIECE / 2 * damper->bins[bin][side]];
+    const prefix_row *const first = &damper->rows[(PREFIX_ROWS_PER_PIECE / 2U) * damper->bins[bin][side]];
 
-    stage->piece = first + PREFIX_ROWS_PER_PIECE * prefix_exceeds(bits, first[PREFIX_KNOTS].numbers[1]);
+    stage->piece = &first[PREFIX_ROWS_PER_PIECE * prefix_exceeds(bits, first[PREFIX_KNOTS].numbers[1])];
     stage->z_m = place - stage->piece[PREFIX_KNOTS].numbers[0];
     stage->flow_m = prefix_cubic(&stage->piece[PREFIX_FLOW], stage->z_m);
 }
@@ -222,40 +231,38 @@ PREFIX_INLINE prefix_real prefix_force(const prefix_damper *damper, prefix_real 
 PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state *state, prefix_real travel)
 {
     const prefix_real gamma = PREFIX_GAMMA;
-    prefix_real start, bend, quadrature, change, end;
-    prefix_real end_potential, area, most, correction, contact;
-    prefix_real stretch, magnitude, limit, limited, force;
-    prefix_stage first, last;
-    unsigned status_word;
-
     /* Sums of travels on this grid are exact, so a piston at rest in its clearance does not drift. */
-    travel = (travel + damper->position_rounder_m) - damper->position_rounder_m;
-    state->displacement_m = state->displacement_m + travel;
+    const prefix_real move = (travel + damper->position_rounder_m) - damper->position_rounder_m;
+    const prefix_real start = state->stretch_m;
+    prefix_stage first;
+    prefix_stage last;
 
-    start = state->stretch_m;
-    prefix_solve(damper, prefix_add_product(start, gamma, travel), &first);
-    prefix_solve(damper, prefix_subtract_product(start + travel, PREFIX_REST_OF_GAMMA, first.flow_m), &last);
-    bend = prefix_product(gamma, last.flow_m - first.flow_m);
-    quadrature = first.flow_m + bend;
-    change = travel - quadrature;
-    end = start + change;
+    state->displacement_m = state->displacement_m + move;
+
+    prefix_solve(damper, prefix_add_product(start, gamma, move), &first);
+    prefix_solve(damper, prefix_subtract_product(start + move, PREFIX_REST_OF_GAMMA, first.flow_m), &last);
+    const prefix_real bend = prefix_product(gamma, last.flow_m - first.flow_m);
+    const prefix_real quadrature = first.flow_m + bend;
+    const prefix_real change = move - quadrature;
+    const prefix_real end = start + change;
 
     /* Mean flow over the straight path, from the potential; the slope gives the part off the path. */
-    end_potential = prefix_cubic(&last.piece[PREFIX_POTENTIAL], last.z_m);
-    area = prefix_add_product(end_potential - state->potential_m2, bend, bend);
-    most = prefix_magnitude(change * PREFIX_LARGEST_CORRECTION);
-    correction = prefix_larger(prefix_smaller(area / change - quadrature, most), -most);
+    const prefix_real end_potential = prefix_cubic(&last.piece[PREFIX_POTENTIAL], last.z_m);
+    const prefix_real area = prefix_add_product(end_potential - state->potential_m2, bend, bend);
+    const prefix_real most = prefix_magnitude(change * PREFIX_LARGEST_CORRECTION);
+    prefix_real correction = prefix_larger(prefix_smaller((area / change) - quadrature, most), -most);
     PREFIX_ALWAYS(correction);
-    contact = last.flow_m * start * state->potential_m2;
-    if (contact > 0) {
-        correction = 0;
+    const prefix_real contact = (last.flow_m * start) * state->potential_m2;
+    if (contact > PREFIX_ZERO) {
+        correction = PREFIX_ZERO;
     }
 
-    stretch = ((end + damper->rest_rounder_m) - correction) - damper->rest_rounder_m;
-    magnitude = prefix_force(damper, stretch, prefix_cubic(&last.piece[PREFIX_STIFFNESS], last.z_m));
-    limit = damper->force_limit_n;
-    limited = magnitude;
-    status_word = state->status_word;
+    const prefix_real stretch = ((end + damper->rest_rounder_m) - correction) - damper->rest_rounder_m;
+    const prefix_real magnitude =
+        prefix_force(damper, stretch, prefix_cubic(&last.piece[PREFIX_STIFFNESS], last.z_m));
+    const prefix_real limit = damper->force_limit_n;
+    prefix_real limited = magnitude;
+    unsigned status_word = state->status_word;
     if (!(magnitude < limit)) {
         limited = limit;
         status_word |= PREFIX_SATURATED;
@@ -264,9 +271,9 @@ PREFIX_INLINE prefix_real prefix_move(const prefix_damper *damper, prefix_state 
     /* Only damaged constants make the force negative, NaN or larger than any limit; in all these cases its bits exceed
      * those of the bound. */
     if (prefix_bits_of(limited) > prefix_bits_of(PREFIX_LARGEST_FORCE_N)) {
-        limited = prefix_larger(prefix_smaller(limited, PREFIX_LARGEST_FORCE_N), 0);
+        limited = prefix_larger(prefix_smaller(limited, PREFIX_LARGEST_FORCE_N), PREFIX_ZERO);
     }
-    force = stretch >= 0 ? limited : -limited;
+    const prefix_real force = (stretch >= PREFIX_ZERO) ? limited : -limited;
 
     state->stretch_m = stretch;
     state->potential_m2 = prefix_subtract_product(end_potential, last.flow_m, correction);
@@ -280,7 +287,7 @@ PREFIX_COLD prefix_real prefix_unusual_step(const prefix_damper *damper, prefix_
 /* True if a state, its damper and its displacement allow the usual step. */
 PREFIX_INLINE bool prefix_is_usual(const prefix_damper *damper, const prefix_state *state, prefix_real displacement_m)
 {
-    return state->revision == damper->revision
+    return (state->revision == damper->revision)
            && prefix_is_within(displacement_m - state->displacement_m, damper->move_bound)
            && prefix_is_within(displacement_m, damper->displacement_bound)
            && prefix_is_within(state->stretch_m, damper->stretch_bound);
@@ -297,18 +304,20 @@ prefix_real prefix_step(const prefix_damper *damper, prefix_state *state, prefix
 /* Largest credible move of the input in a step (m). */
 static prefix_real prefix_largest_move_m(const prefix_damper *damper)
 {
-    return prefix_real_of(damper->move_bound >> 1);
+    return prefix_real_of(damper->move_bound >> 1U);
 }
 
 prefix_real prefix_largest_displacement_m(const prefix_damper *damper)
 {
-    return prefix_real_of(damper->displacement_bound >> 1);
+    return prefix_real_of(damper->displacement_bound >> 1U);
 }
 
 /* Reach beyond the offset (m) at the end of the bins; no stage of an undamaged state looks beyond it. */
 static prefix_real prefix_largest_reach_beyond_offset(const prefix_damper *damper)
 {
-    return (prefix_real)(1U << (PREFIX_BINS >> PREFIX_BIN_FRACTION_BITS)) * damper->first_knot_m;
+    const uint32_t octaves = 1UL << (PREFIX_BINS >> PREFIX_BIN_FRACTION_BITS);
+
+    return (prefix_real)octaves * damper->first_knot_m;
 }
 
 /* True if all numbers of a state are finite. */
@@ -324,15 +333,15 @@ static bool prefix_could_leave(const prefix_damper *damper, const prefix_state *
 {
     const prefix_real most = prefix_product((prefix_real)1.001, prefix_largest_displacement_m(damper));
 
-    return prefix_magnitude(state->displacement_m) <= most && prefix_is_finite(state->potential_m2)
+    return (prefix_magnitude(state->displacement_m) <= most) && prefix_is_finite(state->potential_m2)
            && prefix_is_within(state->stretch_m, damper->stretch_bound)
-           && prefix_magnitude(state->force_n) <= prefix_force_limit_n(damper);
+           && (prefix_magnitude(state->force_n) <= prefix_force_limit_n(damper));
 }
 
 static void prefix_count_rejected_input(prefix_state *state)
 {
     if (state->rejected_inputs != UINT16_MAX) {
-        state->rejected_inputs = (uint16_t)(state->rejected_inputs + 1);
+        state->rejected_inputs = (uint16_t)(state->rejected_inputs + 1U);
     }
 }
 
@@ -346,7 +355,7 @@ static prefix_real prefix_hold(prefix_state *state)
 {
     prefix_count_rejected_input(state);
     prefix_latch(state, PREFIX_INPUT_HELD);
-    return 0;
+    return PREFIX_ZERO;
 }
 
 /* Puts a state at rest at a displacement (m); keeps its latched bits and its counter. */
@@ -354,8 +363,8 @@ static void prefix_restart(const prefix_damper *damper, prefix_state *state, pre
                            unsigned because)
 {
     const bool marked = (state->status_word & PREFIX_MARK_BITS) == PREFIX_MARK;
-    const unsigned status = marked ? prefix_status(state) : 0;
-    const uint16_t count = marked ? state->rejected_inputs : 0;
+    const unsigned status = marked ? prefix_status(state) : 0U;
+    const uint16_t count = (uint16_t)(marked ? state->rejected_inputs : 0U);
 
     prefix_at_rest(damper, state, displacement_m);
     state->rejected_inputs = count; /* callers count held displacements */
@@ -373,9 +382,8 @@ static prefix_real prefix_travel(const prefix_damper *damper, prefix_state *stat
 {
     const prefix_real most = prefix_largest_move_m(damper);
     const bool known = state->revision == damper->revision;
-    prefix_real travel, steps, fall;
 
-    if ((state->status_word & PREFIX_MARK_BITS) != PREFIX_MARK || !prefix_is_finite_state(state)
+    if (((state->status_word & PREFIX_MARK_BITS) != PREFIX_MARK) || !prefix_is_finite_state(state)
         || (known && !prefix_could_leave(damper, state))) {
         prefix_restart(damper, state, displacement_m, PREFIX_CORRUPTED);
     }
@@ -385,23 +393,24 @@ static prefix_real prefix_travel(const prefix_damper *damper, prefix_state *stat
     if (!prefix_is_within(displacement_m, damper->displacement_bound)) {
         return prefix_hold(state);
     }
-    travel = displacement_m - state->displacement_m;
+    const prefix_real travel = displacement_m - state->displacement_m;
     if (prefix_magnitude(travel) <= most) {
         return travel;
     }
-    steps = PREFIX_CATCH_UP_S / damper->step_s;
-    if (prefix_magnitude(travel) <= most * prefix_larger(steps, 2)) {
+    const prefix_real steps = PREFIX_CATCH_UP_S / damper->step_s;
+    if (prefix_magnitude(travel) <= (most * prefix_larger(steps, (prefix_real)2.0))) {
         prefix_count_rejected_input(state);
         prefix_latch(state, PREFIX_INPUT_LIMITED);
         return prefix_smaller(prefix_larger(travel, -most), most);
     }
-    fall = prefix_force_limit_n(damper) * prefix_smaller(prefix_larger(1 / steps, PREFIX_LEAST_FALL), 1);
+    const prefix_real share = prefix_smaller(prefix_larger(PREFIX_ONE / steps, PREFIX_LEAST_FALL), PREFIX_ONE);
+    const prefix_real fall = prefix_force_limit_n(damper) * share;
     if (prefix_magnitude(state->force_n) <= fall) {
         prefix_restart(damper, state, displacement_m, PREFIX_RESTARTED);
         prefix_count_rejected_input(state);
-        return 0;
+        return PREFIX_ZERO;
     }
-    prefix_take_force(damper, state, state->force_n < 0 ? state->force_n + fall : state->force_n - fall);
+    prefix_take_force(damper, state, state->force_n + ((state->force_n < PREFIX_ZERO) ? fall : -fall));
     return prefix_hold(state);
 }
 
@@ -416,13 +425,13 @@ void prefix_at_rest(const prefix_damper *damper, prefix_state *state, prefix_rea
     const bool good = prefix_is_within(displacement_m, damper->displacement_bound);
     const prefix_real end = prefix_largest_displacement_m(damper);
 
-    state->displacement_m = good ? displacement_m : displacement_m < 0 ? -end : end;
-    state->stretch_m = 0;
-    state->potential_m2 = 0;
-    state->force_n = 0;
+    state->displacement_m = good ? displacement_m : ((displacement_m < PREFIX_ZERO) ? -end : end);
+    state->stretch_m = PREFIX_ZERO;
+    state->potential_m2 = PREFIX_ZERO;
+    state->force_n = PREFIX_ZERO;
     state->revision = damper->revision;
-    state->status_word = (uint16_t)(good ? PREFIX_MARK : PREFIX_MARK | PREFIX_INPUT_HELD);
-    state->rejected_inputs = good ? 0 : 1;
+    state->status_word = (uint16_t)(good ? PREFIX_MARK : (PREFIX_MARK | PREFIX_INPUT_HELD));
+    state->rejected_inputs = (uint16_t)(good ? 0U : 1U);
 }
 
 /* Gives a state the stretch and the flow potential at which the damper has a force (N); finds them by bisection. */
@@ -431,16 +440,15 @@ static void prefix_take_force(const prefix_damper *damper, prefix_state *state, 
     const prefix_real target = prefix_magnitude(force);
     prefix_real low = damper->half_clearance_m;
     prefix_real high = prefix_largest_reach_beyond_offset(damper) + damper->offset_m;
-    int halving;
+    unsigned halving;
 
-    for (halving = 0; halving < PREFIX_FRACTION_BITS + 3; halving++) {
+    for (halving = 0U; halving < (PREFIX_FRACTION_BITS + 3U); halving++) {
         const prefix_real middle = (prefix_real)0.5 * (low + high);
-        const prefix_real reach = force < 0 ? -middle : middle;
+        const prefix_real reach = (force < PREFIX_ZERO) ? -middle : middle;
         prefix_stage stage;
-        prefix_real stretch;
 
         prefix_solve(damper, reach, &stage);
-        stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
+        const prefix_real stretch = prefix_subtract_product(reach, PREFIX_GAMMA, stage.flow_m);
         state->stretch_m = stretch;
         state->potential_m2 = prefix_cubic(&stage.piece[PREFIX_POTENTIAL], stage.z_m);
         if (prefix_force(damper, stretch, prefix_cubic(&stage.piece[PREFIX_STIFFNESS], stage.z_m)) < target) {
@@ -460,15 +468,15 @@ void prefix_adopt(const prefix_damper *damper, prefix_state *state)
     const prefix_real most = damper->half_clearance_m;
     const prefix_real end = prefix_largest_displacement_m(damper);
 
-    if (force == 0) {
+    if (force == PREFIX_ZERO) {
         state->stretch_m = prefix_smaller(prefix_larger(state->stretch_m, -most), most);
-        state->potential_m2 = 0;
+        state->potential_m2 = PREFIX_ZERO;
     } else {
         prefix_take_force(damper, state, force);
     }
     state->displacement_m = prefix_smaller(prefix_larger(state->displacement_m, -end), end);
     state->force_n = force;
-    if (state->revision != 0) {
+    if (state->revision != 0U) {
         prefix_latch(state, PREFIX_DAMPER_SWAPPED);
     }
     state->revision = damper->revision;
@@ -482,12 +490,13 @@ static uint32_t prefix_hash_byte(uint32_t hash, unsigned byte)
 /* Continues the hash over the bits of a number, zero-extended to 64 bits, lowest byte first. */
 static uint32_t prefix_hash_bits(uint32_t hash, uint64_t bits)
 {
+    uint32_t hashed = hash;
     unsigned shift;
 
-    for (shift = 0; shift < 64; shift += 8) {
-        hash = prefix_hash_byte(hash, (unsigned)(bits >> shift & 0xff));
+    for (shift = 0U; shift < 64U; shift += 8U) {
+        hashed = prefix_hash_byte(hashed, (unsigned)((bits >> shift) & 0xffU));
     }
-    return hash;
+    return hashed;
 }
 
 static uint32_t prefix_hash_real(uint32_t hash, prefix_real value)
@@ -503,14 +512,14 @@ static prefix_bits prefix_stretch_bound(const prefix_damper *damper)
     const prefix_real most = prefix_subtract_product(end, (prefix_real)1.12, prefix_largest_move_m(damper));
     const prefix_real in_table = prefix_add_product(damper->offset_m, (prefix_real)0.7, most);
 
-    return prefix_bits_of(prefix_smaller(prefix_larger(in_table, 0), PREFIX_LARGEST_BOUND_M)) << 1;
+    return prefix_bits_of(prefix_smaller(prefix_larger(in_table, PREFIX_ZERO), PREFIX_LARGEST_BOUND_M)) << 1U;
 }
 
 prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearance_m)
 {
     uint32_t hash = damper->table_revision;
 
-    if (!(clearance_m >= 0 && clearance_m <= PREFIX_LARGEST_CLEARANCE_M)) {
+    if (!((clearance_m >= PREFIX_ZERO) && (clearance_m <= PREFIX_LARGEST_CLEARANCE_M))) {
         return PREFIX_CLEARANCE_REFUSED;
     }
     damper->half_clearance_m = (prefix_real)0.5 * clearance_m;
@@ -527,7 +536,7 @@ prefix_result prefix_set_clearance_m(prefix_damper *damper, prefix_real clearanc
     hash = prefix_hash_real(hash, damper->held_m);
     hash = prefix_hash_bits(hash, damper->displacement_bound);
     hash = prefix_hash_bits(hash, damper->stretch_bound);
-    damper->revision = hash == 0 ? 1 : hash;
+    damper->revision = (hash == 0U) ? 1U : hash;
     return PREFIX_DONE;
 }
 
@@ -552,56 +561,63 @@ prefix_real prefix_force_limit_n(const prefix_damper *damper)
 {
     const prefix_real limit = damper->force_limit_n;
 
-    return limit <= PREFIX_LARGEST_FORCE_N ? prefix_larger(limit, 0) : PREFIX_LARGEST_FORCE_N;
+    return (limit <= PREFIX_LARGEST_FORCE_N) ? prefix_larger(limit, PREFIX_ZERO) : PREFIX_LARGEST_FORCE_N;
 }
 
-static uint8_t *prefix_put(uint8_t *to, uint64_t value, unsigned bytes)
+/* Writes the lower bytes of a value, the lowest first. */
+static void prefix_put(uint8_t *to, uint64_t value, unsigned bytes)
 {
+    uint64_t rest = value;
     unsigned byte;
 
-    for (byte = 0; byte < bytes; byte++) {
-        *to++ = (uint8_t)(value >> 8 * byte & 0xff);
+    for (byte = 0U; byte < bytes; byte++) {
+        to[byte] = (uint8_t)(rest & 0xffU);
+        rest = rest >> 8U;
     }
-    return to;
 }
 
 static uint64_t prefix_get(const uint8_t *from, unsigned bytes)
 {
-    uint64_t value = 0;
+    uint64_t value = 0U;
     unsigned byte;
 
-    for (byte = 0; byte < bytes; byte++) {
-        value |= (uint64_t)from[byte] << 8 * byte;
+    for (byte = bytes; byte > 0U; byte--) {
+        value = (value << 8U) | from[byte - 1U];
     }
     return value;
 }
 
+static prefix_real prefix_get_real(const uint8_t *from)
+{
+    return prefix_real_of((prefix_bits)prefix_get(from, PREFIX_REAL_BYTES));
+}
+
 void prefix_save(const prefix_state *state, uint8_t bytes[PREFIX_STATE_BYTES])
 {
-    uint8_t *to = bytes;
+    uint8_t *const rest = &bytes[4U * PREFIX_REAL_BYTES];
 
-    to = prefix_put(to, prefix_bits_of(state->displacement_m), PREFIX_REAL_BYTES);
-    to = prefix_put(to, prefix_bits_of(state->stretch_m), PREFIX_REAL_BYTES);
-    to = prefix_put(to, prefix_bits_of(state->potential_m2), PREFIX_REAL_BYTES);
-    to = prefix_put(to, prefix_bits_of(state->force_n), PREFIX_REAL_BYTES);
-    to = prefix_put(to, state->revision, 4);
-    to = prefix_put(to, prefix_status(state), 2);
-    (void)prefix_put(to, state->rejected_inputs, 2);
+    prefix_put(bytes, prefix_bits_of(state->displacement_m), PREFIX_REAL_BYTES);
+    prefix_put(&bytes[PREFIX_REAL_BYTES], prefix_bits_of(state->stretch_m), PREFIX_REAL_BYTES);
+    prefix_put(&bytes[2U * PREFIX_REAL_BYTES], prefix_bits_of(state->potential_m2), PREFIX_REAL_BYTES);
+    prefix_put(&bytes[3U * PREFIX_REAL_BYTES], prefix_bits_of(state->force_n), PREFIX_REAL_BYTES);
+    prefix_put(rest, state->revision, 4U);
+    prefix_put(&rest[4], prefix_status(state), 2U);
+    prefix_put(&rest[6], state->rejected_inputs, 2U);
 }
 
 prefix_result prefix_restore(const prefix_damper *damper, prefix_state *state,
                              const uint8_t bytes[PREFIX_STATE_BYTES])
 {
-    const uint8_t *rest = bytes + 4 * PREFIX_REAL_BYTES;
+    const uint8_t *const rest = &bytes[4U * PREFIX_REAL_BYTES];
     prefix_state saved;
 
-    saved.displacement_m = prefix_real_of((prefix_bits)prefix_get(bytes, PREFIX_REAL_BYTES));
-    saved.stretch_m = prefix_real_of((prefix_bits)prefix_get(bytes + PREFIX_REAL_BYTES, PREFIX_REAL_BYTES));
-    saved.potential_m2 = prefix_real_of((prefix_bits)prefix_get(bytes + 2 * PREFIX_REAL_BYTES, PREFIX_REAL_BYTES));
-    saved.force_n = prefix_real_of((prefix_bits)prefix_get(bytes + 3 * PREFIX_REAL_BYTES, PREFIX_REAL_BYTES));
-    saved.revision = (uint32_t)prefix_get(rest, 4);
-    saved.status_word = (uint16_t)(PREFIX_MARK | (prefix_get(rest + 4, 2) & (~PREFIX_MARK_BITS & 0xffffU)));
-    saved.rejected_inputs = (uint16_t)prefix_get(rest + 6, 2);
+    saved.displacement_m = prefix_get_real(bytes);
+    saved.stretch_m = prefix_get_real(&bytes[PREFIX_REAL_BYTES]);
+    saved.potential_m2 = prefix_get_real(&bytes[2U * PREFIX_REAL_BYTES]);
+    saved.force_n = prefix_get_real(&bytes[3U * PREFIX_REAL_BYTES]);
+    saved.revision = (uint32_t)prefix_get(rest, 4U);
+    saved.status_word = (uint16_t)(PREFIX_MARK | (prefix_get(&rest[4], 2U) & (~PREFIX_MARK_BITS & 0xffffU)));
+    saved.rejected_inputs = (uint16_t)prefix_get(&rest[6], 2U);
 
     if (saved.revision != damper->revision) {
         return PREFIX_OTHER_DAMPER;
@@ -648,33 +664,34 @@ uint32_t prefix_digest(const prefix_damper *damper)
     prefix_state state;
     uint8_t bytes[PREFIX_STATE_BYTES];
     uint32_t hash = PREFIX_HASH_START;
-    uint32_t random = 1;
+    uint32_t random = 1U;
     const prefix_real largest_move = prefix_largest_move_m(damper);
     prefix_real move = largest_move;
-    prefix_real displacement = 0;
-    unsigned step, byte;
+    prefix_real displacement = PREFIX_ZERO;
+    unsigned step;
+    unsigned byte;
 
     prefix_copy(&copy, damper);
-    prefix_at_rest(&copy, &state, 0);
-    for (step = 0; step < PREFIX_DIGEST_STEPS; step++) {
-        const bool failed = step % 512 == 300;
-        prefix_real fraction;
+    prefix_at_rest(&copy, &state, PREFIX_ZERO);
+    for (step = 0U; step < PREFIX_DIGEST_STEPS; step++) {
+        const bool failed = (step % 512U) == 300U;
 
-        random = (random * UINT32_C(1664525) + UINT32_C(1013904223)) & UINT32_MAX;
-        fraction = (prefix_real)(random >> 9) * (prefix_real)0x1p-22 - 1; /* exact */
+        random = ((random * 1664525U) + 1013904223U) & UINT32_MAX;
+        const uint32_t upper = random >> 9U;
+        const prefix_real fraction = ((prefix_real)upper * (prefix_real)0x1p-22) - PREFIX_ONE; /* exact */
         displacement = prefix_add_product(prefix_product((prefix_real)0.875, displacement), move, fraction);
-        if (step % 128 == 127) {
-            move = step % 1024 == 1023 ? largest_move : (prefix_real)0.5 * move;
+        if ((step % 128U) == 127U) {
+            move = ((step % 1024U) == 1023U) ? largest_move : ((prefix_real)0.5 * move);
         }
-        if (step == 700) {
-            displacement = displacement + 1;
+        if (step == 700U) {
+            displacement = displacement + PREFIX_ONE;
         }
-        if (step == 1500) {
+        if (step == 1500U) {
             (void)prefix_set_clearance_m(&copy, (prefix_real)0x1p-10);
         }
-        (void)prefix_step(&copy, &state, failed ? prefix_real_of((prefix_bits)-1) : displacement);
+        (void)prefix_step(&copy, &state, failed ? prefix_real_of(~(prefix_bits)0U) : displacement);
         prefix_save(&state, bytes);
-        for (byte = 0; byte < PREFIX_STATE_BYTES; byte++) {
+        for (byte = 0U; byte < PREFIX_STATE_BYTES; byte++) {
             hash = prefix_hash_byte(hash, bytes[byte]);
         }
     }

@@ -12,14 +12,12 @@ typedef SCALAR_TYPE prefix_real;
 typedef SCALAR_WORD prefix_bits;
 
 /* Status bits, latched in a state until prefix_clear_status. */
-enum {
-    PREFIX_INPUT_HELD = 1,      /* a displacement was not finite, out of range, or too far to catch up with: held */
-    PREFIX_INPUT_LIMITED = 2,   /* a displacement moved faster than the largest rate: followed at that rate */
-    PREFIX_SATURATED = 4,       /* the element yielded: it reached the saturation force or the force limit */
-    PREFIX_DAMPER_SWAPPED = 8,  /* a different damper stepped the state; the force was carried over */
-    PREFIX_CORRUPTED = 16,      /* memory was damaged: no step could produce the state, which restarted at rest */
-    PREFIX_RESTARTED = 32       /* a displacement was too far to catch up with: restarted at rest there */
-};
+#define PREFIX_INPUT_HELD 1U      /* a displacement was not finite, out of range, or too far to catch up with: held */
+#define PREFIX_INPUT_LIMITED 2U   /* a displacement moved faster than the largest rate: followed at that rate */
+#define PREFIX_SATURATED 4U       /* the element yielded: it reached the saturation force or the force limit */
+#define PREFIX_DAMPER_SWAPPED 8U  /* a different damper stepped the state; the force was carried over */
+#define PREFIX_CORRUPTED 16U      /* memory was damaged: no step could produce the state, which restarted at rest */
+#define PREFIX_RESTARTED 32U      /* a displacement was too far to catch up with: restarted at rest there */
 
 /* Result of a function that can reject its arguments. */
 typedef enum prefix_result {
@@ -62,7 +60,7 @@ typedef struct prefix_state {
     uint16_t rejected_inputs;        /* number of ticks held, limited or restarted, at most 65535 */
 } prefix_state;
 
-enum { PREFIX_STATE_BYTES = 4 * sizeof(prefix_real) + 8 };
+#define PREFIX_STATE_BYTES ((4U * sizeof(prefix_real)) + 8U)
 
 /* Do not pass null pointers. All functions are reentrant: they use no global variable, no lock and no heap. */
 
@@ -107,5 +105,5 @@ prefix_result prefix_restore(const prefix_damper *damper, prefix_state *state,
  * damper as built in Rust, the compiler, its options or the mode of the floating-point unit change the forces. */
 uint32_t prefix_digest(const prefix_damper *damper);
 
-enum { PREFIX_DIGEST_STEPS = 2048 };
+#define PREFIX_DIGEST_STEPS 2048U
 

@@ -15,6 +15,9 @@ use dashpot_core::Damper;
 use super::{ExportError, Provenance, Word, name};
 use dashpot_files::Scalar;
 
+/// Includes of every source, before everything else.
+pub(super) const INCLUDES: &str = "#include <float.h>\n#include <stdbool.h>\n\n";
+
 const HEADER: &str = include_str!("damper.h");
 const SOURCE: &str = concat!(
     include_str!("start.c"),
@@ -61,6 +64,7 @@ pub fn standalone_source<T: Word>(
     let name = constant.to_lowercase();
     let constants = constants::definitions(&name, &name, damper);
     Ok(comment(constant, damper, provenance)?
+        + INCLUDES
         + &declared
         + &rendered::<T>(SOURCE, constant)
         + &constants)
@@ -104,14 +108,15 @@ fn comment<T: Word>(
 
 /// Fills in the scalar type and the constant's prefix in a source text of the step.
 pub(super) fn rendered<T: Word>(text: &str, constant: &str) -> String {
-    let (float, word, bits) = match Scalar::of::<T>() {
-        Scalar::F32 => ("float", "uint32_t", "32"),
-        Scalar::F64 => ("double", "uint64_t", "64"),
+    let (float, word, bits, fraction_bits) = match Scalar::of::<T>() {
+        Scalar::F32 => ("float", "uint32_t", "32", "23"),
+        Scalar::F64 => ("double", "uint64_t", "64", "52"),
     };
     // The name is replaced last, because it may contain any of these words.
     text.replace("SCALAR_TYPE", float)
         .replace("SCALAR_WORD", word)
         .replace("SCALAR_BITS", bits)
+        .replace("SCALAR_FRACTION_BITS", fraction_bits)
         .replace("prefix_", &format!("{}_", constant.to_lowercase()))
         .replace("PREFIX_", &format!("{constant}_"))
 }

@@ -1,6 +1,3 @@
-#include <float.h>
-#include <stdbool.h>
-
 /* The forces equal those of the Rust model bit for bit only if the compiler rounds every operation once, in its own
  * type, and neither fuses nor reorders operations. Fusing is turned off below; do not request the other
  * optimisations. */
@@ -43,13 +40,10 @@
 
 #if defined(__GNUC__) || defined(__clang__)
 #define PREFIX_INLINE static inline __attribute__((always_inline))
-#define PREFIX_COLD static __attribute__((noinline, cold))
 #elif defined(_MSC_VER)
 #define PREFIX_INLINE static __forceinline
-#define PREFIX_COLD static __declspec(noinline)
 #else
 #define PREFIX_INLINE static inline
-#define PREFIX_COLD static
 #endif
 
 /* Floating-point registers in inline assembly of GCC and clang. */
@@ -65,6 +59,6 @@
 #if defined(__clang__) && defined(PREFIX_REGISTER)
 #define PREFIX_ROUND(product) __asm__("" : PREFIX_REGISTER(product))
 #else
-#define PREFIX_ROUND(product) (void)0
+#define PREFIX_ROUND(product) ((void)0)
 #endif
 

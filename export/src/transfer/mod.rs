@@ -6,7 +6,7 @@
 
 mod digest;
 
-use super::standalone::{END_OF_HEADER, rendered};
+use super::standalone::{END_OF_HEADER, INCLUDES, rendered};
 use super::{ExportError, name};
 
 const HEADER: &str = include_str!("transfer.h");
@@ -18,7 +18,6 @@ const SOURCE: &str = concat!(
     include_str!("guard.c"),
     include_str!("tick.c"),
     include_str!("digest.c"),
-    "#undef PREFIX_TAU\n",
     include_str!("../standalone/end.c"),
 );
 
@@ -45,12 +44,12 @@ pub fn transfer_source(
         Some(header) => format!("#include \"{}\"\n\n", name::checked_include(header)?),
         None => declarations(constant) + "\n",
     };
-    Ok(comment(constant, command)? + &declared + &rendered::<f32>(SOURCE, constant))
+    Ok(comment(constant, command)? + INCLUDES + &declared + &rendered::<f32>(SOURCE, constant))
 }
 
 fn declarations(constant: &str) -> String {
     let digest = digest::digest();
-    let defined = format!("\n#define PREFIX_DIGEST UINT32_C(0x{digest:08x})\n");
+    let defined = format!("\n#define PREFIX_DIGEST 0x{digest:08x}U\n");
     rendered::<f32>(&(HEADER.to_owned() + &defined), constant) + END_OF_HEADER
 }
 

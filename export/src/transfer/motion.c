@@ -1,18 +1,20 @@
 
 #define PREFIX_TAU 6.28318530717958647692f
 
+static void prefix_chain_rest_at(prefix_chain *chain, float value)
+{
+    chain->memory[0] = value;
+    chain->memory[1] = value;
+    chain->memory[2] = value;
+}
+
 /* Low-pass filters of first order in a chain, by the trapezoidal rule, at rest at 0. */
 static void prefix_chain_init(prefix_chain *chain, float pole_per_s, float step_s)
 {
     const float g = prefix_product(prefix_product(0.5f, pole_per_s), step_s);
 
-    chain->memory[0] = chain->memory[1] = chain->memory[2] = 0.0f;
+    prefix_chain_rest_at(chain, 0.0f);
     chain->gain = g / (1.0f + g);
-}
-
-static void prefix_chain_rest_at(prefix_chain *chain, float value)
-{
-    chain->memory[0] = chain->memory[1] = chain->memory[2] = value;
 }
 
 /* Takes a value; returns that after a stage. */
@@ -32,7 +34,9 @@ PREFIX_INLINE void prefix_chain_push(prefix_chain *chain, float x, float derivat
     const float a = prefix_stage(chain, 0, x);
     const float b = prefix_stage(chain, 1, a);
     const float c = prefix_stage(chain, 2, b);
-    const float first = x - a, second = a - b, third = b - c;
+    const float first = x - a;
+    const float second = a - b;
+    const float third = b - c;
 
     derivatives[0] = c;
     derivatives[1] = third;
@@ -43,7 +47,7 @@ PREFIX_INLINE void prefix_chain_push(prefix_chain *chain, float x, float derivat
 /* Returns NULL if `value` is from `least` to `most`, else `text`. */
 static const char *prefix_check(float value, float least, float most, const char *text)
 {
-    return value >= least && value <= most ? NULL : text;
+    return ((value >= least) && (value <= most)) ? NULL : text;
 }
 
 const char *prefix_motion_filter_init(prefix_motion_filter *filter, float pole_hz, float step_s)

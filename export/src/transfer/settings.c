@@ -29,13 +29,14 @@ void prefix_default_settings(prefix_settings *settings, float stroke_m, float ve
 
 void prefix_set_delay(prefix_settings *settings, float delay_s, float delay_error_s)
 {
-    const float error = prefix_magnitude(delay_error_s), most = prefix_magnitude(delay_s) + error;
+    const float error = prefix_magnitude(delay_error_s);
+    const float most = prefix_magnitude(delay_s) + error;
     const float square = prefix_product(delay_s, delay_s);
 
     settings->nominal[0] = 1.0f;
     settings->nominal[1] = delay_s;
     settings->nominal[2] = square / 2.0f;
-    settings->nominal[3] = square * delay_s / 6.0f;
+    settings->nominal[3] = (square * delay_s) / 6.0f;
     settings->largest_change[0] = 0.1f;
     settings->largest_change[1] = delay_error_s;
     settings->largest_change[2] = most * delay_error_s;
@@ -49,15 +50,19 @@ void prefix_set_delay(prefix_settings *settings, float delay_s, float delay_erro
 
 /* A setting with its range. */
 typedef struct prefix_range {
-    float value, least, most;
+    float value;
+    float least;
+    float most;
     const char *text;
 } prefix_range;
 
 /* Names the first setting that is outside its range; NULL if there is none. */
 static const char *prefix_refused(const prefix_settings *settings, float step_s)
 {
-    const float *const a = settings->nominal, *const change = settings->largest_change;
-    const float tenth = 0.1f / step_s < 1000.0f ? 0.1f / step_s : 1000.0f;
+    const float *const a = settings->nominal;
+    const float *const change = settings->largest_change;
+    const float tenth_of_rate = 0.1f / step_s;
+    const float tenth = (tenth_of_rate < 1000.0f) ? tenth_of_rate : 1000.0f;
     const prefix_range ranges[] = {
         {step_s, 1e-5f, 0.02f, "step_s: 1e-5 to 0.02"},
         {a[0], 0.2f, 5.0f, "nominal[0]: 0.2 to 5"},
@@ -95,16 +100,16 @@ static const char *prefix_refused(const prefix_settings *settings, float step_s)
         {settings->tracking_window_s, 0.05f, 1000.0f, "tracking_window_s: 0.05 to 1000"},
         {settings->tracking_error, 0.01f, 100.0f, "tracking_error: 0.01 to 100"},
     };
-    size_t i;
+    unsigned i;
 
-    for (i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+    for (i = 0U; i < (sizeof(ranges) / sizeof(ranges[0])); i++) {
         const char *refused = prefix_check(ranges[i].value, ranges[i].least, ranges[i].most, ranges[i].text);
 
         if (refused != NULL) {
             return refused;
         }
     }
-    return settings->action <= PREFIX_ZERO_FORCE ? NULL : "action: PREFIX_HOLD or PREFIX_ZERO_FORCE";
+    return (settings->action <= PREFIX_ZERO_FORCE) ? NULL : "action: PREFIX_HOLD or PREFIX_ZERO_FORCE";
 }
 
 /* Share of the past that fades in a step, for an exponential window. */
@@ -116,7 +121,7 @@ static float prefix_fading(float step_s, float window_s)
 /* Whole number of ticks in a time; one must not be lost by rounding. */
 static uint32_t prefix_ticks(float time_s, float step_s)
 {
-    return (uint32_t)(time_s / step_s + 0.01f);
+    return (uint32_t)((time_s / step_s) + 0.01f);
 }
 
 const char *prefix_init(prefix_system *system, const prefix_settings *settings, float step_s)
@@ -124,10 +129,12 @@ const char *prefix_init(prefix_system *system, const prefix_settings *settings, 
     static const prefix_system empty;
     const char *refused = prefix_refused(settings, step_s);
     const float pole_per_s = prefix_product(PREFIX_TAU, settings->pole_hz);
-    float sensitivity[4], scaled_nominal[4], power = 1.0f, fading_ticks;
+    float sensitivity[4];
+    float scaled_nominal[4];
+    float power = 1.0f;
     int i;
 
-    for (i = 0; i < 4 && refused == NULL; i++) {
+    for (i = 0; (i < 4) && (refused == NULL); i++) {
         scaled_nominal[i] = settings->nominal[i] * power;
         sensitivity[i] = settings->largest_change[i] * (power / settings->noise_m);
         power = power * pole_per_s;
@@ -150,25 +157,28 @@ const char *prefix_init(prefix_system *system, const prefix_settings *settings, 
     system->largest_move = 4.0f * step_s / settings->change_s;
     prefix_chain_init(&system->commands, pole_per_s, step_s);
     system->measurements = system->commands;
-    system->is_frozen = 1;
+    system->is_frozen = true;
 
     system->tracking_fading = prefix_fading(step_s, settings->tracking_window_s);
-    system->tracking_ticks = system->tracking_left = (uint32_t)(settings->tracking_window_s / step_s);
+    system->tracking_ticks = (uint32_t)(settings->tracking_window_s / step_s);
+    system->tracking_left = system->tracking_ticks;
     system->least_error_m = 0.01f * settings->error_m;
     system->energy_fading = prefix_fading(step_s, settings->energy_window_s);
     system->energy_pole_per_s = prefix_product(PREFIX_TAU, settings->energy_pole_hz);
     prefix_chain_init(&system->desired, system->energy_pole_per_s, step_s);
-    system->errors = system->forces = system->desired;
-    system->window_ticks = system->ticks_left = (uint32_t)(settings->energy_window_s / step_s);
+    system->errors = system->desired;
+    system->forces = system->desired;
+    system->window_ticks = (uint32_t)(settings->energy_window_s / step_s);
+    system->ticks_left = system->window_ticks;
 
     system->phase = PREFIX_APPROACHING;
     system->most_age = prefix_ticks(settings->age_s, step_s);
     system->most_limited = prefix_ticks(settings->limited_s, step_s);
     system->most_off = prefix_ticks(settings->error_s, step_s);
-    fading_ticks = settings->ramp_s / step_s;
+    const float fading_ticks = settings->ramp_s / step_s;
     system->fading_ticks = (uint32_t)fading_ticks;
     if ((float)system->fading_ticks < fading_ticks) {
-        system->fading_ticks++;
+        system->fading_ticks = system->fading_ticks + 1U;
     }
     system->fading_left = system->fading_ticks;
     system->share_of_tick = 1.0f / (float)system->fading_ticks;

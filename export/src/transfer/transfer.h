@@ -13,34 +13,28 @@ extern "C" {
  * pointer, but where it says so. All are reentrant: they use no global variable, no lock, no heap and no library. */
 
 /* Status bits, latched until prefix_clear. Any bit ends the test, except the first two. */
-enum {
-    PREFIX_COMMAND_LIMITED = 1,     /* the command would have moved faster than its rate limit, and was limited */
-    PREFIX_MEASUREMENT_MISSED = 2,  /* at least one tick had no valid measurement */
-    PREFIX_STROKE = 4,       /* desired displacement or compensator's command not a number, or beyond the stroke */
-    PREFIX_VELOCITY = 8,     /* the command was limited for too long */
-    PREFIX_FORCE = 16,       /* the measured force was beyond its limit */
-    PREFIX_TRACKING = 32,    /* measured and desired displacement too far apart for too long, or for the motion */
-    PREFIX_AGE = 64,         /* measured values were too old */
-    PREFIX_IMPLAUSIBLE = 128, /* a measured value jumped, was not a number, or stayed while the command moved */
-    PREFIX_SIGN = 256,       /* the force pushed in the direction of the motion: a wrong sign, or a driven specimen */
-    PREFIX_ENERGY = 512,     /* the actuator added too much energy to the vehicle */
-    PREFIX_REQUESTED = 1024, /* prefix_end was called */
-    PREFIX_NO_FORCE = 2048   /* the specimen moved far without a force: it is broken, or not connected */
-};
+#define PREFIX_COMMAND_LIMITED 1U     /* the command would have moved faster than its rate limit, and was limited */
+#define PREFIX_MEASUREMENT_MISSED 2U  /* at least one tick had no valid measurement */
+#define PREFIX_STROKE 4U              /* desired displacement or compensator's command not a number, or beyond the stroke */
+#define PREFIX_VELOCITY 8U            /* the command was limited for too long */
+#define PREFIX_FORCE 16U              /* the measured force was beyond its limit */
+#define PREFIX_TRACKING 32U           /* measured and desired displacement too far apart for too long, or for the motion */
+#define PREFIX_AGE 64U                /* measured values were too old */
+#define PREFIX_IMPLAUSIBLE 128U       /* a measured value jumped, was not a number, or stayed while the command moved */
+#define PREFIX_SIGN 256U              /* the force pushed in the direction of the motion: a wrong sign, or a driven specimen */
+#define PREFIX_ENERGY 512U            /* the actuator added too much energy to the vehicle */
+#define PREFIX_REQUESTED 1024U        /* prefix_end was called */
+#define PREFIX_NO_FORCE 2048U         /* the specimen moved far without a force: it is broken, or not connected */
 
 /* Phase of a test. */
-enum {
-    PREFIX_APPROACHING = 0,  /* the command moves slowly to the desired displacement */
-    PREFIX_RUNNING = 1,      /* the command follows the wanted one */
-    PREFIX_ENDING = 2,       /* the test has ended, and the command comes to rest */
-    PREFIX_HELD = 3          /* the test has ended, and the command stays */
-};
+#define PREFIX_APPROACHING 0U  /* the command moves slowly to the desired displacement */
+#define PREFIX_RUNNING 1U      /* the command follows the wanted one */
+#define PREFIX_ENDING 2U       /* the test has ended, and the command comes to rest */
+#define PREFIX_HELD 3U         /* the test has ended, and the command stays */
 
 /* How a test ends. */
-enum {
-    PREFIX_HOLD = 0,       /* stop, and hold the displacement */
-    PREFIX_ZERO_FORCE = 1  /* stop, and move back by the measured force divided by the stiffness of the specimen */
-};
+#define PREFIX_HOLD 0U        /* stop, and hold the displacement */
+#define PREFIX_ZERO_FORCE 1U  /* stop, and move back by the measured force divided by the stiffness of the specimen */
 
 /* Desired motion of a tick. */
 typedef struct prefix_motion {
@@ -117,27 +111,74 @@ typedef struct prefix_motion_filter {
 typedef struct prefix_system {
     /* Settings as used in a tick. */
     prefix_settings settings;
-    float step_s, scaled_nominal[4], sensitivity[4], noise_per_m, least_square, fading, largest_move;
-    float tracking_fading, energy_fading, energy_pole_per_s, share_of_tick;
+    float step_s;
+    float scaled_nominal[4];
+    float sensitivity[4];
+    float noise_per_m;
+    float least_square;
+    float fading;
+    float largest_move;
+    float tracking_fading;
+    float energy_fading;
+    float energy_pole_per_s;
+    float share_of_tick;
     float least_error_m;
-    uint32_t most_age, most_limited, most_off, window_ticks, fading_ticks, tracking_ticks;
+    uint32_t most_age;
+    uint32_t most_limited;
+    uint32_t most_off;
+    uint32_t window_ticks;
+    uint32_t fading_ticks;
+    uint32_t tracking_ticks;
     /* Compensator. */
-    prefix_chain commands, measurements;
-    float products[4][4], misfits[4], shares[4], motion_square;
-    uint32_t turn, is_frozen;
+    prefix_chain commands;
+    prefix_chain measurements;
+    float products[4][4];
+    float misfits[4];
+    float shares[4];
+    float motion_square;
+    uint32_t turn;
+    bool is_frozen;
     /* Tracking: means over the fading past. */
-    float desired_mean, velocity_mean, error_mean, desired_square, velocity_square, crossed, with_desired;
-    float with_velocity, error_square;
+    float desired_mean;
+    float velocity_mean;
+    float error_mean;
+    float desired_square;
+    float velocity_square;
+    float crossed;
+    float with_desired;
+    float with_velocity;
+    float error_square;
     /* Energy. */
-    prefix_chain desired, errors, forces;
-    float added_j, added_w, exchanged_w, given_w;
+    prefix_chain desired;
+    prefix_chain errors;
+    prefix_chain forces;
+    float added_j;
+    float added_w;
+    float exchanged_w;
+    float given_w;
     uint32_t ticks_left;
     /* Guard. */
-    uint32_t phase, status, age, limited, off;
-    float command_m, change_m, displacement_m, force_n, vehicle_force_n, displacement_same_m, force_same_m;
+    uint32_t phase;
+    uint32_t status;
+    uint32_t age;
+    uint32_t limited;
+    uint32_t off;
+    float command_m;
+    float change_m;
+    float displacement_m;
+    float force_n;
+    float vehicle_force_n;
+    float displacement_same_m;
+    float force_same_m;
     float without_force_m;
-    float from_m, from_change_m, release_m, ending_s, duration_s;
-    uint32_t fading_left, was_running, tracking_left;
+    float from_m;
+    float from_change_m;
+    float release_m;
+    float ending_s;
+    float duration_s;
+    uint32_t fading_left;
+    bool was_running;
+    uint32_t tracking_left;
 } prefix_system;
 
 /* Tracking and energy. */

@@ -21,6 +21,8 @@ pub const CLANG: Tool = program("clang", "clang");
 pub const GXX: Tool = program("g++", "g++");
 /// Memory checker.
 pub const VALGRIND: Tool = program("valgrind", "valgrind");
+/// Static checker of C, with an addon for the rules of MISRA.
+pub const CPPCHECK: Tool = program("cppcheck", "cppcheck");
 /// C compiler and linker for the Cortex-M processors.
 pub const ARM_GCC: Tool = program("arm-none-eabi-gcc", "gcc-arm-none-eabi");
 /// Linker for the Cortex-M processors, which links the firmware without a C compiler.
@@ -72,11 +74,12 @@ pub const SBATCH: Tool = program("sbatch", "slurm-wlm");
 pub const PARALLEL: Tool = program("parallel", "parallel");
 
 /// Tools that tests need.
-pub const TEST_TOOLS: [Tool; 21] = [
+pub const TEST_TOOLS: [Tool; 22] = [
     GCC,
     CLANG,
     GXX,
     VALGRIND,
+    CPPCHECK,
     ARM_GCC,
     ARM_LD,
     ARM_OBJDUMP,

@@ -11,9 +11,11 @@
 const double dampers_largest_clearance_m = 0.1;
 
 enum {
+    PIECES = 64, /* per side */
+    ROWS = DAMPER_ROWS_PER_PIECE * (2 * PIECES + 2),
     SCALARS = 11,
     WORDS_OF_PIECE = 13,
-    IMAGE_WORDS = SCALARS + 2 + 2 * DAMPER_PIECES * WORDS_OF_PIECE,
+    IMAGE_WORDS = SCALARS + 2 + 2 * PIECES * WORDS_OF_PIECE,
     HEADER_BYTES = 16,
     IMAGE_BYTES = HEADER_BYTES + IMAGE_WORDS * DAMPER_REAL_BYTES + 4,
     IMAGE_VERSION = 4
@@ -21,7 +23,7 @@ enum {
 
 /* Table in memory. */
 typedef struct table {
-    damper_row rows[DAMPER_ROWS];
+    damper_row rows[ROWS];
     uint8_t bins[DAMPER_BINS][2];
 } table;
 
@@ -55,17 +57,17 @@ static damper_real *row(table *this, unsigned piece, unsigned number)
 /* Finds the piece at the lower border of each bin of a side. The knots increase; the first is a power of two. */
 static void index_side(table *this, unsigned side)
 {
-    const unsigned end = (side + 1) * DAMPER_PIECES;
+    const unsigned end = (side + 1) * PIECES;
     const damper_bits width = (damper_bits)1 << DAMPER_BIN_SHIFT;
-    const damper_bits first = damper_bits_of(row(this, side * DAMPER_PIECES, DAMPER_KNOTS)[0]);
+    const damper_bits first = damper_bits_of(row(this, side * PIECES, DAMPER_KNOTS)[0]);
     unsigned piece, bin;
 
-    for (piece = side * DAMPER_PIECES; piece < end; piece++) {
+    for (piece = side * PIECES; piece < end; piece++) {
         row(this, piece, DAMPER_KNOTS)[1] = piece + 1 < end ? row(this, piece + 1, DAMPER_KNOTS)[0]
                                             : DAMPER_REAL_BYTES == 4 ? (damper_real)FLT_MAX
                                                                      : (damper_real)DBL_MAX;
     }
-    piece = side * DAMPER_PIECES;
+    piece = side * PIECES;
     for (bin = 0; bin < DAMPER_BINS; bin++) {
         const damper_bits border = (damper_bits)(first + width * bin);
 
@@ -113,7 +115,7 @@ static const char *load(damper_damper *damper, table *this, const uint8_t *image
     damper->move_bound = damper_bits_of(bounds[0]);
     damper->displacement_bound = damper_bits_of(bounds[1]);
     memset(this->rows, 0, sizeof this->rows);
-    for (piece = 0; piece < 2 * DAMPER_PIECES; piece++) {
+    for (piece = 0; piece < 2 * PIECES; piece++) {
         for (number = 0; number < WORDS_OF_PIECE; number++) {
             const damper_real value = word(image, SCALARS + 2 + piece * WORDS_OF_PIECE + number);
 
