@@ -81,7 +81,8 @@ pub(super) fn definitions<T: Word>(prefix: &str, name: &str, damper: &Damper<T>)
             );
         }
     }
-    let zeros = vec![format!("    {{{{{zero}, {zero}, {zero}, {zero}}}}}"); PIECE_ROWS * SPARE_PIECES];
+    let zeros =
+        vec![format!("    {{{{{zero}, {zero}, {zero}, {zero}}}}}"); PIECE_ROWS * SPARE_PIECES];
     let _ = writeln!(text, "{}", zeros.join(",\n"));
     let bins = damper.bins();
     let _ = write!(

@@ -13,27 +13,27 @@ extern "C" {
  * pointer, but where it says so. All are reentrant: they use no global variable, no lock, no heap and no library. */
 
 /* Status bits, latched until prefix_clear. Any bit ends the test, except the first two. */
-#define PREFIX_COMMAND_LIMITED 1U     /* the command would have moved faster than its rate limit, and was limited */
+#define PREFIX_COMMAND_LIMITED 1U  /* the command would have moved faster than its rate limit, and was limited */
 #define PREFIX_MEASUREMENT_MISSED 2U  /* at least one tick had no valid measurement */
-#define PREFIX_STROKE 4U              /* desired displacement or compensator's command not a number, or beyond the stroke */
-#define PREFIX_VELOCITY 8U            /* the command was limited for too long */
-#define PREFIX_FORCE 16U              /* the measured force was beyond its limit */
-#define PREFIX_TRACKING 32U           /* measured and desired displacement too far apart for too long, or for the motion */
-#define PREFIX_AGE 64U                /* measured values were too old */
-#define PREFIX_IMPLAUSIBLE 128U       /* a measured value jumped, was not a number, or stayed while the command moved */
-#define PREFIX_SIGN 256U              /* the force pushed in the direction of the motion: a wrong sign, or a driven specimen */
-#define PREFIX_ENERGY 512U            /* the actuator added too much energy to the vehicle */
-#define PREFIX_REQUESTED 1024U        /* prefix_end was called */
-#define PREFIX_NO_FORCE 2048U         /* the specimen moved far without a force: it is broken, or not connected */
+#define PREFIX_STROKE 4U  /* desired displacement or compensator's command not a number, or beyond the stroke */
+#define PREFIX_VELOCITY 8U  /* the command was limited for too long */
+#define PREFIX_FORCE 16U  /* the measured force was beyond its limit */
+#define PREFIX_TRACKING 32U  /* measured and desired displacement too far apart for too long, or for the motion */
+#define PREFIX_AGE 64U  /* measured values were too old */
+#define PREFIX_IMPLAUSIBLE 128U  /* a measured value jumped, was not a number, or stayed while the command moved */
+#define PREFIX_SIGN 256U  /* the force pushed in the direction of the motion: a wrong sign, or a driven specimen */
+#define PREFIX_ENERGY 512U  /* the actuator added too much energy to the vehicle */
+#define PREFIX_REQUESTED 1024U  /* prefix_end was called */
+#define PREFIX_NO_FORCE 2048U  /* the specimen moved far without a force: it is broken, or not connected */
 
 /* Phase of a test. */
 #define PREFIX_APPROACHING 0U  /* the command moves slowly to the desired displacement */
-#define PREFIX_RUNNING 1U      /* the command follows the wanted one */
-#define PREFIX_ENDING 2U       /* the test has ended, and the command comes to rest */
-#define PREFIX_HELD 3U         /* the test has ended, and the command stays */
+#define PREFIX_RUNNING 1U  /* the command follows the wanted one */
+#define PREFIX_ENDING 2U  /* the test has ended, and the command comes to rest */
+#define PREFIX_HELD 3U  /* the test has ended, and the command stays */
 
 /* How a test ends. */
-#define PREFIX_HOLD 0U        /* stop, and hold the displacement */
+#define PREFIX_HOLD 0U  /* stop, and hold the displacement */
 #define PREFIX_ZERO_FORCE 1U  /* stop, and move back by the measured force divided by the stiffness of the specimen */
 
 /* Desired motion of a tick. */
