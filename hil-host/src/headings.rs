@@ -44,7 +44,7 @@ const HEADINGS: [Heading; 26] = [
     Heading {
         text: "Real time",
         commands: &["vehicle", "live", "replay", "budget", "rig", "pil"],
-        options: "realtime paced stop-above-ns fail-on-miss fifo lock-memory core",
+        options: "realtime paced histogram stop-above-ns fail-on-miss fifo lock-memory core no-deep-sleep",
     },
     Heading {
         text: "Output",

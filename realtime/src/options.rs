@@ -13,6 +13,8 @@ pub struct RealtimeOptions {
     pub lock_memory: bool,
     /// Core to which the thread is pinned.
     pub core: Option<usize>,
+    /// If true, keeps the processors out of sleep states from which they wake slowly, until the process ends.
+    pub no_deep_sleep: bool,
 }
 
 /// One of the [`RealtimeOptions`] with its value.
@@ -24,6 +26,8 @@ pub enum RealtimeOption {
     LockMemory,
     /// Core to which the thread is pinned.
     Core(usize),
+    /// No deep sleep states.
+    NoDeepSleep,
 }
 
 impl fmt::Display for RealtimeOption {
@@ -32,6 +36,7 @@ impl fmt::Display for RealtimeOption {
             Self::FifoPriority(priority) => write!(f, "SCHED_FIFO priority {priority}"),
             Self::LockMemory => f.write_str("locked memory"),
             Self::Core(core) => write!(f, "core {core}"),
+            Self::NoDeepSleep => f.write_str("no deep sleep"),
         }
     }
 }

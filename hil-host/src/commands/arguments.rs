@@ -72,6 +72,9 @@ pub struct RealtimeArguments {
     /// Pin to this core.
     #[arg(long, value_name = "N")]
     pub core: Option<usize>,
+    /// Keep the processors out of sleep states from which they wake slowly.
+    #[arg(long)]
+    pub no_deep_sleep: bool,
 }
 
 impl RealtimeArguments {
@@ -81,6 +84,7 @@ impl RealtimeArguments {
             fifo_priority: self.fifo,
             lock_memory: self.lock_memory,
             core: self.core,
+            no_deep_sleep: self.no_deep_sleep,
         }
     }
 
@@ -92,7 +96,7 @@ impl RealtimeArguments {
         let options = self.options();
         if !given && options != RealtimeOptions::default() {
             return Err(Failure::wrong_use(format!(
-                "--fifo, --lock-memory and --core require {option}"
+                "--fifo, --lock-memory, --core and --no-deep-sleep require {option}"
             )));
         }
         Ok(options)

@@ -301,6 +301,7 @@ impl From<RealtimeError> for Failure {
             RealtimeError::Refused { option, reason } => Self::new(match option {
                 RealtimeOption::FifoPriority(priority) => format!("--fifo {priority}: {reason}"),
                 RealtimeOption::LockMemory => format!("--lock-memory: {reason}"),
+                RealtimeOption::NoDeepSleep => format!("--no-deep-sleep: {reason}"),
                 RealtimeOption::Core(core) => format!("--core {core}: {reason}"),
             }),
             RealtimeError::Stopped(stop) => Self::new(format!(

@@ -233,6 +233,11 @@ fn wrong_options_say_what_is_allowed() {
         ),
         (&["--stop-above-ns", "0"], 2, "1.."),
         (&["--fail-on-miss"], 2, "--rate-hz"),
+        (
+            &["--histogram", "latency.txt"],
+            2,
+            "--histogram requires --paced or --rate-hz",
+        ),
         (&["--fifo", "100"], 2, "1..=99"),
         (
             &["--core", "1000000"],
@@ -244,4 +249,50 @@ fn wrong_options_say_what_is_allowed() {
         let message = error_of(&output);
         assert!(message.contains(part), "{arguments:?}: {message}");
     }
+}
+
+/// Every tick is in one line of each column, or beyond the last line.
+#[test]
+fn the_histogram_counts_every_tick() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("latency.txt");
+    let report = json(&[
+        "--paced",
+        "--steps",
+        "50",
+        "--histogram",
+        file.to_str().unwrap(),
+    ]);
+    assert_eq!(
+        (&report["mode"], report["step_s"].as_f64()),
+        (&"paced".into(), Some(1e-3))
+    );
+    let text = std::fs::read_to_string(&file).unwrap();
+    let mut counted = [0; 3];
+    for line in text.lines() {
+        let numbers = match line.split_once(": ") {
+            Some(("# Histogram Overflows", overflows)) => overflows,
+            Some(_) => continue,
+            None => line.split_once(' ').unwrap().1,
+        };
+        let numbers: Vec<u64> = numbers
+            .split('\t')
+            .filter_map(|number| number.parse().ok())
+            .collect();
+        for (sum, number) in counted.iter_mut().zip(numbers) {
+            *sum += number;
+        }
+    }
+    assert_eq!(counted, [50; 3], "{text}");
+}
+
+#[test]
+fn a_histogram_on_standard_output_is_alone_there() {
+    let output = budget(&["--paced", "--steps", "3", "--histogram", "-"]).success();
+    let text = text_of(&output);
+    assert!(
+        text.starts_with("# Histogram\n# Columns: us work lateness response\n"),
+        "{text}"
+    );
+    assert!(!text.contains("missed deadlines"), "{text}");
 }

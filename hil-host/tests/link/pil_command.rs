@@ -265,7 +265,7 @@ fn impossible_files_are_refused_before_the_target_is_contacted() {
         (
             &["--core", "0"],
             2,
-            "--fifo, --lock-memory and --core require --paced",
+            "--fifo, --lock-memory, --core and --no-deep-sleep require --paced",
         ),
     ] {
         let folder = tempfile::tempdir().unwrap();

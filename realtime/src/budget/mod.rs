@@ -1,9 +1,11 @@
 //! Time per tick on this machine, in free or paced runs.
 
 mod free;
+mod histogram;
 mod paced;
 
 pub use free::free;
+pub use histogram::histogram;
 pub use paced::paced;
 
 use crate::RealtimeError;

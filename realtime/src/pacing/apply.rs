@@ -1,5 +1,8 @@
 //! Applies real-time options to a thread. The system may refuse any of them.
 
+#[cfg(target_os = "linux")]
+use std::path::Path;
+
 use crate::RealtimeError;
 use crate::options::{RealtimeOption, RealtimeOptions};
 
@@ -28,6 +31,9 @@ impl RealtimeOptions {
         if let Some(priority) = self.fifo_priority {
             set_fifo(priority)?;
         }
+        if self.no_deep_sleep {
+            forbid_deep_sleep(Path::new(WAKE_LATENCY))?;
+        }
         Ok(())
     }
 }
@@ -43,6 +49,7 @@ impl RealtimeOptions {
             self.fifo_priority.map(RealtimeOption::FifoPriority),
             self.lock_memory.then_some(RealtimeOption::LockMemory),
             self.core.map(RealtimeOption::Core),
+            self.no_deep_sleep.then_some(RealtimeOption::NoDeepSleep),
         ];
         match options.into_iter().flatten().next() {
             Some(option) => {
@@ -96,6 +103,35 @@ fn lock_memory() -> Result<(), RealtimeError> {
     })
 }
 
+/// Device of the kernel that takes the longest time (us) in which a processor may wake.
+#[cfg(target_os = "linux")]
+const WAKE_LATENCY: &str = "/dev/cpu_dma_latency";
+
+/// Requests waking in 0 us. The request holds as long as the file is open, so it is open until the process ends.
+#[cfg(target_os = "linux")]
+fn forbid_deep_sleep(device: &Path) -> Result<(), RealtimeError> {
+    use std::fs::OpenOptions;
+    use std::io::Write;
+
+    let request = OpenOptions::new()
+        .write(true)
+        .open(device)
+        .and_then(|mut file| {
+            file.write_all(&0_i32.to_ne_bytes())?;
+            Ok(file)
+        });
+    match request {
+        Ok(file) => {
+            std::mem::forget(file);
+            Ok(())
+        }
+        Err(error) => Err(RealtimeOption::NoDeepSleep.refused(format!(
+            "the system refused ({error}); needs write access to {}",
+            device.display()
+        ))),
+    }
+}
+
 #[cfg(target_os = "linux")]
 fn set_fifo(priority: u8) -> Result<(), RealtimeError> {
     use nix::errno::Errno;
@@ -127,4 +163,28 @@ fn set_fifo(priority: u8) -> Result<(), RealtimeError> {
             other => other.to_string(),
         })
     })
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::forbid_deep_sleep;
+
+    #[test]
+    fn zero_microseconds_are_requested_of_the_device() {
+        let folder = tempfile::tempdir().unwrap();
+        let device = folder.path().join("cpu_dma_latency");
+        std::fs::write(&device, [1; 4]).unwrap();
+        forbid_deep_sleep(&device).unwrap();
+        assert_eq!(std::fs::read(&device).unwrap(), [0; 4]);
+    }
+
+    #[test]
+    fn a_missing_device_is_named() {
+        let missing = std::path::Path::new("/dev/no such device");
+        let error = forbid_deep_sleep(missing).unwrap_err().to_string();
+        assert!(
+            error.contains("needs write access to /dev/no such device"),
+            "{error}"
+        );
+    }
 }

@@ -2,12 +2,14 @@
 
 mod bins;
 mod machine;
+mod microseconds;
 mod text;
 
 pub use bins::Bin;
 use bins::Bins;
 use hdrhistogram::Histogram;
 pub use machine::Machine;
+pub use microseconds::{MAX_MICROSECONDS, Microseconds};
 use serde::Serialize;
 pub use text::{optional_span, span};
 
@@ -24,6 +26,7 @@ const SPANS_BEYOND: u64 = 10;
 pub struct Distribution {
     spans: Histogram<u64>,
     bins: Bins,
+    microseconds: Microseconds,
     worst_ns: f64,
     worst_index: u64,
 }
@@ -70,6 +73,7 @@ impl Distribution {
         Self {
             spans: Histogram::new_with_bounds(1, longest, 3).expect("constant bounds are valid"),
             bins: Bins::default(),
+            microseconds: Microseconds::default(),
             worst_ns: 0.0,
             worst_index: 0,
         }
@@ -82,6 +86,7 @@ impl Distribution {
             self.worst_index = self.count();
         }
         self.bins.count(span_ns);
+        self.microseconds.count(span_ns);
         self.spans
             .saturating_record((span_ns * UNITS_PER_NS).round() as u64);
     }
@@ -123,5 +128,10 @@ impl Distribution {
     /// Returns the bins that are not empty, in increasing order.
     pub fn bins(&self) -> Vec<Bin> {
         self.bins.occupied()
+    }
+
+    /// Returns the number of spans in each whole microsecond.
+    pub fn microseconds(&self) -> &Microseconds {
+        &self.microseconds
     }
 }

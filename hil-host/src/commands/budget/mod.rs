@@ -4,7 +4,7 @@ mod bench;
 mod report;
 
 use std::ops::RangeInclusive;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use bench::Bench;
@@ -14,10 +14,13 @@ use report::{Report, Setting, print};
 
 use super::named_values;
 use super::tick_times::histogram_help;
-use super::{DamperArguments, Format, RealtimeArguments, TickLimitArguments, print_report};
-use crate::commands::failure::Outcome;
-use dashpot_files::Scalar;
-use dashpot_realtime::budget::{Length, free, paced};
+use super::{
+    DamperArguments, Format, RealtimeArguments, TickLimitArguments, print_report,
+    print_report_beside,
+};
+use crate::commands::failure::{Failure, Outcome};
+use dashpot_files::{Scalar, output};
+use dashpot_realtime::budget::{Length, free, histogram, paced};
 use dashpot_realtime::limits::RATE_RANGE_HZ;
 use dashpot_realtime::pacing::{MonotonicClock, Pacer, overhead_ns};
 use dashpot_realtime::timing::Machine;
@@ -30,6 +33,7 @@ use dashpot_realtime::timing::Machine;
   dashpot budget --damper paper --steps 1000000
   dashpot budget --rate-hz 10000 --duration-s 60 --fifo 80 --lock-memory --core 1 --fail-on-miss
   dashpot budget --rate-hz 1000 --stop-above-ns 100000 --format json
+  dashpot budget --paced --duration-s 60 --fifo 80 --lock-memory --histogram latency.txt
 
 ", histogram_help!()))]
 pub struct BudgetArguments {
@@ -52,6 +56,13 @@ pub struct BudgetArguments {
     /// Run in real time at this rate, Hz [default: free-running, with dampers built for 1000 Hz].
     #[arg(long, value_parser = clap::value_parser!(u32).range(rates_hz()))]
     rate_hz: Option<u32>,
+    /// Run in real time at 1000 Hz, or at the rate of --rate-hz, which alone has the same effect.
+    #[arg(long)]
+    paced: bool,
+    /// Write the number of ticks for each microsecond of work, lateness and response, in the layout of
+    /// `cyclictest --histogram`; `-` for standard output. Needs a run in real time.
+    #[arg(long, value_name = "FILE")]
+    histogram: Option<PathBuf>,
     #[command(flatten)]
     limits: TickLimitArguments,
     #[command(flatten)]
@@ -61,12 +72,20 @@ pub struct BudgetArguments {
     format: Format,
 }
 
+/// Rate for which dampers are built, and of `--paced`, without `--rate-hz` (Hz).
+const DEFAULT_RATE_HZ: u32 = 1000;
+
 /// Returns the allowed tick rates (Hz) as a range for clap.
 fn rates_hz() -> RangeInclusive<i64> {
     i64::from(*RATE_RANGE_HZ.start())..=i64::from(*RATE_RANGE_HZ.end())
 }
 
 impl BudgetArguments {
+    /// Returns the rate of a run in real time (Hz); `None` for a free run.
+    fn paced_rate_hz(&self) -> Option<u32> {
+        self.rate_hz.or(self.paced.then_some(DEFAULT_RATE_HZ))
+    }
+
     /// Returns the length of the run; `ticks` if no option sets it.
     fn length(&self, ticks: u64) -> Length {
         match (self.steps, self.duration_s) {
@@ -83,9 +102,13 @@ impl BudgetArguments {
 /// The damper is invalid, the system refuses a real-time option, a tick took longer than `--stop-above-ns`, or a
 /// deadline was missed with `--fail-on-miss`.
 pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
-    arguments
-        .limits
-        .require_deadlines("--rate-hz", arguments.rate_hz.is_some())?;
+    let is_paced = arguments.paced_rate_hz().is_some();
+    arguments.limits.require_deadlines("--rate-hz", is_paced)?;
+    if arguments.histogram.is_some() && !is_paced {
+        return Err(Failure::wrong_use(
+            "--histogram requires --paced or --rate-hz",
+        ));
+    }
     match arguments.scalar {
         Scalar::F32 => measure::<f32>(arguments),
         Scalar::F64 => measure::<f64>(arguments),
@@ -93,7 +116,7 @@ pub fn run(arguments: &BudgetArguments) -> Outcome<()> {
 }
 
 fn measure<T: Compiled>(arguments: &BudgetArguments) -> Outcome<()> {
-    let step_s = 1.0 / f64::from(arguments.rate_hz.unwrap_or(1000));
+    let step_s = 1.0 / f64::from(arguments.paced_rate_hz().unwrap_or(DEFAULT_RATE_HZ));
     let damper: Damper<T> = T::compiled_build(&arguments.damper.load()?, step_s)?;
     let mut bench = Bench::new(damper, arguments.dampers, step_s);
     let options = arguments.realtime.options();
@@ -102,7 +125,7 @@ fn measure<T: Compiled>(arguments: &BudgetArguments) -> Outcome<()> {
     let clock = MonotonicClock::default();
     let clock_overhead_ns = overhead_ns(&clock);
     let limit_ns = arguments.limits.stop_above_ns;
-    let (mode, run) = if let Some(rate) = arguments.rate_hz {
+    let (mode, run) = if let Some(rate) = arguments.paced_rate_hz() {
         let length = arguments.length(5 * u64::from(rate));
         let pacer = Pacer::new(step_s, &options)?;
         ("paced", paced(pacer, length, limit_ns, || bench.tick()))
@@ -124,6 +147,13 @@ fn measure<T: Compiled>(arguments: &BudgetArguments) -> Outcome<()> {
         realtime: options,
         machine,
     };
-    print_report(arguments.format, &Report::new(setting, &run), print)?;
+    let report = Report::new(setting, &run);
+    match &arguments.histogram {
+        Some(file) => {
+            output::write_bytes(file, histogram(&run).as_bytes())?;
+            print_report_beside(file, arguments.format, &report, print)?;
+        }
+        None => print_report(arguments.format, &report, print)?,
+    }
     Ok(run.verdict(arguments.limits.fail_on_miss)?)
 }

@@ -49,7 +49,7 @@ pub(super) struct RigArguments {
     #[arg(long, default_value_t = 10, value_name = "TICKS", value_parser = clap::value_parser!(u32).range(0..=1000))]
     extrapolate_ticks: u32,
     /// Make a tick for each new command instead of real time: the time of the rig passes as commands arrive.
-    #[arg(long, conflicts_with_all = ["fifo", "lock_memory", "core"])]
+    #[arg(long, conflicts_with_all = ["fifo", "lock_memory", "core", "no_deep_sleep"])]
     in_step: bool,
     /// End after this time [default: run until interrupted].
     #[arg(long, value_name = "S", value_parser = clap::value_parser!(u64).range(1..))]
