@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyDictMethods, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyFloat, PyInt, PyMapping, PyString};
 
 use crate::error::{Outcome, refuse};
 
@@ -25,21 +25,22 @@ pub fn path_of_file(path: &Bound<'_, PyAny>) -> Outcome<PathBuf> {
     Ok(os.call_method1("fsdecode", (path,))?.extract()?)
 }
 
-/// Converts a dictionary of keys and values to `table.key=value`; empty by default.
+/// Converts a mapping of keys and values to `table.key=value`; empty by default.
 pub fn assignments(overrides: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<String>> {
     let Some(overrides) = overrides.filter(|overrides| !overrides.is_none()) else {
         return Ok(Vec::new());
     };
-    let Ok(overrides) = overrides.cast::<PyDict>() else {
+    let Ok(overrides) = overrides.cast::<PyMapping>() else {
         return refuse(format!(
             "overrides: {}, allowed: a dictionary such as {{\"mount.clearance_m\": 1e-3}}",
             overrides.get_type().name()?
         ));
     };
-    let one = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+    let one = |item: Bound<'_, PyAny>| {
+        let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
         Ok(format!("{}={}", key.str()?, written(&key, &value)?))
     };
-    overrides.iter().map(one).collect()
+    overrides.items()?.iter().map(one).collect()
 }
 
 /// Writes a value as TOML.

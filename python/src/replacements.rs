@@ -3,25 +3,26 @@
 use dashpot_core::DamperParameters;
 use dashpot_files::vehicle::Replacement;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::PyMapping;
 
 use crate::damper::Damper;
 use crate::error::{Outcome, refuse};
 use crate::overrides::path;
 
-/// Reads a dictionary that maps dampers of a vehicle to their replacements, each a name, a path or a `Damper`. Without
-/// a dictionary, the result is empty.
+/// Reads a mapping from dampers of a vehicle to their replacements, each a name, a path or a `Damper`. Without one, the
+/// result is empty.
 pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement>> {
     let Some(given) = given else {
         return Ok(Vec::new());
     };
-    let Ok(given) = given.cast::<PyDict>() else {
+    let Ok(given) = given.cast::<PyMapping>() else {
         return refuse(format!(
             "dampers: {}, allowed: a dictionary such as {{\"vertical\": \"in-service\"}}",
             given.get_type().name()?
         ));
     };
-    let one = |(key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+    let one = |item: Bound<'_, PyAny>| {
+        let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
         let dampers = key.str()?.to_string();
         let Ok(made) = value.cast::<Damper>() else {
             return Ok(Replacement::named(dampers, path(&value)?));
@@ -33,5 +34,5 @@ pub fn replacements(given: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<Replacement
             parameters: Some(Box::new(parameters)),
         })
     };
-    given.iter().map(one).collect()
+    given.items()?.iter().map(one).collect()
 }

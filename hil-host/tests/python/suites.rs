@@ -1,4 +1,4 @@
-//! The package's own tests, one test per file, under an interpreter with pandas, Dask and mypy.
+//! The package's own tests, one test per file, under an interpreter with pandas, Dask and type checkers.
 
 use crate::installed::{package, run, unpacked};
 use xtask::python::have_packages;
@@ -50,6 +50,7 @@ suites!(
     test_rig,
     test_state,
     test_study,
+    test_typing,
     test_vehicle,
 );
 

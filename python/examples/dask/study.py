@@ -1,7 +1,7 @@
 # A study on a Dask cluster. Here the cluster is two processes on this machine; for several machines, use
 # `Client("tcp://scheduler:8786")`.
 
-from distributed import Client, LocalCluster
+from distributed import Client
 
 import dashpot
 
@@ -16,8 +16,8 @@ duration_s = 0.5
 seeds = [1, 2]
 vary = [{ parameter = "vertical.mount.clearance_m", values = [0.0, 1e-3, 2e-3] }]
 """)
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
-        rows = client.gather(client.map(study.row, range(len(study))))
+    with Client(n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
+        rows = list(client.get_executor().map(study.row, range(len(study))))
     for row in rows:
         print(row["vertical.mount.clearance_m"], row["seed"], row["derailment_greatest"])
     # The rows have the same bits as on one machine.
