@@ -33,7 +33,10 @@ from ._dashpot import (
 )
 from ._errors import DashpotError, DashpotFileError, DashpotKeyError
 from ._hybrid import Command, EnergyReading, HybridStatus, Measured, Motion, TrackingReading
+from ._notebook import attach as _attach
 from ._status import Status
+
+_attach(Damper, Cycle, Calibrated, VehicleRun)
 
 __all__ = [
     "Bank",

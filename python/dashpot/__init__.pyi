@@ -120,6 +120,7 @@ class Damper:
         apart and linear in between. The reference is an adaptive solver, written independently of the step, and about a
         thousand times slower.
         """
+    def _repr_html_(self) -> str: ...
 
 @final
 class BuiltDamper:
@@ -242,6 +243,9 @@ class Cycle:
     @property
     def indices(self) -> dict[str, float | None]:
         """The indices by name; an index that is undefined without force is `None`."""
+    def plot(self, axes: Any = None) -> Any:
+        """Plots the loop of force over displacement with matplotlib, and returns the axes, new ones by default."""
+    def _repr_html_(self) -> str: ...
 
 @final
 class VehicleRun:
@@ -275,6 +279,12 @@ class VehicleRun:
         """The indices, as in the command's indices.json; `None` for a run that derailed, overturned, diverged, left the
         contact tables or went beyond the model.
         """
+    def plot(self, *signals: str, axes: Any = None) -> Any:
+        """Plots columns of the history over time with matplotlib, and returns the axes, new ones by default.
+
+        Without names it plots all columns of `signals`. An unknown name raises `KeyError`.
+        """
+    def _repr_html_(self) -> str: ...
 
 def vehicle(
     case: _Path | None = None,
@@ -594,6 +604,7 @@ class Calibrated:
         """Warnings about the result, one sentence each: a misfit larger than the noise, a parameter at its bound,
         parameters that the tests hardly distinguish, or an assumed temperature that dominates a parameter.
         """
+    def _repr_html_(self) -> str: ...
 
 def calibrate(
     damper: Damper,

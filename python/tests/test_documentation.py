@@ -62,7 +62,13 @@ class Documentation(unittest.TestCase):
         self.assertEqual(without, [])
 
     def test_code_in_the_document_runs(self):
-        text = (DATA.parent / "docs/python.md").read_text()
+        self.run_document("docs/python.md")
+
+    def test_code_in_the_readme_runs(self):
+        self.run_document("python/README.md")
+
+    def run_document(self, path):
+        text = (DATA.parent / path).read_text()
         # Every fenced block is run; every indented line must be a shell command.
         fenced = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
         self.assertEqual({language for language, _ in fenced.findall(text)}, {"python"})
@@ -74,6 +80,6 @@ class Documentation(unittest.TestCase):
             try:
                 space = {}
                 for number, (_, block) in enumerate(fenced.findall(text)):
-                    exec(compile(block, f"docs/python.md, block {number}", "exec"), space)
+                    exec(compile(block, f"{path}, block {number}", "exec"), space)
             finally:
                 os.chdir(before)

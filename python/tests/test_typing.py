@@ -16,9 +16,11 @@ STUBS = DATA.parent / "python/dashpot/__init__.pyi"
 
 def examples(folder):
     """Writes the Python of the document and of the examples to a folder; returns the names."""
-    document = (DATA.parent / "docs/python.md").read_text()
-    blocks = re.findall(r"^```python\n(.*?)^```$", document, re.MULTILINE | re.DOTALL)
-    sources = {"document.py": "\n".join(blocks)}
+    sources = {}
+    for path in ("docs/python.md", "python/README.md"):
+        text = (DATA.parent / path).read_text()
+        blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        sources[path.replace("/", "_").replace(".md", ".py")] = "\n".join(blocks)
     for path in (DATA.parent / "python/examples").rglob("*.py"):
         sources[path.name] = path.read_text()
     for name, text in sources.items():

@@ -7,12 +7,13 @@ use crate::run::{Outcome, repository, run};
 use crate::tools::{PYTHON, skip};
 
 /// Packages that tests need.
-const TEST_PACKAGES: [&str; 10] = [
+const TEST_PACKAGES: [&str; 11] = [
     "asammdf==8.8.28",
     "basedpyright==1.40.2",
     "check-jsonschema==0.39.0",
     "distributed==2026.8.0",
     "fmpy==0.3.32",
+    "matplotlib==3.11.2",
     "mypy==2.4.1",
     "pandas==3.1.1",
     "pandas-stubs==3.1.0.261029",

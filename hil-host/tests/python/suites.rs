@@ -45,6 +45,7 @@ suites!(
     test_damper,
     test_documentation,
     test_hybrid,
+    test_notebook,
     test_recording,
     test_replay,
     test_rig,
