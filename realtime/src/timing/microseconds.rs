@@ -38,8 +38,8 @@ impl Microseconds {
         }
     }
 
-    /// Returns the numbers of spans up to the last microsecond that has one. Index n counts spans of at least n and less
-    /// than n + 1 microseconds.
+    /// Returns the numbers of spans up to the last microsecond that has one. Index n counts spans of at least n and
+    /// less than n + 1 microseconds.
     pub fn counts(&self) -> &[u64] {
         let occupied = self.counts.iter().rposition(|count| *count > 0);
         &self.counts[..occupied.map_or(0, |last| last + 1)]
