@@ -42,6 +42,8 @@ mod table;
 mod table_check;
 pub mod telemetry;
 mod unusual;
+#[cfg(feature = "xcp")]
+pub mod xcp;
 
 pub use bank::{VectorWidth, step_bank, step_bank_with};
 #[cfg(feature = "builder")]

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod a2l;
 mod bank;
 mod child;
 mod client;
@@ -25,6 +26,7 @@ mod serial;
 mod session;
 mod session_error;
 mod tcp;
+pub mod xcp;
 
 pub use bank::Bank;
 #[cfg(unix)]

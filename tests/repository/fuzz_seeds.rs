@@ -27,7 +27,7 @@ use dashpot_study::sweep::{Row, Study};
 type Seed = (String, Vec<u8>);
 
 /// Asserts that the target's folder has exactly these files, or writes them when blessing.
-fn compare(target: &str, seeds: Vec<Seed>) {
+pub fn compare(target: &str, seeds: Vec<Seed>) {
     let folder = format!("fuzz/seeds/{target}");
     if document::blessing() {
         fs::create_dir_all(document::in_repository(&folder)).expect("a folder");

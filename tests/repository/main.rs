@@ -18,3 +18,4 @@ mod rust_version;
 mod source;
 mod workflows;
 mod workspaces;
+mod xcp_seeds;
