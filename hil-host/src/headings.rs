@@ -15,7 +15,7 @@ struct Heading {
 const VEHICLES: &[&str] = &["vehicle", "live", "plan"];
 const ALL: &[&str] = &[];
 
-const HEADINGS: [Heading; 26] = [
+const HEADINGS: [Heading; 27] = [
     Heading {
         text: "Run",
         commands: VEHICLES,
@@ -45,6 +45,11 @@ const HEADINGS: [Heading; 26] = [
         text: "Real time",
         commands: &["vehicle", "live", "replay", "budget", "rig", "pil"],
         options: "realtime paced histogram stop-above-ns fail-on-miss fifo lock-memory core no-deep-sleep",
+    },
+    Heading {
+        text: "Measurement and calibration",
+        commands: &["vehicle", "pil"],
+        options: "xcp a2l",
     },
     Heading {
         text: "Output",

@@ -7,7 +7,7 @@ use crate::run::{Outcome, repository, run};
 use crate::tools::{PYTHON, skip};
 
 /// Packages that tests need.
-const TEST_PACKAGES: [&str; 11] = [
+const TEST_PACKAGES: [&str; 12] = [
     "asammdf==8.8.28",
     "basedpyright==1.40.2",
     "check-jsonschema==0.39.0",
@@ -18,6 +18,7 @@ const TEST_PACKAGES: [&str; 11] = [
     "pandas==3.1.1",
     "pandas-stubs==3.1.0.261029",
     "pyarrow==26.0.1",
+    "pyxcp==0.29.20",
     "zizmor==1.32.0",
 ];
 

@@ -50,6 +50,7 @@ pub mod vehicle;
 pub mod vehicle_sensors;
 pub mod verify;
 mod wheel_rail;
+mod xcp;
 
 use arguments::{DamperArguments, Format, RealtimeArguments, TickLimitArguments};
 use failure::Outcome;

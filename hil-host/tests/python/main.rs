@@ -1,4 +1,5 @@
-//! The Python package `dashpot`: built as a wheel, installed, used as a user does, and compared with the command.
+//! The Python package `dashpot`: built as a wheel, installed, used as a user does, and compared with the command. And
+//! programs in Python that the command works with.
 
 #[path = "../common/mod.rs"]
 mod common;
@@ -6,3 +7,4 @@ mod empty_folder;
 mod installed;
 mod licences;
 mod suites;
+mod xcp;

@@ -5,20 +5,23 @@ mod history;
 mod page;
 mod report;
 mod rows;
+mod served;
 
 use std::io::Write;
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 
 use dashpot_core::{CheckedParameters, Damper};
 use history::History;
 use report::{Found, print};
 use rows::Rows;
+use served::ServedSlots;
 
 use super::arguments::damper_help;
 use super::line::LineArguments;
 use super::recording::MotionArguments;
 use super::step_size::StepSize;
-use super::{Format, RealtimeArguments, print_report_beside, progress, streams};
+use super::{Format, RealtimeArguments, interruption, print_report_beside, progress, streams};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::damper;
 use dashpot_files::input;
@@ -93,6 +96,13 @@ pub struct PilArguments {
     /// Seed of the injected faults.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Let a measurement and calibration tool (INCA, CANape, pyXCP) measure every slot, by XCP on UDP and TCP
+    /// [default address: 127.0.0.1:5555]. Without --paced, the ticks are sent while the tool measures.
+    #[arg(long, value_name = "ADDRESS:PORT", num_args = 0..=1, default_missing_value = super::xcp::DEFAULT)]
+    xcp: Option<SocketAddr>,
+    /// A2L file for the tool of --xcp.
+    #[arg(long, value_name = "FILE", requires = "xcp")]
+    a2l: Option<PathBuf>,
     /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -201,8 +211,17 @@ fn drive(
     } else {
         Pace::default()
     };
+    let served = arguments.xcp.map(|address| {
+        let (file, is_paced) = (arguments.a2l.as_deref(), arguments.paced);
+        ServedSlots::start(address, target.dampers, [start_s, step_s], is_paced, file)
+    });
+    let mut served = served.transpose()?;
+    let gate = served.as_ref().and_then(ServedSlots::gate);
     let mut left = arguments.ticks.unwrap_or(u32::MAX);
     let motion = || {
+        if let Some(gate) = &gate {
+            gate.pass(interruption::is_wanted);
+        }
         if left == 0 {
             return Ok(None);
         }
@@ -214,18 +233,23 @@ fn drive(
     };
     let report = session.run(&dampers, motion, &mut pace, |record| {
         history.record(record);
+        if let Some(served) = &mut served {
+            served.record(record);
+        }
         if let Some(rows) = &mut rows {
             rows.write(record)?;
         }
         Ok::<(), Failure>(())
     })?;
     rows.map_or(Ok(()), Rows::finish)?;
+    let xcp = served.map(ServedSlots::finish).transpose()?;
     bar.finish_and_clear();
     let found = Found {
         dampers: arguments.dampers.clone(),
         step_us: step.step_us(),
         report,
         gaps: ticks.recording().gaps(),
+        xcp,
         injected_faults: arguments.faults.map(|_| session.link().injected_faults()),
         seed: arguments.faults.map(|_| arguments.seed),
         files: arguments

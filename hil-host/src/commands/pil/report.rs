@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::commands::gap_report::write_gaps;
 use crate::commands::print::counted;
+use dashpot_host_link::xcp::Summary;
 use dashpot_host_link::{FaultCounts, Report};
 use dashpot_realtime::timing::{optional_span, span};
 use dashpot_recording::Gaps;
@@ -19,6 +20,9 @@ pub(super) struct Found {
     #[serde(flatten)]
     pub(super) report: Report,
     pub(super) gaps: Gaps,
+    /// What a measurement and calibration tool did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) xcp: Option<Summary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) injected_faults: Option<FaultCounts>,
     #[serde(skip_serializing_if = "Option::is_none")]

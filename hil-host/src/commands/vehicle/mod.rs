@@ -15,10 +15,12 @@ mod tables;
 mod track;
 mod wear;
 mod wheelsets;
+mod xcp;
 
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 
-use drive::{Driven, drive};
+use drive::{Driven, Exchange, drive};
 use history::History;
 pub(super) use options::CaseArguments;
 use outside::lines::Lines;
@@ -26,6 +28,7 @@ pub(super) use outside::rig::Datagrams;
 pub(super) use outside::rig::options::Compensate;
 use outside::{Outside, OutsideArguments, Traces};
 use report::Report;
+use xcp::{Measured, Xcp, XcpReport};
 
 use super::tick_times::histogram_help;
 use super::{Format, RealtimeArguments, TickLimitArguments, interruption, print_report, progress};
@@ -43,8 +46,8 @@ use dashpot_study::sweep::{ContactTables, ContactTablesError};
 use dashpot_vehicle_run::damping::DampingInfluence;
 use dashpot_vehicle_run::recorded::all_signals;
 use dashpot_vehicle_run::{
-    Ending, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch, check_ride, confirmed,
-    filtered_names,
+    Ending, Indexer, RideError, Run, RunWear, TickRecord, ValidityWatch, VehicleRunError,
+    check_ride, confirmed, filtered_names,
 };
 
 /// Simulate a vehicle on a track: time histories, indices and a page.
@@ -60,10 +63,12 @@ use dashpot_vehicle_run::{
   dashpot vehicle --case curve-r600 --outside \"front lateral damper 1=serial:/dev/ttyACM0\" --realtime
   dashpot vehicle --case straight-180 --outside \"rear vertical damper 2=force.csv\"
   dashpot vehicle --case straight-180 --outside \"front yaw damper 1=desk\" --actuator servo --compensate ats
+  dashpot vehicle --case straight-180 --realtime --xcp 127.0.0.1:5555
 
 Files in the --output folder: history.csv, one row per tick (with --parquet also history.parquet); spectra.csv, power
 spectral densities at the ride points and of the leading wheels' Y/Q; wear.csv, the depth
-of wear over each wheel's profile, an estimate by the law of --wear-law; indices.json; report.html, a self-contained page.
+of wear over each wheel's profile, an estimate by the law of --wear-law; indices.json; report.html, a self-contained page;
+with --xcp xcp.a2l, for the tool.
 
 Displacements are relative to the position at standstill in the track frame, positive to the right and down. Q acts
 down on the rail, Y towards the track centre. The exit code is 1 if the vehicle derails, overturns or diverges, if a
@@ -120,6 +125,12 @@ pub struct VehicleArguments {
     contact_tables: Option<PathBuf>,
     #[command(flatten)]
     outside: OutsideArguments,
+    /// Let a measurement and calibration tool (INCA, CANape, pyXCP) measure every signal and calibrate the dampers, by
+    /// XCP on UDP and TCP [default address: 127.0.0.1:5555]. Without --realtime the vehicle runs while the tool
+    /// measures, as fast as it reads. On an address of the network, nothing can be calibrated.
+    #[arg(long, value_name = "ADDRESS:PORT", num_args = 0..=1, default_missing_value = super::xcp::DEFAULT,
+        conflicts_with = "check")]
+    xcp: Option<SocketAddr>,
     /// Output format of the results.
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -171,17 +182,41 @@ pub fn run(arguments: &VehicleArguments) -> Outcome<()> {
     }
     let folder = &arguments.output;
     create_folder(folder)?;
+    let names = names(&run, &case);
+    let external = outside.as_ref().map_or(&[][..], Outside::dampers);
+    let measured = Measured {
+        case: &case,
+        run: &run,
+        names: &names,
+        external,
+        is_realtime: arguments.realtime,
+    };
+    let xcp = arguments
+        .xcp
+        .map(|address| Xcp::start(address, &measured, folder));
+    let mut xcp = xcp.transpose()?;
+    if let Some(xcp) = &xcp {
+        print_note(&xcp.note());
+        // A run that a tool changes cannot be repeated.
+        outside.iter_mut().for_each(Outside::without_comparison);
+    }
     let path = folder.join("history.csv");
     let mut wear = RunWear::new(&case, &run, arguments.wear_law.law());
     let (history, mut report) = follow(
         &case,
         &mut run,
         outside.as_mut(),
+        xcp.as_mut(),
         realtime,
-        &path,
+        (&path, names),
         &mut wear,
     )?;
-    if outside.is_none() {
+    if let Some(xcp) = xcp {
+        report.files.extend(xcp.file());
+        report.xcp = Some(xcp.finish()?);
+    }
+    let is_changed = report.xcp.as_ref().is_some_and(XcpReport::has_changes);
+    if outside.is_none() && !is_changed {
         let ended = report.ending.clone();
         report.ending =
             confirmed(&case, &run, ended).map_err(|error| options::refused(&case, &error))?;
@@ -315,19 +350,20 @@ fn follow(
     case: &Case,
     run: &mut Run,
     outside: Option<&mut Outside>,
+    mut xcp: Option<&mut Xcp>,
     realtime: Option<Realtime>,
-    path: &Path,
+    (path, names): (&Path, Vec<String>),
     wear: &mut RunWear,
 ) -> Outcome<(History, Report)> {
     let all = all_signals(run, &case.vehicle);
-    let names = all.iter().map(|signal| signal.name().to_owned());
-    let names: Vec<String> = names.chain(filtered_names(&case.vehicle)).collect();
     let mut history = History::new(names.clone(), run.ticks(), case.step_s);
     let mut indexer = Indexer::new(case);
     let mut watch = ValidityWatch::new(case, run.track());
     let (exchange, mut beside) = outside.map(Outside::parts).unzip();
     let bar = progress::bar(run.ticks(), "vehicle");
     let _ends_gently = interruption::end_gently();
+    let feed = xcp.as_mut().and_then(|xcp| xcp.take_feed());
+    let xcp = xcp.as_deref();
     let (giver, taker) = handover(vec![TickRecord::new(run.time_s(), run.state()); RECORDS]);
     let (driven, pacing) = write_whole::<_, Failure>(path, |file| {
         let failed = |error: csv::Error| cannot_write_rows(path, error);
@@ -338,7 +374,9 @@ fn follow(
         let driven = std::thread::scope(|scope| {
             let stepping = std::thread::Builder::new()
                 .name("ticks".into())
-                .spawn_scoped(scope, || step_through(case, run, exchange, realtime, giver));
+                .spawn_scoped(scope, || {
+                    step_through(case, run, (exchange, xcp), realtime, giver)
+                });
             let stepping = stepping.map_err(|error| {
                 Failure::new(format!("cannot start the stepping thread: {error}"))
             })?;
@@ -355,6 +393,9 @@ fn follow(
                     row.extend(indexer.filtered());
                     written = rows.serialize(&row);
                     history.add(&row);
+                    if let Some(feed) = &feed {
+                        feed.tick(time_s, &row);
+                    }
                     watch.add(record);
                     wear.add(record);
                     if let Some(beside) = beside.as_deref_mut().and_then(Option::as_mut) {
@@ -384,7 +425,7 @@ fn follow(
 fn step_through(
     case: &Case,
     run: &mut Run,
-    exchange: Option<&mut Lines>,
+    (exchange, xcp): (Option<&mut Lines>, Option<&Xcp>),
     realtime: Option<Realtime>,
     records: Sender<TickRecord>,
 ) -> Outcome<(Driven, Option<PacingReport>)> {
@@ -397,9 +438,33 @@ fn step_through(
     };
     let pacing = pacer.as_mut();
     let driven = match exchange {
-        Some(lines) => drive(run, lines, pacing, records, interruption::is_wanted),
-        None => drive(run, &mut (), pacing, records, interruption::is_wanted),
+        Some(lines) => drive_measured(run, lines, xcp, pacing, records),
+        None => drive_measured(run, &mut (), xcp, pacing, records),
     };
     let driven = driven.map_err(|error| options::refused(case, &error))?;
     Ok((driven, pacer.map(Pacer::into_report)))
+}
+
+/// Runs every tick, with calibrated dampers if there is a server of XCP.
+fn drive_measured(
+    run: &mut Run,
+    exchange: &mut impl Exchange,
+    xcp: Option<&Xcp>,
+    pacing: Option<&mut Pacer>,
+    records: Sender<TickRecord>,
+) -> Result<Driven, VehicleRunError> {
+    match xcp {
+        Some(xcp) => {
+            let mut stepping = xcp.stepping(exchange);
+            drive(run, &mut stepping, pacing, records, interruption::is_wanted)
+        }
+        None => drive(run, exchange, pacing, records, interruption::is_wanted),
+    }
+}
+
+/// Names of the values of a tick: all signals, then the filtered forces.
+fn names(run: &Run, case: &Case) -> Vec<String> {
+    let all = all_signals(run, &case.vehicle);
+    let names = all.iter().map(|signal| signal.name().to_owned());
+    names.chain(filtered_names(&case.vehicle)).collect()
 }

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::contact::ContactReport;
 use super::outside::{self, OutsideReport};
 use super::wear;
+use super::xcp::XcpReport;
 use crate::commands::counted;
 use crate::commands::paced::Paced;
 use crate::commands::vehicle::drive::Driven;
@@ -62,6 +63,9 @@ pub(super) struct Report {
     /// `None` if all dampers are simulated internally.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) outside: Option<OutsideReport>,
+    /// What a measurement and calibration tool did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) xcp: Option<XcpReport>,
     pub(super) files: Vec<PathBuf>,
 }
 
@@ -109,6 +113,7 @@ impl Report {
             realtime: pacing.as_ref().map(paced),
             pacing,
             outside: None,
+            xcp: None,
             files: Vec::new(),
         }
     }
@@ -242,6 +247,9 @@ pub(super) fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     }
     if let Some(found) = &report.outside {
         outside::print(out, found)?;
+    }
+    if let Some(xcp) = &report.xcp {
+        xcp.print(out)?;
     }
     writeln!(out)?;
     for file in &report.files {
