@@ -16,7 +16,7 @@ use dashpot_core::xcp::ethernet::split;
 
 /// Time between checks whether the server is still wanted.
 const CHECK: Duration = Duration::from_millis(20);
-/// Time that a silent master keeps the server alive after the last tick.
+/// Time that a silent master keeps the server alive after the last tick, and its session if it measures on UDP.
 const LINGER: Duration = Duration::from_secs(10);
 /// The only event channel.
 const TICK: u16 = 0;
@@ -150,14 +150,12 @@ impl<P: Parameters> Serving<P> {
         self.open_gate();
     }
 
-    /// Executes a packet of the master. Others are ignored, unless they connect and nobody else measures.
+    /// Executes a packet of the master. Others are ignored, unless they may take over.
     fn receive(&mut self, sender: Sender, packet: &[u8]) {
         let command = packet.first().and_then(|code| Command::from_code(*code));
         match self.master() {
             Some(master) if master == sender => self.heard = Instant::now(),
-            Some(Sender::Udp(_))
-                if command == Some(Command::Connect) && !self.slave.is_measuring() =>
-            {
+            Some(Sender::Udp(_)) if command == Some(Command::Connect) && self.is_free() => {
                 self.end_session();
             }
             Some(_) => return,
@@ -180,6 +178,11 @@ impl<P: Parameters> Serving<P> {
             self.end_session();
         }
         self.open_gate();
+    }
+
+    /// True if another master may take over from one that cannot be seen to be gone.
+    fn is_free(&self) -> bool {
+        !self.slave.is_measuring() || self.heard.elapsed() > LINGER
     }
 
     fn begin_session(&mut self, sender: Sender) {
