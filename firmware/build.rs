@@ -12,7 +12,7 @@ fn main() {
     };
     // The measuring images have dampers or long frames on their stack, and the host puts data behind their own data. So
     // their stack starts at the end of the memory.
-    for image in ["step-cost", "health-cost", "link-cost"] {
+    for image in ["step-cost", "health-cost", "link-cost", "xcp-cost"] {
         println!("cargo::rustc-link-arg-bin={image}=--defsym=_stack_start={end_of_memory}");
     }
     println!("cargo::rustc-link-search={here}/{folder}");

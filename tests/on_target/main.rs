@@ -7,3 +7,4 @@ mod hybrid;
 mod no_panic;
 mod outputs;
 mod processors;
+mod xcp;
