@@ -49,7 +49,7 @@ pub(super) struct FmuArguments {
     /// Write the vehicle, an FMU of each external damper and their connections as one SSP file.
     #[arg(long, requires = "case")]
     pub(super) ssp: bool,
-    /// Vehicle library built by `cargo build --release -p dashpot-hil -p dashpot-vehicle-model`, for this platform or for
+    /// Vehicle library built by `cargo build --release -p dashpot-hil -p dashpot-vehicle-model`, for this platform or
     /// another one [default for this platform: the one next to this program]. May be repeated.
     #[arg(long, value_name = "FILE|PLATFORM=FILE", value_parser = platform_library)]
     pub(super) library: Vec<(Option<Platform>, PathBuf)>,
