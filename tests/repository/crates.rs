@@ -9,13 +9,14 @@ use crate::files::{line_count, rust_files};
 use crate::workspaces::{WORKSPACES, folder_of, packages};
 
 /// Folders of all crates, from the bottom up. A crate may use only those listed before it; tests may use any.
-const ORDER: [&str; 31] = [
+const ORDER: [&str; 32] = [
     "xtask",
     "core",
     "capi",
     "tests/experiment",
     "tests/no_std_consumer",
     "firmware",
+    "firmware/device",
     "rail",
     "wear",
     "reference",

@@ -5,10 +5,14 @@ use dashpot::document::read;
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Files and the text in which each states the version.
-const PLACES: [(&str, &str); 6] = [
+const PLACES: [(&str, &str); 7] = [
     ("CITATION.cff", "version: {}\n"),
     ("capi/Cargo.toml", "version = \"{}\"\nedition"),
     ("firmware/Cargo.toml", "version = \"{}\"\nedition"),
+    (
+        "firmware/nucleo-h753zi/Cargo.toml",
+        "version = \"{}\"\nedition",
+    ),
     ("cluster/Containerfile", "dashpot-{}-x86-64-linux.tar.gz\n"),
     ("docs/install.md", "dashpot-{}-x86-64-linux.tar.gz\n"),
     ("docs/tutorials/cortex-m7.md", "version = \"{}\""),

@@ -25,9 +25,21 @@ pub fn advisories() -> Outcome {
     deny(&[], &["advisories"])
 }
 
+/// Checks licences and sources of a workspace that is built for itself. Its packages may have several versions.
+///
+/// # Errors
+/// A package is not allowed, or cargo-deny cannot be installed.
+pub fn check_licences(folder: &str) -> Outcome {
+    deny_in(&[folder], &["--offline"], &["licenses", "sources"])
+}
+
 fn deny(options: &[&str], checks: &[&str]) -> Outcome {
+    deny_in(&WORKSPACES, options, checks)
+}
+
+fn deny_in(folders: &[&str], options: &[&str], checks: &[&str]) -> Outcome {
     CARGO_DENY.install()?;
-    for folder in WORKSPACES {
+    for folder in folders {
         let manifest = format!("{folder}/Cargo.toml");
         let of = ["deny", "--locked", "--manifest-path", &manifest];
         let check = [

@@ -2,6 +2,7 @@
 
 pub mod aarch64;
 pub mod bench;
+pub mod board;
 pub mod book;
 pub mod c_library;
 pub mod ci;

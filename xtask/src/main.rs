@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use xtask::board::board;
 use xtask::book::book;
 use xtask::c_library::{self, Options, Platform};
 use xtask::ci::ci;
@@ -27,6 +28,7 @@ Commands:
   timings [--tests]      build the command, or every test, into an empty folder; print the processor time of each
                          package and check the bounds of the command's build
   firmware               build the images for the target
+  board                  check and build the image for the board NUCLEO-H753ZI (two minutes)
   target [--format json] measure the core on emulated processors against its budget
   bench                  measure times and instructions, and print one table: ours, a yardstick from the same run,
                          their ratio and the goal (docs/performance.md explains the lines)
@@ -77,6 +79,7 @@ fn main() -> ExitCode {
         }
         ["test"] => test(),
         ["firmware"] => build_firmware(),
+        ["board"] => board().map(|image| println!("image: {}", image.display())),
         ["target"] => measure_target(false),
         ["target", "--format", "json"] => measure_target(true),
         ["target", "--format", "text"] => measure_target(false),
