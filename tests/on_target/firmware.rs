@@ -29,8 +29,8 @@ const MAX_SLICE: f64 = 2082.0;
 /// The same for 25 % at 10 kHz.
 const BUDGET_10_KHZ: f64 = 0.25 * 400e6 / 10e3;
 
-fn run(rates: &str, resets: &'static [u32], ticks: usize) -> Option<Report> {
-    let image = images()?.join("dashpot-firmware");
+fn run(image: &str, rates: &str, resets: &'static [u32], ticks: usize) -> Option<Report> {
+    let image = images()?.join(image);
     let rates: FaultRates = rates.parse().unwrap();
     let link = FaultyLink::new(InTurn::start(&image, resets, None), rates, 5).unwrap();
     let mut session = Session::open(Client::new(link, RETRY_LIMITS, 1)).unwrap();
@@ -45,7 +45,7 @@ fn run(rates: &str, resets: &'static [u32], ticks: usize) -> Option<Report> {
 
 #[test]
 fn the_target_has_the_hosts_bits() {
-    let Some(report) = run("drop=0", &[], 2000) else {
+    let Some(report) = run("dashpot-firmware", "drop=0", &[], 2000) else {
         return;
     };
     assert_eq!(
@@ -62,15 +62,18 @@ fn the_target_has_the_hosts_bits() {
 fn the_target_has_the_hosts_bits_through_every_fault() {
     let faults = "drop=0.01,corrupt=0.02,delay=0.01,duplicate=0.02,reorder=0.01";
     // The resets occur during the steps, during the reload that follows, and late in the run.
-    let Some(report) = run(faults, &[300, 310, 500], 600) else {
-        return;
-    };
-    assert_eq!(
-        (report.ticks, report.mismatches, report.state_mismatches),
-        (600, 0, 0)
-    );
-    assert!(report.recoveries >= 2, "{report:?}");
-    assert!(report.link_faults.repeated_requests > 0);
+    for image in ["dashpot-firmware", "served"] {
+        let Some(report) = run(image, faults, &[300, 310, 500], 600) else {
+            return;
+        };
+        assert_eq!(
+            (report.ticks, report.mismatches, report.state_mismatches),
+            (600, 0, 0),
+            "{image}"
+        );
+        assert!(report.recoveries >= 2, "{image}: {report:?}");
+        assert!(report.link_faults.repeated_requests > 0, "{image}");
+    }
 }
 
 #[test]

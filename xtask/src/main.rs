@@ -28,7 +28,7 @@ Commands:
   timings [--tests]      build the command, or every test, into an empty folder; print the processor time of each
                          package and check the bounds of the command's build
   firmware               build the images for the target
-  board                  check and build the image for the board NUCLEO-H753ZI (two minutes)
+  board                  check and build the image for the board NUCLEO-H753ZI (docs/board.md; two minutes)
   target [--format json] measure the core on emulated processors against its budget
   bench                  measure times and instructions, and print one table: ours, a yardstick from the same run,
                          their ratio and the goal (docs/performance.md explains the lines)
