@@ -5,6 +5,7 @@ use core::pin::pin;
 
 use dashpot_core::link::{Device, Line, Outputs, RESPONSE_FRAME_BYTES};
 use embassy_futures::select::{Either, select};
+use embassy_futures::yield_now;
 use embedded_io::{Error, ErrorKind};
 use embedded_io_async::{Read, Write};
 use heapless::Vec;
@@ -54,6 +55,8 @@ impl<const N: usize, const WATCHED: usize, O: Outputs<N>> Server<'_, N, WATCHED,
     pub async fn serve(&mut self, reader: &mut impl Read, writer: &mut impl Write) -> ErrorKind {
         let mut received = [0; CHUNK_BYTES];
         loop {
+            // Lets other tasks run even if the stream never waits.
+            yield_now().await;
             let read = reader.read(&mut received);
             let count = match self.run_ticks_until(read).await {
                 Ok(0) => return ErrorKind::BrokenPipe,
@@ -106,16 +109,21 @@ impl<const N: usize, const WATCHED: usize, O: Outputs<N>> Server<'_, N, WATCHED,
     async fn run_ticks<F: Future>(&mut self, wait: F, link_is_idle: bool) -> F::Output {
         let mut wait = pin!(wait);
         loop {
-            match select(wait.as_mut(), self.ticks.wait()).await {
-                Either::First(output) => return output,
-                Either::Second(due) => {
-                    self.device.tick(due);
-                    self.outputs.drive(self.device.outputs_n());
-                    self.progress.ran_ticks();
-                    if link_is_idle {
-                        self.progress.link_alive();
-                    }
-                }
+            let (due, output) = match select(wait.as_mut(), self.ticks.wait()).await {
+                // A stream that never waits, because it fails at once, must not hold up the ticks.
+                Either::First(output) => (self.ticks.take(), Some(output)),
+                Either::Second(due) => (due, None),
+            };
+            if due > 0 {
+                self.device.tick(due);
+                self.outputs.drive(self.device.outputs_n());
+                self.progress.ran_ticks();
+            }
+            if link_is_idle {
+                self.progress.link_alive();
+            }
+            if let Some(output) = output {
+                return output;
             }
         }
     }

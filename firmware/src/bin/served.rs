@@ -1,5 +1,5 @@
-//! The image of a board with `dashpot-device`, without its pins: the same server over a byte stream of `embedded-io`, so
-//! that the emulator runs it.
+//! The server of `dashpot-device` that boards use, over a byte stream of `embedded-io` on the UART that the emulator
+//! has.
 #![no_std]
 #![no_main]
 

@@ -1,8 +1,9 @@
 //! The server over a stream in memory.
 
+mod stream;
+
 use std::cell::RefCell;
 use std::collections::VecDeque;
-use std::convert::Infallible;
 use std::future::poll_fn;
 use std::task::Poll;
 
@@ -13,8 +14,9 @@ use dashpot_core::link::{
 use dashpot_core::parameters::{DamperParameters, Mount};
 use dashpot_device::{Progress, ProgressCheck, Server, Ticks};
 use embassy_futures::block_on;
-use embedded_io::{ErrorKind, ErrorType};
-use embedded_io_async::{Read, Write};
+use embedded_io::ErrorKind;
+
+use stream::{Reader, Writer, quiet};
 
 fn damper() -> Damper<f32> {
     let parameters = DamperParameters::reduced(120e3, 0.03, Mount::new(8e6));
@@ -69,72 +71,6 @@ struct Driven(Vec<[f32; 2]>);
 impl Outputs<2> for &mut Driven {
     fn drive(&mut self, forces_n: &[f32; 2]) {
         self.0.push(*forces_n);
-    }
-}
-
-/// The host's bytes in chunks; an empty chunk is a failure of the line.
-struct Reader(VecDeque<Vec<u8>>);
-
-impl ErrorType for Reader {
-    type Error = ErrorKind;
-}
-
-impl Read for Reader {
-    async fn read(&mut self, into: &mut [u8]) -> Result<usize, ErrorKind> {
-        let Some(mut chunk) = self.0.pop_front() else {
-            return Ok(0);
-        };
-        if chunk.is_empty() {
-            return Err(ErrorKind::Other);
-        }
-        let count = chunk.len().min(into.len());
-        into[..count].copy_from_slice(&chunk[..count]);
-        let rest = chunk.split_off(count);
-        if !rest.is_empty() {
-            self.0.push_front(rest);
-        }
-        Ok(count)
-    }
-}
-
-/// Keeps what is written. Each write first calls `while_waiting` as often as it waits.
-struct Writer<F> {
-    sent: Vec<u8>,
-    waits: usize,
-    while_waiting: F,
-}
-
-impl<F> ErrorType for Writer<F> {
-    type Error = Infallible;
-}
-
-impl<F: FnMut()> Write for Writer<F> {
-    async fn write(&mut self, bytes: &[u8]) -> Result<usize, Infallible> {
-        let mut left = self.waits;
-        poll_fn(|context| {
-            if left == 0 {
-                return Poll::Ready(());
-            }
-            left -= 1;
-            (self.while_waiting)();
-            context.waker().wake_by_ref();
-            Poll::Pending
-        })
-        .await;
-        self.sent.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    async fn flush(&mut self) -> Result<(), Infallible> {
-        Ok(())
-    }
-}
-
-fn quiet() -> Writer<fn()> {
-    Writer {
-        sent: Vec::new(),
-        waits: 0,
-        while_waiting: || {},
     }
 }
 
@@ -231,6 +167,32 @@ fn ticks_run_while_an_answer_is_sent() {
     assert_eq!(driven.0.len(), 6 + 6 * 5);
 }
 
+/// A line that fails at every read, as without a cable, is no reason to stop the ticks or to reset the board.
+#[test]
+fn ticks_run_while_every_read_fails() {
+    let (ticks, progress) = (Ticks::new(), Progress::new());
+    let mut device = started();
+    let mut server = Server {
+        device: &mut device,
+        outputs: &mut Driven::default(),
+        ticks: &ticks,
+        progress: &progress,
+    };
+    let run = Request::Run {
+        displacements_m: [0.0; 2].into_iter().collect(),
+    };
+    let hello = frame(1, &Request::Hello { protocol: PROTOCOL });
+    block_on(server.serve(&mut Reader([hello, frame(2, &run)].into()), &mut quiet()));
+    let mut check = ProgressCheck::default();
+    for _ in 0..10 {
+        ticks.count();
+        let end = block_on(server.serve(&mut Reader([vec![]].into()), &mut quiet()));
+        assert_eq!(end, ErrorKind::Other);
+        assert!(check.both_moved(&progress));
+    }
+    assert_eq!(device.tick_number(), 10);
+}
+
 /// A watchdog is fed while the host is silent, and starves if a write never ends or the timer stops.
 #[test]
 fn the_watchdog_starves_if_link_or_tick_stands_still() {
@@ -262,7 +224,7 @@ fn the_watchdog_starves_if_link_or_tick_stands_still() {
     block_on(server.run_ticks_until(wait_with_ticks(0)));
     assert!(!check.both_moved(&progress), "no tick");
 
-    // Looks at the progress after each tick of a write that waits. The first look sees what was before the write.
+    // Looks at the progress after each tick of a write that waits. The first looks see what was before the write.
     let looks = RefCell::new((check, Vec::new()));
     let mut writer = Writer {
         sent: Vec::new(),
@@ -276,6 +238,6 @@ fn the_watchdog_starves_if_link_or_tick_stands_still() {
     let hello = frame(1, &Request::Hello { protocol: PROTOCOL });
     block_on(server.serve(&mut Reader(VecDeque::from([hello])), &mut writer));
     let (mut check, fed) = looks.into_inner();
-    assert_eq!(fed, [false; 100]);
+    assert_eq!(fed[2..], [false; 98]);
     assert!(check.both_moved(&progress), "the write ended");
 }
