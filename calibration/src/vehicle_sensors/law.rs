@@ -2,7 +2,7 @@
 
 use dashpot_core::{CheckedParameters, DamperParameters};
 use dashpot_testbench::compiled::Compiled;
-use realfft::num_complex::Complex;
+use nalgebra::Complex;
 
 use super::error::SensorsError;
 use super::transform::Spectrum;

@@ -1,7 +1,7 @@
 //! Motion of a rigid body from its accelerometers.
 
 use dashpot_rail::vehicle::Body;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::error::SensorsError;
 use super::layout::Layout;
@@ -9,6 +9,8 @@ use super::readings::{Axis, Readings};
 
 /// Share of another motion that may pass for the wanted one.
 const MAX_MIXED: f64 = 1e-6;
+/// Least eigenvalue of the normal equations, as a share of the largest.
+const MIN_EIGENVALUE: f64 = 1e-12;
 
 /// Weights by which readings become the motion of the three bodies.
 pub(super) struct Sensors {
@@ -101,7 +103,13 @@ fn weights(
         return None;
     }
     let matrix = DMatrix::from_rows(&rows);
-    let inverse = matrix.clone().pseudo_inverse(1e-9).ok()?;
+    // The pseudo-inverse by the eigenvalues of the normal equations, of which those near zero are left out.
+    let mut eigen = SymmetricEigen::new(matrix.transpose() * &matrix);
+    let least = MIN_EIGENVALUE * eigen.eigenvalues.amax();
+    for value in eigen.eigenvalues.iter_mut() {
+        *value = if *value > least { value.recip() } else { 0.0 };
+    }
+    let inverse = eigen.recompose() * matrix.transpose();
     let weights = inverse.row(unknown);
     let mut passed = weights * &matrix;
     passed[unknown] -= 1.0;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use dashpot_core::DamperParameters;
 use dashpot_rail::vehicle::{Body, Direction, Element, End, Law, RidePoint, VehicleParameters};
-use realfft::num_complex::Complex;
+use nalgebra::Complex;
 
 use super::{
     Assessment, Axis, Baseline, Condition, Factors, Layout, Readings, SensorsError, evaluate,

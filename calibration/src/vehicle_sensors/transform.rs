@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
+use dashpot_rail::indices::{amplitudes, signal_of};
+use nalgebra::Complex;
 
 /// Highest frequency that is kept (Hz).
 const HIGHEST_HZ: f64 = 40.0;
@@ -18,16 +18,8 @@ pub(super) struct Spectrum {
 impl Spectrum {
     /// Transforms a signal of equally spaced values over `duration_s`.
     pub fn of(mut signal: Vec<f64>, duration_s: f64) -> Self {
-        let count = signal.len().max(1);
-        signal.resize(count, 0.0);
-        let plan = RealFftPlanner::new().plan_fft_forward(count);
-        let mut lines = plan.make_output_vec();
-        // Fails only for wrong lengths.
-        let _ = plan.process(&mut signal, &mut lines);
+        let mut lines = amplitudes(&mut signal);
         lines.truncate((HIGHEST_HZ * duration_s) as usize + 1);
-        for line in &mut lines {
-            *line /= count as f64;
-        }
         Self { duration_s, lines }
     }
 
@@ -41,17 +33,8 @@ impl Spectrum {
     /// Returns the step (s) and the values of the signal at about `rate_hz`, with a whole number of steps.
     pub fn signal(&self, rate_hz: f64) -> (f64, Vec<f64>) {
         let count = ((rate_hz * self.duration_s).round() as usize).max(1);
-        let plan = RealFftPlanner::new().plan_fft_inverse(count);
-        let mut lines = plan.make_input_vec();
-        for (to, from) in lines.iter_mut().zip(&self.lines) {
-            *to = *from;
-        }
-        if let Some(mean) = lines.first_mut() {
-            mean.im = 0.0;
-        }
-        let mut signal = plan.make_output_vec();
-        let _ = plan.process(&mut lines, &mut signal);
-        (self.duration_s / count as f64, signal)
+        let step_s = self.duration_s / count as f64;
+        (step_s, signal_of(&self.lines, count))
     }
 
     /// Returns the spectrum times a response, a function of the angular frequency (rad/s).

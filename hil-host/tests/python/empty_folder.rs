@@ -14,7 +14,10 @@ fn the_examples_run_from_an_empty_folder_with_numpy_alone() {
     for entry in std::fs::read_dir(package().join("examples")).unwrap() {
         let example = entry.unwrap().path();
         // A notebook and the examples in folders have tests of their own.
-        if example.extension().is_none_or(|extension| extension != "py") {
+        if example
+            .extension()
+            .is_none_or(|extension| extension != "py")
+        {
             continue;
         }
         let folder = tempfile::tempdir().unwrap();

@@ -4,6 +4,7 @@
 //! - [`sperling`]: ride index of an acceleration.
 //! - [`mean_comfort`]: comfort index of EN 12299, with its [`Weighting`].
 //! - [`welch`]: power spectral density.
+//! - [`amplitudes`], [`signal_of`]: Fourier transforms of whole signals.
 //! - [`Sperling`], [`WeightingFilter`], [`Welch`]: the same for a signal that arrives sample by sample or window by
 //!   window.
 //! - [`nadal_limit`], [`prudhomme_limit_n`], [`wheel_load_limit_n`], [`wheel_unloading`]: limits of wheel forces, which
@@ -19,6 +20,7 @@
 mod band;
 mod comfort;
 mod conicity;
+mod fourier;
 mod limits;
 mod low_pass;
 mod spectrum;
@@ -29,6 +31,7 @@ mod welch;
 
 pub use comfort::{mean_comfort, mean_comfort_of_windows, weighted_rms};
 pub use conicity::{CONTACT_DISTANCE_M, RollingRadiusDifference, RollingRadiusError};
+pub use fourier::{amplitudes, signal_of};
 pub use limits::{nadal_limit, prudhomme_limit_n, wheel_load_limit_n, wheel_unloading};
 pub use low_pass::LowPass;
 pub use spectrum::SpectrumError;
