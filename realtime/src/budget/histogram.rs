@@ -3,10 +3,10 @@
 use super::Run;
 use crate::timing::Distribution;
 
-/// Returns the histogram of a run as text. After a comment that names the columns, line n begins with n in six
-/// digits and has the number of spans of n to n + 1 microseconds for each series. Then follow the total of the counted spans,
-/// minimum, mean and maximum (us), and the number of spans of 10 ms and more, which are in no line. A program that reads
-/// the output of cyclictest reads it too: a series takes the place of a thread.
+/// Returns the histogram of a run as text. After a comment that names the columns, line n begins with n in six digits
+/// and has the number of spans of n to n + 1 microseconds for each series. Then follow the total of the counted spans,
+/// minimum, mean and maximum (us), and the number of spans of 10 ms and more, which are in no line. A program that
+/// reads the output of cyclictest reads it too: a series takes the place of a thread.
 ///
 /// ```
 /// use dashpot_realtime::budget::{Run, histogram};
