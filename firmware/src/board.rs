@@ -5,6 +5,8 @@
 
 use core::ptr::{with_exposed_provenance, with_exposed_provenance_mut};
 
+use cortex_m::peripheral::SYST;
+use cortex_m::peripheral::syst::SystClkSource;
 use dashpot_core::link::{Clock, Line};
 
 /// Clock of processor, timer and SysTick (Hz).
@@ -90,6 +92,16 @@ impl Line for Uart {
         }
         ready
     }
+}
+
+/// Makes SysTick interrupt once every `step_s` (s).
+pub fn start_ticks(timer: &mut SYST, step_s: f32) {
+    let period = step_s * CLOCK_HZ as f32 + 0.5;
+    timer.set_clock_source(SystClkSource::Core);
+    timer.set_reload(period as u32 - 1);
+    timer.clear_current();
+    timer.enable_counter();
+    timer.enable_interrupt();
 }
 
 /// Starts the clock that [`clock_now`] reads.

@@ -7,11 +7,10 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::{entry, exception};
 use dashpot_core::link::Device;
 use dashpot_firmware::bank::{BANK, DAMPERS};
-use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
+use dashpot_firmware::board::{self, Port, Uart};
 use dashpot_firmware::outputs::SerialOutputs;
 use dashpot_firmware::safe_state;
 use static_cell::ConstStaticCell;
@@ -41,12 +40,7 @@ fn main() -> ! {
         safe_state::halt();
     }
     if let Some(mut core) = cortex_m::Peripherals::take() {
-        let period = device.step_s() * CLOCK_HZ as f32 + 0.5;
-        core.SYST.set_clock_source(SystClkSource::Core);
-        core.SYST.set_reload(period as u32 - 1);
-        core.SYST.clear_current();
-        core.SYST.enable_counter();
-        core.SYST.enable_interrupt();
+        board::start_ticks(&mut core.SYST, device.step_s());
     }
     let mut link = Uart::start(Port::Link, BAUD);
     let mut outputs = SerialOutputs::start();

@@ -8,7 +8,6 @@ use core::convert::Infallible;
 use core::future::poll_fn;
 use core::task::Poll;
 
-use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::{entry, exception};
 use dashpot_core::link::{Device, Line, Outputs};
 use dashpot_device::{Progress, ProgressCheck, Server, Ticks};
@@ -104,12 +103,7 @@ fn main() -> ! {
         safe_state::halt();
     }
     if let Some(mut core) = cortex_m::Peripherals::take() {
-        let period = device.step_s() * CLOCK_HZ as f32 + 0.5;
-        core.SYST.set_clock_source(SystClkSource::Core);
-        core.SYST.set_reload(period as u32 - 1);
-        core.SYST.clear_current();
-        core.SYST.enable_counter();
-        core.SYST.enable_interrupt();
+        board::start_ticks(&mut core.SYST, device.step_s());
     }
     let outputs = RefCell::new(SerialOutputs::start());
     let mut reader = Stream(Uart::start(Port::Link, BAUD));
