@@ -7,7 +7,7 @@ use super::error::SensorsError;
 use super::layout::Layout;
 use super::limits::{MIN_SECONDS, MIN_SPARE_SECONDS};
 
-/// Least eigenvalue of the normal equations, each factor scaled to 1.
+/// Minimum eigenvalue of the normal equations, each factor scaled to 1.
 const MIN_EIGENVALUE: f64 = 1e-8;
 
 /// Factors of the forces between body and bogies, 1 for the nominal vehicle.

@@ -4,7 +4,7 @@
 pub(super) const MIN_RATE_HZ: f64 = 99.0;
 /// Shortest duration of a recording (s): settling, ramps and a few seconds of ride.
 pub(super) const MIN_DURATION_S: f64 = 10.0;
-/// Least number of seconds of ride.
+/// Minimum number of seconds of ride.
 pub(super) const MIN_SECONDS: usize = 12;
 /// Seconds of ride beyond the number of factors.
 pub(super) const MIN_SPARE_SECONDS: usize = 4;

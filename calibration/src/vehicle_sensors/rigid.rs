@@ -9,7 +9,7 @@ use super::readings::{Axis, Readings};
 
 /// Share of another motion that may pass for the wanted one.
 const MAX_MIXED: f64 = 1e-6;
-/// Least eigenvalue of the normal equations, as a share of the largest.
+/// Minimum eigenvalue of the normal equations, as a share of the largest.
 const MIN_EIGENVALUE: f64 = 1e-12;
 
 /// Weights by which readings become the motion of the three bodies.
@@ -103,7 +103,7 @@ fn weights(
         return None;
     }
     let matrix = DMatrix::from_rows(&rows);
-    // The pseudo-inverse by the eigenvalues of the normal equations, of which those near zero are left out.
+    // The pseudo-inverse from the eigenvalues of the normal equations; those near zero are omitted.
     let mut eigen = SymmetricEigen::new(matrix.transpose() * &matrix);
     let least = MIN_EIGENVALUE * eigen.eigenvalues.amax();
     for value in eigen.eigenvalues.iter_mut() {

@@ -97,7 +97,7 @@ pub fn run(arguments: &VehicleSensorsArguments) -> Outcome<()> {
     let baseline = arguments
         .baseline
         .as_deref()
-        .map(|path| read_baseline(path))
+        .map(read_baseline)
         .transpose()?;
     let vehicle = vehicle::load_with(&arguments.vehicle, &arguments.dampers, &arguments.overrides)?;
     let in_vehicle = |error: SensorsError| Failure::new(format!("{}: {error}", arguments.vehicle));
@@ -203,10 +203,8 @@ impl VehicleSensorsArguments {
             )));
         }
         let column = |name: &String| {
-            let mut renamed = self.signals.iter().filter(|(reading, _)| reading == name);
-            renamed
-                .next()
-                .map_or(name.clone(), |(_, column)| column.clone())
+            let renamed = self.signals.iter().find(|(reading, _)| reading == name);
+            renamed.map_or(name, |(_, column)| column).clone()
         };
         let columns: Vec<String> = names.iter().map(column).collect();
         let wanted: Vec<(&str, &str)> = columns.iter().map(|name| (&**name, UNIT)).collect();
