@@ -1,16 +1,18 @@
 //! Runs all checks; those that fail soonest come first.
 
+use crate::board::board;
 use crate::dependencies;
 use crate::firmware;
 use crate::packages::{rehearse_publishing, with_features};
 use crate::processor::CORTEX_M7;
 use crate::run::{Outcome, cargo, cargo_with};
 use crate::rust_version;
-use crate::setup::install_for_tests;
+use crate::setup::{install_for_tests, install_targets};
 use crate::test_run::test;
 use crate::timings;
 use crate::tools::CARGO_HACK;
 use crate::web;
+use crate::wheel;
 
 /// Manifests outside the main workspace: the C library has a C name and its own panic strategy, the firmware is built
 /// for the target, and fuzz targets have their own entry point.
@@ -18,8 +20,8 @@ const C_LIBRARY: &str = "capi/Cargo.toml";
 const FIRMWARE: &str = "firmware/Cargo.toml";
 const FUZZ: &str = "fuzz/Cargo.toml";
 
-/// Runs every check that a stable compiler supports. Miri and fuzzing need a nightly compiler and have their own
-/// commands.
+/// Runs every check that a change may fail and a stable compiler supports. Those of [`release_checks`], and Miri and
+/// fuzzing, which need a nightly compiler, have their own commands.
 ///
 /// # Errors
 /// The first check that failed.
@@ -48,13 +50,25 @@ pub fn ci() -> Outcome {
         &[("RUSTDOCFLAGS", "-D warnings")],
     )?;
     rehearse_publishing()?;
-    rust_version::check()?;
+    rust_version::check_core()?;
     each_feature()?;
-    web::check()?;
     firmware::build_default()?;
     // No other check builds the command with optimisation, so measuring this build costs no extra time.
     timings::build_and_demonstrate()?;
     test()
+}
+
+/// Runs the checks that find something only after a change of the compiler, the dependencies or the board, and take
+/// minutes: the workspace with its lowest compiler, the page's module built again, the wheel, and the image for a board.
+///
+/// # Errors
+/// The first check that failed.
+pub fn release_checks() -> Outcome {
+    install_targets(&[web::TARGET]);
+    rust_version::check_workspace()?;
+    web::check()?;
+    wheel::check()?;
+    board().map(drop)
 }
 
 fn lint(packages: &[&str]) -> Outcome {

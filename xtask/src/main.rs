@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use xtask::board::board;
 use xtask::book::book;
 use xtask::c_library::{self, Options, Platform};
-use xtask::ci::ci;
+use xtask::ci::{ci, release_checks};
 use xtask::run::{Outcome, cargo, repository};
 use xtask::search;
 use xtask::test_run::test;
@@ -25,6 +25,8 @@ Usage: cargo xtask <command>
 Commands:
   test                   install the tools that tests need, then run every test
   ci                     formatting, lints, documentation, packages, Rust versions, each feature, build time, test
+  release-checks         what ci leaves out: the workspace with its lowest compiler, the page's module built again, the
+                         wheel, the image for a board (a quarter of an hour); dist runs it first
   timings [--tests]      build the command, or every test, into an empty folder; print the processor time of each
                          package and check the bounds of the command's build
   firmware               build the images for the target
@@ -54,7 +56,7 @@ Commands:
                          build what users install: archives, Debian packages, wheels, and the list of their digests,
                          for x86-64-linux, aarch64-linux and x86-64-windows, into target/dist (half an hour; installs
                          zig into target/dist_tools, cargo-about, and the targets)
-  python                 install into target/python the Python packages that tests need, and maturin into target/maturin
+  python                 install into target/python the Python packages that tests need
   miri                   run the tests of the C interface under Miri (needs a nightly compiler)
   fuzz [--seconds N]     run each fuzz target for N seconds, 60 by default, starting from its kept seeds (needs a
                          nightly compiler)
@@ -123,6 +125,7 @@ fn main() -> ExitCode {
         ["advisories"] => dependencies::advisories(),
         ["slurm"] => slurm::slurm(),
         ["ci"] => ci(),
+        ["release-checks"] => release_checks(),
         ["timings"] => timings(Build::Command),
         ["timings", "--tests"] => timings(Build::Tests),
         ["mutants", ref words @ ..] => {

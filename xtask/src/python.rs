@@ -132,7 +132,7 @@ fn has_needed() -> bool {
 /// # Panics
 /// The test is skipped and the variable `CI` is set.
 pub fn have_packages(skipped: &str) -> Option<PathBuf> {
-    if !(TESTS.is_installed() && WHEELS.is_installed() && has_needed()) {
+    if !(TESTS.is_installed() && has_needed()) {
         skip(skipped, "cargo xtask python");
         return None;
     }
@@ -146,13 +146,12 @@ pub fn lacks_environments() -> bool {
     !output.is_ok_and(|output| output.status.success())
 }
 
-/// Creates the environments if they are missing or contain other packages.
+/// Creates the environment of the tests if it is missing or contains other packages.
 ///
 /// # Errors
 /// There is no Python, it lacks the module `venv`, or a package cannot be installed.
 pub fn install() -> Outcome {
     TESTS.install()?;
-    WHEELS.install()?;
     if has_needed() {
         return Ok(());
     }

@@ -52,8 +52,8 @@ fn install_tools(tools: &[Tool], others: &[&'static str]) -> Outcome {
     }
 }
 
-/// Installs the libraries of targets if rustup is present.
-fn install_targets(targets: &[&str]) {
+/// Installs the missing libraries of targets if rustup is present.
+pub fn install_targets(targets: &[&str]) {
     let lacks = |target: &&str| TargetToolchain::installed(target).is_none();
     let missing: Vec<&str> = targets.iter().copied().filter(lacks).collect();
     if missing.is_empty() || Command::new("rustup").arg("--version").output().is_err() {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::python::builder;
+use crate::python::{builder, install, interpreter, make, needed, pip};
 use crate::run::{Outcome, repository, run};
 
 /// Builds the wheel into `output`, removes older wheels of the package from it, and returns the wheel's path.
@@ -36,6 +36,28 @@ pub fn wheel(profile: &str, output: &Path) -> Outcome<PathBuf> {
     built
         .pop()
         .ok_or_else(|| format!("{}: maturin built no wheel", output.display()))
+}
+
+/// Builds the wheel as `cargo xtask wheel` does, installs it beside nothing but numpy, and tests what is installed.
+///
+/// # Errors
+/// A package cannot be installed, the wheel does not build, or the test fails.
+pub fn check() -> Outcome {
+    install()?;
+    let wheel = wheel("dist", &repository().join("target/wheels"))?;
+    let folder = repository().join("target/wheel_check");
+    make(&folder)?;
+    let python = interpreter(&folder);
+    let [needed, wheel] = [needed(), wheel].map(|path| path.to_string_lossy().into_owned());
+    pip(
+        &python,
+        "install",
+        &["--no-index", "--find-links", &needed, &wheel],
+    )?;
+    let mut test = Command::new(python);
+    test.arg(repository().join("python/tests/installed_wheel.py"));
+    test.current_dir(&folder);
+    run(test, "python/tests/installed_wheel.py")
 }
 
 fn wheels(folder: &Path) -> std::io::Result<Vec<PathBuf>> {

@@ -31,7 +31,15 @@ const VARIED: [&str; 8] = [
 
 fn calibrate(folder: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
     let bench = data("bench/bench_made.mf4");
-    let line = ["calibrate", "--damper", "in-service", "--input", &bench];
+    let line = [
+        "calibrate",
+        "--damper",
+        "in-service",
+        "--starts",
+        "2",
+        "--input",
+        &bench,
+    ];
     dashpot(&[&line[..], &VARIED, more].concat(), folder)
 }
 
@@ -216,7 +224,15 @@ fn outputs_are_complete_distinct_and_never_inputs() {
     let folder = folder.path();
     let to_stdout = ["--vary", "mount.clearance_m", "--output", "-"];
     let bench = data("bench/bench_made.mf4");
-    let line = ["calibrate", "--damper", "in-service", "--input", &bench];
+    let line = [
+        "calibrate",
+        "--damper",
+        "in-service",
+        "--starts",
+        "2",
+        "--input",
+        &bench,
+    ];
     let found = dashpot(&[&line[..], &to_stdout].concat(), folder).success();
     let found = String::from_utf8(found.get_output().stdout.clone()).unwrap();
     assert!(damper::parse("found", &found, &[]).is_ok(), "{found}");

@@ -33,7 +33,7 @@ fn discharge(report: &Value) -> (f64, [f64; 2], [f64; 2]) {
 fn the_interval_includes_the_temperature_and_a_wrong_one_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    bench::write(&folder.join("run.csv"), |sample| sample);
+    bench::write_from(0.0, &folder.join("run.csv"), |sample| sample);
     let (truth, cold) = (TRUTH[0].1, ["--set", "oil.temperature_c=20"]);
 
     let warm = report(folder, &[]);

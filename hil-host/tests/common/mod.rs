@@ -5,6 +5,7 @@
 
 pub mod advice;
 pub mod bench;
+pub mod library;
 pub mod live;
 pub mod page;
 

@@ -5,39 +5,19 @@ use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
 use xtask::python::have_packages;
-use xtask::run::cargo_output;
 
 use crate::common::page::blocks;
-use crate::common::{dashpot, error_of, program};
+use crate::common::{self, dashpot, error_of, program};
 use crate::source;
 
-/// Returns the vehicle library, built once. Built with the workspace, it shares all that the tests have compiled.
+/// Returns the vehicle library, built once.
 pub fn library() -> &'static Path {
-    static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
-    LIBRARY.get_or_init(|| {
-        let printed = cargo_output(&[
-            "build",
-            "--locked",
-            "--workspace",
-            "--message-format",
-            "json-render-diagnostics",
-        ])
-        .unwrap();
-        let messages = printed
-            .lines()
-            .map(|line| serde_json::from_str(line).unwrap());
-        let files = messages.flat_map(|message: serde_json::Value| {
-            let files = message["filenames"].as_array().cloned().unwrap_or_default();
-            files
-                .into_iter()
-                .filter_map(|file| file.as_str().map(PathBuf::from))
-        });
-        let mut libraries = files.filter(|file| file.ends_with("libdashpot_vehicle_model.a"));
-        libraries.next().unwrap()
-    })
+    static LIBRARY: LazyLock<PathBuf> =
+        LazyLock::new(|| common::library::library("libdashpot_vehicle_model.a", "fmu"));
+    &LIBRARY
 }
 
 /// Exports the FMU of a case with these external dampers into `folder`.

@@ -10,6 +10,7 @@ fn the_examples_run_from_an_empty_folder_with_numpy_alone() {
     }
     let environment = tempfile::tempdir().unwrap();
     let python = alone(environment.path());
+    let path = unpacked();
     let mut count = 0;
     for entry in std::fs::read_dir(package().join("examples")).unwrap() {
         let example = entry.unwrap().path();
@@ -21,7 +22,8 @@ fn the_examples_run_from_an_empty_folder_with_numpy_alone() {
             continue;
         }
         let folder = tempfile::tempdir().unwrap();
-        let output = run(&python, folder.path(), None, &[example.to_str().unwrap()]);
+        let arguments = [example.to_str().unwrap()];
+        let output = run(&python, folder.path(), Some(path.path()), &arguments);
         assert!(
             !output.contains("Warning"),
             "{}: {output}",
@@ -38,7 +40,7 @@ fn the_example_on_a_cluster_runs_from_an_empty_folder() {
     let Some(python) = have_packages("the example of the package of Python on Dask") else {
         return;
     };
-    let (path, folder) = (unpacked(&python), tempfile::tempdir().unwrap());
+    let (path, folder) = (unpacked(), tempfile::tempdir().unwrap());
     let example = package().join("examples/dask/study.py");
     let arguments = [example.to_str().unwrap()];
     run(&python, folder.path(), Some(path.path()), &arguments);

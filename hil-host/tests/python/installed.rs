@@ -1,21 +1,19 @@
-//! The wheel, built once for all tests here, and its installation.
+//! The package, built once for all tests here. `cargo xtask release-checks` tests its wheel.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
 use xtask::python::{interpreter, make, needed, pip};
-use xtask::wheel::wheel;
 
-use crate::common::program;
+use crate::common::{self, program};
 
-/// The wheel, built with the profile of the tests.
+/// The package's library, built once.
 pub fn built() -> &'static Path {
-    static WHEEL: LazyLock<PathBuf> = LazyLock::new(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("wheels");
-        wheel("dev", &folder).unwrap()
-    });
-    &WHEEL
+    static LIBRARY: LazyLock<PathBuf> =
+        LazyLock::new(|| common::library::library("lib_dashpot.so", "python"));
+    &LIBRARY
 }
 
 /// Folder of the package in the repository.
@@ -23,31 +21,29 @@ pub fn package() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../python")
 }
 
-/// Folder that contains the package, for the path of an interpreter with the other dependencies.
-pub fn unpacked(python: &Path) -> tempfile::TempDir {
+/// Folder that contains the package as an installed wheel has it, for the path of an interpreter.
+pub fn unpacked() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let (target, wheel) = (folder.path().to_str().unwrap(), built().to_str().unwrap());
-    pip(
-        python,
-        "install",
-        &["--no-deps", "--no-index", "--target", target, wheel],
-    )
-    .unwrap();
+    let target = folder.path().join("dashpot");
+    fs::create_dir(&target).unwrap();
+    for entry in fs::read_dir(package().join("dashpot")).unwrap() {
+        let entry = entry.unwrap();
+        if entry.file_type().unwrap().is_file() {
+            fs::copy(entry.path(), target.join(entry.file_name())).unwrap();
+        }
+    }
+    fs::copy(built(), target.join("_dashpot.abi3.so")).unwrap();
     folder
 }
 
-/// Interpreter of a new environment with only the package and numpy.
+/// Interpreter of a new environment with only numpy.
 pub fn alone(folder: &Path) -> PathBuf {
     make(folder).unwrap();
     let python = interpreter(folder);
     let needed = needed();
-    let (needed, wheel) = (needed.to_str().unwrap(), built().to_str().unwrap());
-    pip(
-        &python,
-        "install",
-        &["--no-index", "--find-links", needed, wheel],
-    )
-    .unwrap();
+    let needed = needed.to_str().unwrap();
+    let arguments = ["--no-index", "--find-links", needed, "numpy"];
+    pip(&python, "install", &arguments).unwrap();
     python
 }
 

@@ -8,7 +8,7 @@ fn suite(name: &str) {
     let Some(python) = have_packages("the package of Python") else {
         return;
     };
-    let path = unpacked(&python);
+    let path = unpacked();
     let folder = tempfile::tempdir().unwrap();
     let tests = package().join("tests");
     let tests = tests.to_str().unwrap();
@@ -79,7 +79,7 @@ fn the_stubs_agree_with_the_package() {
     let Some(python) = have_packages("the stubs of the package of Python") else {
         return;
     };
-    let path = unpacked(&python);
+    let path = unpacked();
     let folder = tempfile::tempdir().unwrap();
     let output = run(
         &python,

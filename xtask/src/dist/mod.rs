@@ -16,6 +16,7 @@ pub use options::Options;
 pub use platform::PLATFORMS;
 
 use crate::c_library;
+use crate::ci::release_checks;
 use crate::reproducible::{FixedPlace, commit_time};
 use crate::run::{Outcome, git, repository, run};
 use crate::tags::check_interfaces;
@@ -49,11 +50,12 @@ const FILES: [&str; 14] = [
 /// Builds archives, Debian packages, wheels and the list of their digests.
 ///
 /// # Errors
-/// The working tree differs from the last commit, an interface changed more than the version allows, a tool is missing,
-/// or a build fails.
+/// The working tree differs from the last commit, an interface changed more than the version allows, a check of
+/// [`release_checks`] fails, a tool is missing, or a build fails.
 pub fn dist(options: &Options) -> Outcome {
     check_tree(options.allow_changes)?;
     check_interfaces()?;
+    release_checks()?;
     let time = commit_time()?;
     let host = PLATFORMS.iter().find(|platform| platform.is_host());
     let host = host.ok_or("archives are built on Linux with x86-64 or aarch64")?;

@@ -1,0 +1,22 @@
+"""Tests an installed wheel: it computes, and contains its licences and no part under another one."""
+
+from importlib import metadata
+from pathlib import Path
+
+import dashpot
+
+indices = dashpot.Damper("in-service").indices(amplitude_m=0.01, frequency_hz=1.0)
+assert indices["max_extension_force_n"] > 1000.0, indices
+
+about = metadata.metadata("dashpot")
+assert about["License-Expression"] == "MIT OR Apache-2.0", about
+top = Path(__file__).parents[2]
+for licence in ["LICENSE-APACHE", "LICENSE-MIT"]:
+    assert licence in about.get_all("License-File"), about
+    [packaged] = [file for file in metadata.files("dashpot") if file.name == licence]
+    assert packaged.read_text() == (top / licence).read_text(), licence
+
+# Licences of third-party texts are kept with those texts; none of them is in the package.
+library = Path(dashpot._dashpot.__file__).read_bytes()
+for other in [b"uPlot", b"Modelica Association"]:
+    assert other not in library, other
