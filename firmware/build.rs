@@ -4,7 +4,11 @@ fn main() {
     let here = std::env::var("CARGO_MANIFEST_DIR").expect("cargo sets it");
     let target = std::env::var("TARGET").expect("cargo sets it");
     println!("cargo::rustc-check-cfg=cfg(mps2_an505)");
-    let (folder, end_of_memory) = if target.starts_with("thumbv8m.main") {
+    let is_nucleo = std::env::var_os("CARGO_FEATURE_NUCLEO_H753ZI").is_some();
+    let (folder, end_of_memory) = if is_nucleo {
+        // No measuring image is for this board.
+        ("nucleo-h753zi", "0")
+    } else if target.starts_with("thumbv8m.main") {
         println!("cargo::rustc-cfg=mps2_an505");
         ("mps2-an505", "0x81000000")
     } else {

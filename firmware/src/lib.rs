@@ -3,6 +3,7 @@
 
 pub mod bank;
 pub mod board;
+#[cfg(not(feature = "nucleo-h753zi"))]
 pub mod counted_call;
 pub mod outputs;
 pub mod printer;

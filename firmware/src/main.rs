@@ -1,7 +1,7 @@
 //! A bank of dampers behind a serial link.
 //!
 //! One loop owns the device. It runs the ticks that SysTick counted, then does one thing for the link. Nothing blocks,
-//! so the longest request bounds the delay of a tick; overruns are counted.
+//! so the longest request bounds the delay of a tick; overruns are counted. The watchdog is fed while ticks run.
 #![no_std]
 #![no_main]
 
@@ -30,6 +30,7 @@ fn SysTick() {
 
 #[entry]
 fn main() -> ! {
+    board::start();
     let Some(device) = DEVICE.try_take() else {
         safe_state::halt();
     };
@@ -44,8 +45,13 @@ fn main() -> ! {
     }
     let mut link = Uart::start(Port::Link, BAUD);
     let mut outputs = SerialOutputs::start();
+    board::start_watchdog();
     loop {
-        device.poll(DUE.swap(0, Ordering::Relaxed), &mut link, &mut outputs);
+        let due = DUE.swap(0, Ordering::Relaxed);
+        device.poll(due, &mut link, &mut outputs);
+        if due > 0 {
+            board::feed_watchdog();
+        }
         outputs.send_waiting();
     }
 }

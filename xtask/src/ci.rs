@@ -43,7 +43,9 @@ pub fn ci() -> Outcome {
         ]
         .concat(),
     )?;
-    lint(&["--manifest-path", FIRMWARE, "--target", CORTEX_M7.target])?;
+    let firmware = ["--manifest-path", FIRMWARE, "--target", CORTEX_M7.target];
+    lint(&firmware)?;
+    lint(&[&firmware[..], &firmware::NUCLEO].concat())?;
     lint(&[&["--manifest-path", FUZZ], &shared[..]].concat())?;
     cargo_with(
         &["doc", "--workspace", "--no-deps"],

@@ -1,21 +1,51 @@
 //! Builds the firmware's images.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::processor::{CORTEX_M7, Processor};
 use crate::run::{Outcome, repository};
 use crate::target_toolchain::TargetToolchain;
 use crate::tools::ARM_LD;
 
+/// Options of cargo that select the board NUCLEO-H753ZI.
+pub const NUCLEO: [&str; 3] = ["--no-default-features", "--features", "nucleo-h753zi"];
+
 /// Builds every image for a processor and returns the folder of the images.
 ///
 /// # Errors
 /// The build fails.
 pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
-    let firmware = repository().join("firmware");
-    let target = toolchain.output_folder(&firmware, processor);
-    let mut command = toolchain.cargo("build", &firmware.join("Cargo.toml"), processor);
-    command.arg("--locked").arg("--target-dir").arg(&target);
+    let images = toolchain.output_folder(&folder(), processor);
+    build_into(&images, toolchain, processor, &[])
+}
+
+/// Builds the images without measurements for the board NUCLEO-H753ZI, and returns their folder.
+///
+/// # Errors
+/// The build fails.
+pub fn build_for_nucleo(toolchain: &TargetToolchain) -> Outcome<PathBuf> {
+    let images = toolchain
+        .output_folder(&folder(), &CORTEX_M7)
+        .join("nucleo-h753zi");
+    build_into(&images, toolchain, &CORTEX_M7, &NUCLEO)
+}
+
+fn folder() -> PathBuf {
+    repository().join("firmware")
+}
+
+fn build_into(
+    images: &Path,
+    toolchain: &TargetToolchain,
+    processor: &Processor,
+    features: &[&str],
+) -> Outcome<PathBuf> {
+    let mut command = toolchain.cargo("build", &folder().join("Cargo.toml"), processor);
+    command.args(features);
+    command.arg("--locked").arg("--target-dir").arg(images);
+    // Boards have images of the same names, but share what the images are built from.
+    let shared = toolchain.output_folder(&folder(), processor);
+    command.env("CARGO_BUILD_BUILD_DIR", shared);
     if matches!(toolchain, TargetToolchain::FromSource { .. }) {
         // A distribution's compiler does not come with a linker for the target.
         let variable = processor.target.to_uppercase().replace(['-', '.'], "_");
@@ -25,7 +55,7 @@ pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<Path
         .status()
         .map_err(|error| format!("cannot run the build of the firmware: {error}"))?;
     if status.success() {
-        Ok(target.join(processor.target).join("release"))
+        Ok(images.join(processor.target).join("release"))
     } else {
         Err(format!(
             "the build of the firmware for {} failed: {status}",
@@ -34,10 +64,15 @@ pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<Path
     }
 }
 
-/// Builds the firmware's images for its own processor.
+/// Builds the firmware's images for its own processor, on the emulator's board and on the NUCLEO-H753ZI, and returns
+/// both folders.
 ///
 /// # Errors
 /// The build fails, or no compiler supports the target.
-pub fn build_default() -> Outcome<PathBuf> {
-    build(&TargetToolchain::find(CORTEX_M7.target)?, &CORTEX_M7)
+pub fn build_default() -> Outcome<[PathBuf; 2]> {
+    let toolchain = TargetToolchain::find(CORTEX_M7.target)?;
+    Ok([
+        build(&toolchain, &CORTEX_M7)?,
+        build_for_nucleo(&toolchain)?,
+    ])
 }

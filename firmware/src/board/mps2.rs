@@ -1,13 +1,11 @@
-//! The board's UART and timer: CMSDK peripherals of the MPS2 (Arm DUI 0479, chapters 4.2 and 4.4).
+//! The emulator's boards: CMSDK peripherals of the MPS2 (Arm DUI 0479, chapter 4).
 //!
 //! The board is the MPS2 with AN500 (Cortex-M7) or AN386 (Cortex-M4), or with AN505 for a Cortex-M33 (Arm DAI 0505,
-//! chapter 3; secure addresses). For another board change this file and `memory.x`.
+//! chapter 3; secure addresses).
 
-use core::ptr::{with_exposed_provenance, with_exposed_provenance_mut};
-
-use cortex_m::peripheral::SYST;
-use cortex_m::peripheral::syst::SystClkSource;
 use dashpot_core::link::{Clock, Line};
+
+use super::{read, write};
 
 /// Clock of processor, timer and SysTick (Hz).
 pub const CLOCK_HZ: u32 = if cfg!(mps2_an505) {
@@ -42,15 +40,15 @@ const TIMER_CONTROL: usize = TIMER0;
 pub(crate) const TIMER_VALUE: usize = TIMER0 + 0x04;
 const TIMER_RELOAD: usize = TIMER0 + 0x08;
 
-fn read(register: usize) -> u32 {
-    // SAFETY: every address in this file is a register of the board, word-aligned and always readable.
-    unsafe { with_exposed_provenance::<u32>(register).read_volatile() }
-}
-
-fn write(register: usize, value: u32) {
-    // SAFETY: as in `read`; no register written here affects memory.
-    unsafe { with_exposed_provenance_mut::<u32>(register).write_volatile(value) }
-}
+const WATCHDOG: usize = if cfg!(mps2_an505) {
+    0x5008_1000
+} else {
+    0x4000_8000
+};
+const WATCHDOG_LOAD: usize = WATCHDOG;
+/// Bits 0 and 1: interrupt after the time, reset after the same time again.
+const WATCHDOG_CONTROL: usize = WATCHDOG + 0x08;
+const WATCHDOG_RESTART: usize = WATCHDOG + 0x0c;
 
 /// UARTs of the board, with the addresses of their registers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,14 +92,19 @@ impl Line for Uart {
     }
 }
 
-/// Makes SysTick interrupt once every `step_s` (s).
-pub fn start_ticks(timer: &mut SYST, step_s: f32) {
-    let period = step_s * CLOCK_HZ as f32 + 0.5;
-    timer.set_clock_source(SystClkSource::Core);
-    timer.set_reload(period as u32 - 1);
-    timer.clear_current();
-    timer.enable_counter();
-    timer.enable_interrupt();
+/// Starts the clocks, which run already.
+pub fn start() {}
+
+/// Starts the watchdog: 50 ms after it was last fed an exception brings the outputs to their safe state, and 50 ms later
+/// the board is reset.
+pub fn start_watchdog() {
+    write(WATCHDOG_LOAD, CLOCK_HZ / 20);
+    write(WATCHDOG_CONTROL, 0b11);
+}
+
+/// Starts the time of the watchdog again.
+pub fn feed_watchdog() {
+    write(WATCHDOG_RESTART, 1);
 }
 
 /// Starts the clock that [`clock_now`] reads.
