@@ -46,6 +46,11 @@ impl SerialOutputs {
         }
     }
 
+    /// True if there is nothing to send.
+    pub fn is_idle(&self) -> bool {
+        self.unsent == 0 && self.waiting.is_none()
+    }
+
     /// Sends as many bytes as the line takes now.
     pub fn send_waiting(&mut self) {
         if self.unsent == 0 {

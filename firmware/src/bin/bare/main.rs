@@ -44,6 +44,18 @@ fn SysTick() {
     });
 }
 
+/// The last forces (N) if they are new. If the main loop is idle, sleeps until an interrupt before it returns `None`: the
+/// interrupt may come before the sleep, but runs only after it.
+fn wait_for_forces(is_idle: bool) -> Option<[f32; DAMPERS]> {
+    free(|section| {
+        let forces_n = FORCES_N.borrow(section).take();
+        if forces_n.is_none() && is_idle {
+            cortex_m::asm::wfi();
+        }
+        forces_n
+    })
+}
+
 fn line(report: &Report) -> Result<String<512>, core::fmt::Error> {
     let mut line = String::new();
     let Report {
@@ -81,7 +93,8 @@ fn main() -> ! {
     board::start_ticks(&mut core.SYST, STEP_S);
     board::start_watchdog();
     loop {
-        if let Some(forces_n) = free(|section| FORCES_N.borrow(section).take()) {
+        let is_idle = sent == text.len() && outputs.is_idle();
+        if let Some(forces_n) = wait_for_forces(is_idle) {
             outputs.drive(&forces_n);
             board::feed_watchdog();
         }
