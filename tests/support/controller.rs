@@ -46,7 +46,12 @@ pub fn tree_of(platform: &Platform, folder: &Path) -> PathBuf {
 
 /// Exports the example's two dampers as C sources with headers to `folder`.
 pub fn export(folder: &Path) -> [PathBuf; 2] {
-    ["in-service", "reduced-vertical"].map(|name| {
+    export_presets(["in-service", "reduced-vertical"], folder)
+}
+
+/// Exports presets as C sources with headers to `folder`.
+pub fn export_presets<const N: usize>(names: [&str; N], folder: &Path) -> [PathBuf; N] {
+    names.map(|name| {
         let built: Damper<f32> = damper(name, &[]).build(1e-3).expect("a preset");
         let provenance = Provenance {
             damper: name,

@@ -123,12 +123,23 @@ impl Drop for Emulator {
 
 /// Returns the first line that an image prints on its UART, in an emulator where an instruction takes 2^`shift` ns.
 pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[&str]) -> String {
+    let icount = format!("shift={shift}");
+    let arguments = [&["-icount", &icount], arguments].concat();
+    first_lines(image, processor, 1, &arguments).concat()
+}
+
+/// Returns the first `count` lines that an image prints on its UART, in an emulator with additional arguments.
+pub fn first_lines(
+    image: &Path,
+    processor: &Processor,
+    count: usize,
+    arguments: &[&str],
+) -> Vec<String> {
     let mut command = Command::new("qemu-system-arm");
     command
         .args(["-M", processor.board, "-cpu", processor.emulated_cpu])
         .arg("-nographic")
         .args(["-monitor", "none", "-serial", "stdio"])
-        .args(["-icount", &format!("shift={shift}")])
         .args(arguments)
         .arg("-kernel")
         .arg(image);
@@ -139,11 +150,10 @@ pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[
         .expect("qemu-system-arm starts");
     let mut emulator = Emulator(child);
     let output = emulator.0.stdout.take().expect("it is piped");
-    let mut line = String::new();
-    BufReader::new(output)
-        .read_line(&mut line)
-        .expect("the target prints text");
-    line
+    let lines = BufReader::new(output).lines().take(count);
+    lines
+        .map(|line| line.expect("the target prints text"))
+        .collect()
 }
 
 /// Every experiment, with a fraction of the steps.
