@@ -95,8 +95,8 @@ impl Line for Uart {
 /// Starts the clocks, which run already.
 pub fn start() {}
 
-/// Starts the watchdog: 50 ms after it was last fed an exception brings the outputs to their safe state, and 50 ms later
-/// the board is reset.
+/// Starts the watchdog: 50 ms after it was last fed an exception brings the outputs to their safe state, and 50 ms
+/// later the board is reset.
 pub fn start_watchdog() {
     write(WATCHDOG_LOAD, CLOCK_HZ / 20);
     write(WATCHDOG_CONTROL, 0b11);

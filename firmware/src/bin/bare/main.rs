@@ -44,8 +44,8 @@ fn SysTick() {
     });
 }
 
-/// The last forces (N) if they are new. If the main loop is idle, sleeps until an interrupt before it returns `None`: the
-/// interrupt may come before the sleep, but runs only after it.
+/// The last forces (N) if they are new. If the main loop is idle, sleeps until an interrupt before it returns `None`.
+/// An interrupt that comes before the sleep ends it, because it runs only afterwards.
 fn wait_for_forces(is_idle: bool) -> Option<[f32; DAMPERS]> {
     free(|section| {
         let forces_n = FORCES_N.borrow(section).take();
