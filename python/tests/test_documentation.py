@@ -2,11 +2,11 @@
 
 import ast
 import doctest
-import importlib.metadata
 import os
 import pathlib
 import re
 import tempfile
+import tomllib
 import types
 import unittest
 
@@ -39,7 +39,8 @@ class Documentation(unittest.TestCase):
         self.assertEqual(command("-V").split()[-1], dashpot.__version__)
 
     def test_python_files_parse_with_the_oldest_supported_version(self):
-        oldest = importlib.metadata.metadata("dashpot")["Requires-Python"].removeprefix(">=")
+        project = tomllib.loads((pathlib.Path(__file__).parents[1] / "pyproject.toml").read_text())["project"]
+        oldest = project["requires-python"].removeprefix(">=")
         major, minor = map(int, oldest.split("."))
         files = [path for path in pathlib.Path(dashpot.__file__).parent.iterdir() if path.suffix in (".py", ".pyi")]
         self.assertIn("__init__.pyi", [path.name for path in files])
