@@ -14,9 +14,13 @@ fn main() {
     } else {
         ("..", "0x20400000")
     };
-    // The measuring images have dampers or long frames on their stack, and the host puts data behind their own data. So
-    // their stack starts at the end of the memory.
-    for image in ["step-cost", "health-cost", "link-cost", "xcp-cost"] {
+    // The measuring images have dampers or long frames on their stack, and the host puts data behind their own data; a
+    // network stack needs more than 4 KiB. So their stack starts at the end of the memory.
+    let mut images = vec!["step-cost", "health-cost", "link-cost", "xcp-cost"];
+    if std::env::var_os("CARGO_FEATURE_TCP").is_some() {
+        images.extend(["tcp-cost", "tcp-served"]);
+    }
+    for image in images {
         println!("cargo::rustc-link-arg-bin={image}=--defsym=_stack_start={end_of_memory}");
     }
     println!("cargo::rustc-link-search={here}/{folder}");

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use dashpot::controller::{export_presets, succeed, tree_of};
 use dashpot::in_turn::images;
-use dashpot::target::first_lines;
+use dashpot::target::Emulator;
 use dashpot::{damper, document, standalone};
 use dashpot_core::{Damper, Status};
 use object::{Object, ObjectSection};
@@ -82,7 +82,8 @@ fn expected() -> Vec<String> {
 /// wait for the real clock.
 fn printed(image: &Path, count: u32) -> Vec<String> {
     let virtual_time = ["-icount", "shift=0,sleep=off"];
-    let lines = first_lines(image, &CORTEX_M7, count as usize, &virtual_time);
+    let mut emulator = Emulator::start_with(image, &CORTEX_M7, &virtual_time);
+    let lines = (0..count).map(|_| emulator.line().trim_end().to_owned());
     let without_cycles = |line: String| match line.split_once(" cycles ") {
         Some((before, after)) => {
             let (cycles, forces) = after.split_once(' ').expect("forces");
@@ -93,7 +94,7 @@ fn printed(image: &Path, count: u32) -> Vec<String> {
         }
         None => line,
     };
-    lines.into_iter().map(without_cycles).collect()
+    lines.map(without_cycles).collect()
 }
 
 /// Asserts that an image prints what the core computes.

@@ -8,4 +8,5 @@ mod hybrid;
 mod no_panic;
 mod outputs;
 mod processors;
+mod tcp;
 mod xcp;

@@ -57,6 +57,9 @@ fn drawing() -> String {
             let Some(path) = dependency.path.as_deref() else {
                 continue; // a package from a registry
             };
+            if folder_of(Some(path)) == *folder {
+                continue; // its own features, for its tests
+            }
             let arrow = match dependency.kind {
                 DependencyKind::Development => "-.->",
                 _ => "-->",

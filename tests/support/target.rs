@@ -3,7 +3,7 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, ChildStdout, Command, Stdio};
 
 use dashpot_core::{Damper, step_bank};
 use dashpot_experiment::Experiment as Bytes;
@@ -111,49 +111,62 @@ pub struct Found {
     pub digest: String,
 }
 
-/// Kills the emulator when dropped.
-struct Emulator(Child);
+/// An emulator with an image. It ends when dropped.
+pub struct Emulator {
+    child: Child,
+    output: BufReader<ChildStdout>,
+}
 
-impl Drop for Emulator {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+impl Emulator {
+    /// Starts an image in an emulator where an instruction takes 2^`shift` ns.
+    pub fn start(image: &Path, processor: &Processor, shift: u32, arguments: &[&str]) -> Self {
+        let icount = format!("shift={shift}");
+        Self::start_with(
+            image,
+            processor,
+            &[&["-icount", &icount], arguments].concat(),
+        )
+    }
+
+    /// Starts an image in an emulator with these arguments.
+    pub fn start_with(image: &Path, processor: &Processor, arguments: &[&str]) -> Self {
+        let mut command = Command::new("qemu-system-arm");
+        command
+            .args(["-M", processor.board, "-cpu", processor.emulated_cpu])
+            .arg("-nographic")
+            .args(["-monitor", "none", "-serial", "stdio"])
+            .args(arguments)
+            .arg("-kernel")
+            .arg(image);
+        let mut child = command
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("qemu-system-arm starts");
+        let output = BufReader::new(child.stdout.take().expect("it is piped"));
+        Self { child, output }
+    }
+
+    /// Waits for the next line that the image prints on its UART.
+    pub fn line(&mut self) -> String {
+        let mut line = String::new();
+        self.output
+            .read_line(&mut line)
+            .expect("the target prints text");
+        line
     }
 }
 
-/// Returns the first line that an image prints on its UART, in an emulator where an instruction takes 2^`shift` ns.
-pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[&str]) -> String {
-    let icount = format!("shift={shift}");
-    let arguments = [&["-icount", &icount], arguments].concat();
-    first_lines(image, processor, 1, &arguments).concat()
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
 }
 
-/// Returns the first `count` lines that an image prints on its UART, in an emulator with additional arguments.
-pub fn first_lines(
-    image: &Path,
-    processor: &Processor,
-    count: usize,
-    arguments: &[&str],
-) -> Vec<String> {
-    let mut command = Command::new("qemu-system-arm");
-    command
-        .args(["-M", processor.board, "-cpu", processor.emulated_cpu])
-        .arg("-nographic")
-        .args(["-monitor", "none", "-serial", "stdio"])
-        .args(arguments)
-        .arg("-kernel")
-        .arg(image);
-    let child = command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("qemu-system-arm starts");
-    let mut emulator = Emulator(child);
-    let output = emulator.0.stdout.take().expect("it is piped");
-    let lines = BufReader::new(output).lines().take(count);
-    lines
-        .map(|line| line.expect("the target prints text"))
-        .collect()
+/// Returns the first line that an image prints on its UART; see [`Emulator`].
+pub fn first_line(image: &Path, processor: &Processor, shift: u32, arguments: &[&str]) -> String {
+    Emulator::start(image, processor, shift, arguments).line()
 }
 
 /// Every experiment, with a fraction of the steps.

@@ -1,4 +1,4 @@
-//! Checks and builds the image for the board NUCLEO-H753ZI, in its own workspace. It takes 90 s of processor time and
+//! Checks and builds the image for the board NUCLEO-H753ZI, in its own workspace. It takes minutes of processor time and
 //! packages that nothing else needs, so it has a command of its own.
 
 use std::path::PathBuf;
@@ -11,14 +11,20 @@ use crate::run::{Outcome, repository, run};
 /// Folder of the image.
 pub const FOLDER: &str = "firmware/nucleo-h753zi";
 
-/// Checks format, lints and licences, builds the image, and returns its path.
+/// Options of cargo for each line of the link: Ethernet and the serial port, whose image stays.
+const LINES: [&[&str]; 2] = [&["--features", "ethernet"], &[]];
+
+/// Checks format, lints and licences, builds the image for each line, and returns the path of the last one.
 ///
 /// # Errors
 /// A check or the build fails.
 pub fn board() -> Outcome<PathBuf> {
     cargo(&["fmt", "--check"])?;
-    cargo(&["clippy", "--locked", "--release", "--", "-D", "warnings"])?;
-    cargo(&["build", "--locked", "--release"])?;
+    let all = ["--locked", "--release"];
+    for line in LINES {
+        cargo(&[&["clippy"], &all[..], line, &["--", "-D", "warnings"]].concat())?;
+        cargo(&[&["build"], &all[..], line].concat())?;
+    }
     dependencies::check_licences(FOLDER)?;
     let built = repository().join(FOLDER).join("target");
     Ok(built

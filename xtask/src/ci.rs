@@ -44,7 +44,7 @@ pub fn ci() -> Outcome {
         .concat(),
     )?;
     let firmware = ["--manifest-path", FIRMWARE, "--target", CORTEX_M7.target];
-    lint(&firmware)?;
+    lint(&[&firmware[..], &["--features", "tcp"]].concat())?;
     lint(&[&firmware[..], &firmware::NUCLEO].concat())?;
     lint(&[&["--manifest-path", FUZZ], &shared[..]].concat())?;
     cargo_with(

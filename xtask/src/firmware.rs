@@ -16,7 +16,13 @@ pub const NUCLEO: [&str; 3] = ["--no-default-features", "--features", "nucleo-h7
 /// The build fails.
 pub fn build(toolchain: &TargetToolchain, processor: &Processor) -> Outcome<PathBuf> {
     let images = toolchain.output_folder(&folder(), processor);
-    build_into(&images, toolchain, processor, &[])
+    let features: &[&str] = if *toolchain == TargetToolchain::Installed && *processor == CORTEX_M7 {
+        // The network stack needs a newer compiler than a distribution has, and its cost is measured on one processor.
+        &["--features", "tcp"]
+    } else {
+        &[]
+    };
+    build_into(&images, toolchain, processor, features)
 }
 
 /// Builds the images without measurements for the board NUCLEO-H753ZI, and returns their folder.

@@ -1,4 +1,4 @@
-//! A bank of dampers behind a serial link on ST's board NUCLEO-H753ZI (docs/board.md).
+//! A bank of dampers behind a link on ST's board NUCLEO-H753ZI (docs/board.md).
 //!
 //! One task owns the device: it runs the ticks that SysTick counted and serves the link. Another sends the outputs, and
 //! the main task feeds the watchdog while ticks and link make progress.
@@ -8,18 +8,21 @@
 mod bank;
 mod board;
 mod in_service;
+mod line;
 mod outputs;
+#[cfg(feature = "ethernet")]
+mod phy;
 mod safe_state;
+mod server;
 
 use bank::{BANK, DAMPERS};
 use cortex_m_rt::exception;
 use dashpot_core::link::Device;
-use dashpot_device::{Progress, ProgressCheck, Server, Ticks};
+use dashpot_device::{Progress, ProgressCheck, Ticks};
 use embassy_executor::Spawner;
-use embassy_stm32::mode::Async;
-use embassy_stm32::usart::{RingBufferedUartRx, UartTx};
 use embassy_time::Timer;
 use outputs::SerialOutputs;
+use server::BankServer;
 use static_cell::ConstStaticCell;
 
 /// Time between two looks at the progress, a fifth of the watchdog's time (ms).
@@ -52,14 +55,18 @@ async fn main(spawner: Spawner) {
     board::start_ticks(&mut core, device.step_s());
     log::info!("{DAMPERS} dampers, a tick of {} s", device.step_s());
 
-    let (sender, receiver) = board.link;
-    let (Ok(link), Ok(outputs)) = (
-        serve(device, sender, receiver),
+    let server = BankServer {
+        device,
+        outputs: SerialOutputs,
+        ticks: &TICKS,
+        progress: &PROGRESS,
+    };
+    let (Ok(outputs), Ok(())) = (
         outputs::send(board.outputs),
+        line::start(spawner, server, board.line),
     ) else {
         safe_state::halt();
     };
-    spawner.spawn(link);
     spawner.spawn(outputs);
 
     let mut watchdog = board.watchdog;
@@ -70,25 +77,5 @@ async fn main(spawner: Spawner) {
         if check.both_moved(&PROGRESS) {
             watchdog.pet();
         }
-    }
-}
-
-/// Serves the link for ever.
-#[embassy_executor::task]
-async fn serve(
-    device: &'static mut Device<DAMPERS, DAMPERS>,
-    mut sender: UartTx<'static, Async>,
-    mut receiver: RingBufferedUartRx<'static>,
-) {
-    let mut server = Server {
-        device,
-        outputs: SerialOutputs,
-        ticks: &TICKS,
-        progress: &PROGRESS,
-    };
-    loop {
-        let kind = server.serve(&mut receiver, &mut sender).await;
-        // The host sends again what a disturbance destroyed.
-        log::warn!("link: {kind:?}");
     }
 }

@@ -9,12 +9,13 @@ use core::future::poll_fn;
 use core::task::Poll;
 
 use cortex_m_rt::{entry, exception};
-use dashpot_core::link::{Device, Line, Outputs};
-use dashpot_device::{Progress, ProgressCheck, Server, Ticks};
+use dashpot_core::link::{Device, Line};
+use dashpot_device::{Progress, Server, Ticks};
 use dashpot_firmware::bank::{BANK, DAMPERS};
-use dashpot_firmware::board::{self, CLOCK_HZ, Port, Uart};
+use dashpot_firmware::board::{self, Port, Uart};
 use dashpot_firmware::outputs::SerialOutputs;
 use dashpot_firmware::safe_state;
+use dashpot_firmware::serving::{SharedOutputs, send, watch};
 use embassy_futures::block_on;
 use embassy_futures::join::join3;
 use embassy_futures::yield_now;
@@ -71,29 +72,6 @@ impl Write for Stream {
     }
 }
 
-/// Outputs that the server sets while another future sends.
-struct Shared<'a>(&'a RefCell<SerialOutputs>);
-
-impl Outputs<DAMPERS> for Shared<'_> {
-    fn drive(&mut self, forces_n: &[f32; DAMPERS]) {
-        self.0.borrow_mut().drive(forces_n);
-    }
-}
-
-/// Stops if a watchdog of 100 ms would not be fed.
-async fn watch() {
-    let mut check = ProgressCheck::default();
-    loop {
-        let start = board::clock_now();
-        while board::clock_now().wrapping_sub(start) < CLOCK_HZ / 10 {
-            yield_now().await;
-        }
-        if !check.both_moved(&PROGRESS) {
-            safe_state::halt();
-        }
-    }
-}
-
 #[entry]
 fn main() -> ! {
     let Some(device) = DEVICE.try_take() else {
@@ -110,16 +88,14 @@ fn main() -> ! {
     let mut writer = Stream(Uart::start(Port::Link, BAUD));
     let mut server = Server {
         device,
-        outputs: Shared(&outputs),
+        outputs: SharedOutputs(&outputs),
         ticks: &TICKS,
         progress: &PROGRESS,
     };
-    let send = async {
-        loop {
-            outputs.borrow_mut().send_waiting();
-            yield_now().await;
-        }
-    };
-    block_on(join3(server.serve(&mut reader, &mut writer), send, watch()));
+    block_on(join3(
+        server.serve(&mut reader, &mut writer),
+        send(&outputs),
+        watch(&PROGRESS),
+    ));
     safe_state::halt()
 }

@@ -10,6 +10,8 @@
 #![no_std]
 
 pub mod digest;
+#[cfg(feature = "network")]
+pub mod network;
 pub mod transfer;
 pub mod watch;
 
