@@ -24,6 +24,16 @@ pub struct PlannedTest {
     pub temperature_c: Option<f64>,
 }
 
+impl From<dashpot_files::sheet::Test> for PlannedTest {
+    fn from(test: dashpot_files::sheet::Test) -> Self {
+        Self {
+            name: test.name,
+            motion: test.motion,
+            temperature_c: test.temperature_c,
+        }
+    }
+}
+
 /// How much a test would narrow the parameters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Promise {

@@ -126,8 +126,10 @@ impl Recording {
     pub fn from_samples(path: &Path, samples: Rc<Vec<Sample>>) -> Self {
         let quantities = [Quantity::Time, Quantity::Displacement];
         let names = quantities.map(|quantity| quantity.column().to_owned());
-        let samples = Box::new(samples::Samples::new(samples));
-        let rows = Rows::new(path, samples, names, samples::si_channels(), false);
+        let row = |sample: &Sample| [sample.time_s, sample.displacement_m];
+        let samples = Box::new(samples::Samples::new(samples, row));
+        let channels = samples::si_channels(quantities);
+        let rows = Rows::new(path, samples, names, channels, false);
         Self { rows }
     }
 

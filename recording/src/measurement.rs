@@ -2,12 +2,13 @@
 
 use std::io::Read;
 use std::path::Path;
+use std::rc::Rc;
 
 use super::channels::Channels;
 use super::open::{Origin, open_rows};
 use super::rows::Rows;
 use super::unit::Quantity;
-use super::{Gaps, RecordingError};
+use super::{Gaps, RecordingError, samples};
 use dashpot_files::FileError;
 
 /// One row of a measurement.
@@ -30,6 +31,9 @@ impl MeasuredSample {
         }
     }
 }
+
+/// Quantities of a row.
+const QUANTITIES: [Quantity; 3] = [Quantity::Time, Quantity::Displacement, Quantity::Force];
 
 /// Displacement and force over time, read row by row in bounded memory from the same file formats as a
 /// [`Recording`](super::Recording).
@@ -58,9 +62,18 @@ impl Measurement {
         Self::from_origin(Origin::Stream(path, source), channels)
     }
 
+    /// Creates a measurement from samples in memory; errors name it `path`.
+    pub fn from_samples(path: &Path, samples: Rc<Vec<MeasuredSample>>) -> Self {
+        let row = |sample: &MeasuredSample| [sample.time_s, sample.displacement_m, sample.force_n];
+        let samples = Box::new(samples::Samples::new(samples, row));
+        let names = QUANTITIES.map(|quantity| quantity.column().to_owned());
+        let channels = samples::si_channels(QUANTITIES);
+        let rows = Rows::new(path, samples, names, channels, false);
+        Self { rows }
+    }
+
     fn from_origin(origin: Origin<'_>, channels: &Channels) -> Result<Self, FileError> {
-        let quantities = [Quantity::Time, Quantity::Displacement, Quantity::Force];
-        let rows = open_rows(origin, channels, quantities)?;
+        let rows = open_rows(origin, channels, QUANTITIES)?;
         Ok(Self { rows })
     }
 

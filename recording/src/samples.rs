@@ -5,28 +5,29 @@ use std::rc::Rc;
 use super::error::RecordingError;
 use super::location::RowLocation;
 use super::rows::Source;
-use super::{Sample, unit};
+use super::unit::Quantity;
 use dashpot_files::FileError;
 
 /// Rows in memory, in SI units.
-pub(super) struct Samples {
-    samples: Rc<Vec<Sample>>,
+pub(super) struct Samples<T, const N: usize> {
+    samples: Rc<Vec<T>>,
+    row: fn(&T) -> [f64; N],
     next: usize,
 }
 
-impl Samples {
-    pub(super) fn new(samples: Rc<Vec<Sample>>) -> Self {
-        Self { samples, next: 0 }
+impl<T, const N: usize> Samples<T, N> {
+    pub(super) fn new(samples: Rc<Vec<T>>, row: fn(&T) -> [f64; N]) -> Self {
+        let next = 0;
+        Self { samples, row, next }
     }
 }
 
-impl Source for Samples {
+impl<T, const N: usize> Source for Samples<T, N> {
     fn next(&mut self, values: &mut [f64]) -> Result<bool, FileError> {
         let Some(sample) = self.samples.get(self.next) else {
             return Ok(false);
         };
-        let row = [sample.time_s, sample.displacement_m];
-        for (value, number) in values.iter_mut().zip(row) {
+        for (value, number) in values.iter_mut().zip((self.row)(sample)) {
             *value = number;
         }
         self.next += 1;
@@ -49,12 +50,12 @@ impl Source for Samples {
 }
 
 /// Returns the channels of rows in SI units.
-pub(super) fn si_channels() -> [super::select::SelectedChannel; 2] {
-    [unit::Quantity::Time, unit::Quantity::Displacement].map(|quantity| {
-        super::select::SelectedChannel {
-            index: 0,
-            unit: quantity.units()[0],
-            reversed: false,
-        }
+pub(super) fn si_channels<const N: usize>(
+    quantities: [Quantity; N],
+) -> [super::select::SelectedChannel; N] {
+    quantities.map(|quantity| super::select::SelectedChannel {
+        index: 0,
+        unit: quantity.units()[0],
+        reversed: false,
     })
 }

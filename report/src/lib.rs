@@ -2,11 +2,13 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+pub mod doubts;
 mod error;
 pub mod fleet;
 pub mod health;
 pub mod page;
 pub mod plot;
+pub mod rounded;
 pub mod sheet;
 pub mod verdict;
 

@@ -4,6 +4,7 @@
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 pub mod loaded_wheelset;
+pub mod modes;
 pub mod profile_ends;
 pub mod sweep;
 pub mod verification;

@@ -109,6 +109,9 @@ pub enum TestbenchError {
         "the reference force is zero throughout: the motion stays within the clearance, so there is nothing to compare"
     )]
     NoForce,
+    /// A reduced damper has no shim packs.
+    #[error("a reduced damper has no shim packs; use a damper with [valves], such as `paper`")]
+    NoShims,
     /// A built-in published table is corrupt.
     #[error("published table: {0}")]
     PublishedTable(#[from] csv::Error),

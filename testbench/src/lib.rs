@@ -17,6 +17,7 @@ pub mod published;
 pub mod recorded_health;
 pub mod replay;
 pub mod response;
+pub mod shim_report;
 pub mod shim_valves;
 pub mod smoothing;
 pub mod steady;

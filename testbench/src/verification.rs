@@ -7,8 +7,9 @@ use serde::Serialize;
 
 use super::TestbenchError;
 use super::compiled::Compiled;
-use dashpot_recording::Sample;
-use dashpot_recording::tick_grid::{Tick, rounding_s};
+use dashpot_files::Scalar;
+use dashpot_recording::tick_grid::{Tick, TickGrid, rounding_s};
+use dashpot_recording::{Recording, Sample};
 
 /// Deviation of the fixed step from the reference on one motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -35,6 +36,54 @@ pub struct FixedStep {
     /// Number of ticks whose displacement was held or limited, at most 65535; there the damper followed a different
     /// motion from the reference.
     pub rejected_inputs: u16,
+}
+
+/// Errors of the fixed step on a recorded motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RecordedError {
+    /// Scalar type.
+    pub scalar: Scalar,
+    /// Deviation if the reference follows the displacements at the ticks.
+    #[serde(flatten)]
+    pub deviation: Deviation,
+    /// NRMSE if the reference follows the samples of the recording itself.
+    pub nrmse_on_recording: f64,
+    /// Number of ticks whose displacement was held or limited.
+    pub rejected_inputs: u16,
+}
+
+/// Compares the fixed step in both scalar types with the reference on a recording, which has the `samples`.
+///
+/// # Errors
+/// The recording cannot be used, the damper cannot be built, or the reference fails.
+pub fn on_recording(
+    parameters: &CheckedParameters,
+    recording: Recording,
+    samples: &[Sample],
+    step_s: f64,
+) -> Result<[RecordedError; 2], TestbenchError> {
+    let ticks = TickGrid::new(recording, step_s)?.read_all()?;
+    let displacements_m: Vec<f64> = ticks.iter().map(|tick| tick.displacement_m).collect();
+    let on_ticks = reference_forces(parameters, step_s, &displacements_m)?;
+    let on_recording = reference_forces_on_recording(parameters, step_s, samples, &ticks)?;
+    let row = |scalar, fixed: FixedStep| {
+        Ok::<_, TestbenchError>(RecordedError {
+            scalar,
+            deviation: deviation(step_s, &fixed.forces_n, &on_ticks)?,
+            nrmse_on_recording: deviation(step_s, &fixed.forces_n, &on_recording)?.nrmse,
+            rejected_inputs: fixed.rejected_inputs,
+        })
+    };
+    Ok([
+        row(
+            Scalar::F32,
+            fixed_step_forces::<f32>(parameters, step_s, &displacements_m)?,
+        )?,
+        row(
+            Scalar::F64,
+            fixed_step_forces::<f64>(parameters, step_s, &displacements_m)?,
+        )?,
+    ])
 }
 
 /// Runs the fixed step through the displacements (m), starting at rest at the first one.

@@ -10,13 +10,17 @@ mod held;
 mod search;
 mod words;
 
+use std::collections::VecDeque;
+
 use serde::Serialize;
 
 use super::CalibrationError;
 use super::loops::{LoopTest, Recorded};
 use super::residual::correlation_samples;
 use bank::{Bank, SMALL_LAG_S};
+use dashpot_files::FileError;
 use dashpot_files::damper::KeyedParameters;
+use dashpot_recording::{MeasuredSample, Measurement};
 use fitted::Fitted;
 
 /// Share of samples in which a signal is held, from which on this is the cause.
@@ -24,6 +28,32 @@ const HELD_SHARE: f64 = 0.005;
 
 /// Share of the force beyond the noise that the best cause may leave unexplained.
 pub const MAX_UNEXPLAINED: f64 = 0.1;
+
+/// End of the recording in which the cause of a change is looked for (s): short, because a model is fitted to all of
+/// it, so a change within it gives a value in between.
+const END_S: f64 = 8.0;
+
+/// Returns the end of a recording, in which the cause of a change is looked for. `name` is used in results.
+///
+/// # Errors
+/// The recording cannot be read.
+pub fn end_of(mut measurement: Measurement, name: String) -> Result<Recorded, FileError> {
+    let mut samples = VecDeque::new();
+    while let Some(sample) = measurement.next_sample()? {
+        let is_early = |first: &MeasuredSample| sample.time_s - first.time_s > END_S;
+        while samples.front().is_some_and(is_early) {
+            samples.pop_front();
+        }
+        samples.push_back(sample);
+    }
+    let of = |value: fn(&MeasuredSample) -> f64| samples.iter().map(value).collect();
+    Ok(Recorded {
+        name,
+        times_s: of(|sample| sample.time_s),
+        displacements_m: of(|sample| sample.displacement_m),
+        forces_n: of(|sample| sample.force_n),
+    })
+}
 
 /// Cause of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]

@@ -8,13 +8,13 @@ use serde::Serialize;
 use super::gap_report::{unended, unfinished};
 use super::recording::ListingArguments;
 use super::remedy::with_remedy;
-use super::rounded::{six_digits, two_digits};
 use super::{Format, counted, nearest_nanosecond, print_answer};
 use crate::commands::failure::Outcome;
 use dashpot_files::input;
 use dashpot_recording::{
     ChannelOverview, Channels, GAP_IN_MEDIANS, Overview, Quantity, TimeOverview, overview,
 };
+use dashpot_report::rounded::{six_digits, two_digits};
 
 /// List the channels of a recording: names, units, ranges, regularity of the times, and the command that replays it.
 #[derive(Debug, Clone, clap::Args)]

@@ -193,10 +193,11 @@ fn estimation(arguments: &HealthArguments) -> Outcome<Estimation> {
         force_n: sensors.force_noise_n.unwrap_or(ANY_NOISE.force_n),
     });
     let step_s = arguments.step_us.step_s();
-    sensors::model(&arguments.damper.load()?, &settings, step_s)?;
+    let parameters = arguments.damper.load()?;
+    sensors::model(&parameters, &settings, step_s)?;
     Ok(Estimation {
         damper: arguments.damper.damper.clone(),
-        overrides: arguments.damper.overrides.clone(),
+        parameters,
         channels: arguments.recording.channels(),
         step_s,
         settings,

@@ -35,7 +35,6 @@ pub mod remedy;
 pub mod replay;
 pub mod response;
 pub mod rig;
-mod rounded;
 pub mod sensors;
 pub mod sheet;
 pub mod shell;

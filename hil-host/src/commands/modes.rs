@@ -2,21 +2,12 @@
 
 use std::io::{self, Write};
 
-use dashpot_rail::contact::{ContactGeometry, WheelsetContact};
-use dashpot_rail::creep::KalkerBook;
-use dashpot_rail::vehicle::{
-    Element, Law, Mode, Running, Standstill, VehicleError, VehicleParameters,
-};
-use serde::Serialize;
-
 use super::wheel_rail::WheelRailArguments;
 use super::{Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_files::case::NORMAL_DAMPING_S_PER_M;
-use dashpot_files::contact::{self, ContactOptions, ContactParameters, Wheels};
-use dashpot_files::vehicle::{self, VehicleFileError};
-use dashpot_vehicle_run::contact::ContactSetup;
-use dashpot_vehicle_run::{VehicleRunError, hunting};
+use dashpot_study::modes::{
+    CriticalSpeeds, MIN_GROWTH, ModesError, ModesReport, ModesRequest, SPEEDS_KM_H, modes,
+};
 
 /// Compute axle loads and natural modes of a vehicle at standstill or at a speed: frequency, damping and mode shape.
 #[derive(Debug, Clone, clap::Args)]
@@ -57,258 +48,44 @@ pub struct ModesArguments {
     pub format: Format,
 }
 
-#[derive(Serialize)]
-struct Report {
-    vehicle: String,
-    axle_loads_n: Vec<f64>,
-    /// Speed of the modes; `None` at standstill.
-    speed_km_h: Option<f64>,
-    /// Only with `--hunting`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    hunting: Option<HuntingRow>,
-    /// `None` if the vehicle has no friction elements.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    dry_friction: Option<DryFriction>,
-    modes: Vec<ModeRow>,
-}
-
-/// Friction elements in the linear equations.
-#[derive(Serialize)]
-struct DryFriction {
-    elements: usize,
-    linearised_as: &'static str,
-}
-
-#[derive(Serialize)]
-struct HuntingRow {
-    critical_speed_km_h: Option<f64>,
-    greatest_speed_km_h: f64,
-    /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is no linear
-    /// critical speed. `None` with `--sliding`, which concerns the linear equations only.
-    nonlinear_critical_speed_km_h: Option<f64>,
-    /// Maximum lateral displacement of a wheelset in the limit cycle at that speed, m.
-    limit_cycle_m: Option<f64>,
-}
-
-type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
-
-/// Speeds at which modes are computed, km/h.
-const SPEEDS_KM_H: std::ops::RangeInclusive<f64> = 1.0..=700.0;
-
-/// Friction coefficients.
-const FRICTION: std::ops::RangeInclusive<f64> = 0.0..=2.0;
-
-/// Maximum speed and step of the search for a critical speed, km/h.
-const MAX_SEARCH_KM_H: f64 = 500.0;
-const SEARCH_STEP_KM_H: f64 = 10.0;
-
-/// A mode is unstable if it grows by more than this part of its frequency. Rounding gives the modes of a vehicle
-/// without dampers a small damping of either sign.
-const MIN_GROWTH: f64 = 1e-9;
-
-/// Modes above this frequency (Hz) are those of wheel and rail and are not listed.
-const MAX_MODE_HZ: f64 = 50.0;
-
-#[derive(Serialize)]
-struct ModeRow {
-    mode: String,
-    undamped_hz: f64,
-    damped_hz: f64,
-    damping_ratio: f64,
-}
-
-impl From<&Mode> for ModeRow {
-    fn from(mode: &Mode) -> Self {
-        Self {
-            mode: mode.description(),
-            undamped_hz: mode.undamped_hz(),
-            damped_hz: mode.damped_hz(),
-            damping_ratio: mode.damping_ratio(),
-        }
-    }
-}
-
 /// Prints axle loads and modes, and the critical speed with `--hunting`.
 ///
 /// # Errors
 /// The vehicle, the speed or the friction is invalid.
 pub fn run(arguments: &ModesArguments) -> Outcome<()> {
-    if let Some(speed) = arguments.speed_km_h
-        && !SPEEDS_KM_H.contains(&speed)
-    {
-        let (min, max) = (SPEEDS_KM_H.start(), SPEEDS_KM_H.end());
-        return Err(Failure::wrong_use(format!(
-            "--speed-km-h: {speed}, allowed: {min} to {max} km/h; omit it for standstill"
-        )));
-    }
-    let name = &arguments.vehicle;
-    let mut options = ContactOptions::default();
-    let overrides = contact::apply_overrides(&mut options, &arguments.overrides);
-    let overrides = overrides.map_err(|(assignment, reason)| {
-        Failure::wrong_use(format!("--set {assignment}: {reason}"))
-    })?;
-    arguments.contact.add_to(&mut options);
-    let (vehicle, wheels) = vehicle::load_with_wheels(name, &[], &overrides)?;
-    let refused = |source| VehicleFileError::Vehicle {
-        name: name.clone(),
-        source,
+    let request = ModesRequest {
+        overrides: arguments.overrides.clone(),
+        contact: arguments.contact.options(),
+        speed_km_h: arguments.speed_km_h,
+        hunting: arguments.hunting,
+        sliding: arguments.sliding,
+        friction: arguments.friction,
+        ..ModesRequest::of(&arguments.vehicle)
     };
-    let linear = linearised(&vehicle, arguments.sliding);
-    let standstill = Standstill::new(&linear).map_err(refused)?;
-    let (mut hunting, mut speed_km_h) = (None, arguments.speed_km_h);
-    let modes = if arguments.hunting || speed_km_h.is_some() {
-        let setup = setup(arguments, &vehicle, wheels, &options)?;
-        let contacts = setup.exact().map_err(|error| of_vehicle(name, &error))?;
-        let contacts: Vec<&Contact> = contacts.iter().map(AsRef::as_ref).collect();
-        if arguments.hunting {
-            let critical = critical_speed_km_h(&linear, &contacts).map_err(refused)?;
-            speed_km_h = Some(critical.unwrap_or(MAX_SEARCH_KM_H));
-            // The step lets friction stick and slide, so its speeds do not belong to those of sliding friction.
-            let cycle = if arguments.sliding {
-                None
-            } else {
-                limit_cycle(name, &vehicle, &setup, critical)?
-            };
-            hunting = Some(HuntingRow {
-                critical_speed_km_h: critical,
-                greatest_speed_km_h: MAX_SEARCH_KM_H,
-                nonlinear_critical_speed_km_h: cycle.map(|cycle| 3.6 * cycle.speed_m_per_s),
-                limit_cycle_m: cycle.map(|cycle| cycle.amplitude_m),
-            });
-        }
-        let modes =
-            modes_at(&linear, &contacts, speed_km_h.unwrap_or_default()).map_err(refused)?;
-        modes
-            .into_iter()
-            .filter(|mode| mode.undamped_hz() < MAX_MODE_HZ)
-            .collect()
-    } else {
-        standstill.modes().map_err(refused)?
-    };
-    let elements = friction_elements(&vehicle);
-    let report = Report {
-        dry_friction: (elements > 0).then_some(DryFriction {
-            elements,
-            linearised_as: if arguments.sliding {
-                "sliding"
-            } else {
-                "sticking"
-            },
-        }),
-        vehicle: vehicle.name,
-        axle_loads_n: standstill.axle_loads_n().to_vec(),
-        speed_km_h,
-        hunting,
-        modes: modes.iter().map(ModeRow::from).collect(),
-    };
+    let report = modes(&request).map_err(in_options)?;
     print_report(arguments.format, &report, print)
 }
 
-fn is_friction(element: &Element) -> bool {
-    matches!(element.law, Law::Friction { .. })
-}
-
-fn friction_elements(vehicle: &VehicleParameters) -> usize {
-    let elements = vehicle.elements.iter();
-    elements.filter(|element| is_friction(element)).count()
-}
-
-/// Returns the vehicle for the linear equations, in which friction elements stick unless they are `sliding`.
-fn linearised(vehicle: &VehicleParameters, sliding: bool) -> VehicleParameters {
-    let mut linear = vehicle.clone();
-    if sliding {
-        linear.elements.retain(|element| !is_friction(element));
-    }
-    linear
-}
-
-/// Resolves the contact of the vehicle with the values of the options.
-///
-/// # Errors
-/// An invalid value, or values of one rail or along the track: the linear equations are those of uniform track.
-fn setup(
-    arguments: &ModesArguments,
-    vehicle: &VehicleParameters,
-    wheels: Wheels,
-    options: &ContactOptions,
-) -> Outcome<ContactSetup> {
-    let friction = options.friction.unwrap_or(arguments.friction);
-    if !FRICTION.contains(&friction) {
-        let (min, max) = (FRICTION.start(), FRICTION.end());
-        return Err(Failure::wrong_use(format!(
-            "--friction: {friction}, allowed: {min} to {max}"
-        )));
-    }
-    let contact = ContactParameters::new(vehicle, wheels, options, friction)
-        .map_err(|error| Failure::wrong_use(error.to_string()))?;
-    if !(contact.gauge_over_distance.is_empty() && contact.friction_over_distance.is_empty()) {
-        return Err(Failure::wrong_use(
-            "contact: values of one rail or along the track, allowed: values of the whole track, because modes are \
-             those of a vehicle on uniform track",
-        ));
-    }
-    let setup = ContactSetup::new(vehicle, &contact, friction, NORMAL_DAMPING_S_PER_M);
-    setup.map_err(|error| of_vehicle(&arguments.vehicle, &error.into()))
-}
-
-/// Reports an invalid vehicle.
-fn of_vehicle(name: &str, error: &VehicleRunError) -> Failure {
-    Failure::new(format!("{name}: {error}"))
-}
-
-/// Finds the lowest speed with a limit cycle, from a tenth of the linear critical speed to slightly above it.
-fn limit_cycle(
-    name: &str,
-    vehicle: &VehicleParameters,
-    setup: &ContactSetup,
-    critical_km_h: Option<f64>,
-) -> Outcome<Option<hunting::Outcome>> {
-    let refused = |error: VehicleRunError| of_vehicle(name, &error);
-    let contacts = setup.tabulated().map_err(refused)?;
-    let max_m_per_s = 1.02 * critical_km_h.unwrap_or(MAX_SEARCH_KM_H) / 3.6;
-    let hunting = hunting::Hunting::new(vehicle, contacts).map_err(refused)?;
-    hunting
-        .critical(0.1 * max_m_per_s..=max_m_per_s)
-        .map_err(refused)
-}
-
-fn modes_at(
-    vehicle: &VehicleParameters,
-    contacts: &[&Contact],
-    km_h: f64,
-) -> Result<Vec<Mode>, VehicleError> {
-    Running::with_contacts(vehicle, contacts, km_h / 3.6)?.modes()
-}
-
-/// Finds the lowest speed at which a mode is unstable: search in steps, then bisection to 0.01 km/h.
-fn critical_speed_km_h(
-    vehicle: &VehicleParameters,
-    contacts: &[&Contact],
-) -> Result<Option<f64>, VehicleError> {
-    let grows = |km_h: f64| -> Result<bool, VehicleError> {
-        let modes = modes_at(vehicle, contacts, km_h)?;
-        Ok(modes.iter().any(|mode| mode.damping_ratio() < -MIN_GROWTH))
-    };
-    let mut stable = 0.0;
-    while stable < MAX_SEARCH_KM_H {
-        let mut growing = stable + SEARCH_STEP_KM_H;
-        if grows(growing)? {
-            while growing - stable > 0.01 {
-                let middle = 0.5 * (stable + growing);
-                if grows(middle)? {
-                    growing = middle;
-                } else {
-                    stable = middle;
-                }
-            }
-            return Ok(Some(growing));
+/// The error in terms of the command's options.
+fn in_options(error: ModesError) -> Failure {
+    match error {
+        ModesError::Speed(speed) => {
+            let (min, max) = (SPEEDS_KM_H.start(), SPEEDS_KM_H.end());
+            Failure::wrong_use(format!(
+                "--speed-km-h: {speed}, allowed: {min} to {max} km/h; omit it for standstill"
+            ))
         }
-        stable = growing;
+        ModesError::Friction(_) => Failure::wrong_use(format!("--{error}")),
+        ModesError::Override { assignment, reason } => {
+            Failure::wrong_use(format!("--set {assignment}: {reason}"))
+        }
+        ModesError::Contact(_) | ModesError::NotUniform => Failure::wrong_use(error.to_string()),
+        ModesError::File(error) => error.into(),
+        error => Failure::new(error.to_string()),
     }
-    Ok(None)
 }
 
-fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+fn print(out: &mut dyn Write, report: &ModesReport) -> io::Result<()> {
     match (&report.hunting, report.speed_km_h) {
         (None, None) => writeln!(out, "{} at standstill", report.vehicle)?,
         (None, Some(speed)) => writeln!(out, "{} at {speed} km/h", report.vehicle)?,
@@ -347,7 +124,7 @@ fn print(out: &mut dyn Write, report: &Report) -> io::Result<()> {
             friction.elements
         )?;
     }
-    if let Some(HuntingRow {
+    if let Some(CriticalSpeeds {
         nonlinear_critical_speed_km_h: Some(speed),
         limit_cycle_m: Some(amplitude_m),
         ..

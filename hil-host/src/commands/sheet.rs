@@ -3,17 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
-use super::gap_report::{interpolated, unended, unfinished};
 use super::recording::MeasurementArguments;
 use super::rig::publish;
-use super::{Format, counted, recorded, streams};
-use dashpot_calibration::Recorded;
+use super::{Format, counted, streams};
 use dashpot_files::input::is_standard_stream;
 use dashpot_files::sheet::SheetParameters;
-use dashpot_recording::{Gaps, digest};
-use dashpot_report::sheet::{Line, RecordingLine, SheetReport};
-use dashpot_testbench::measured_sheet::{SheetRecording, assign};
-use dashpot_testbench::steady::{Samples, SensorUncertainty, find};
+use dashpot_report::sheet::{Line, SheetInput, measured};
+use dashpot_testbench::steady::SensorUncertainty;
 
 /// Compute an acceptance sheet from recordings of a bench: indices with uncertainties, limits and verdict.
 ///
@@ -75,76 +71,19 @@ pub fn run(arguments: &SheetArguments) -> Outcome<()> {
     refuse_same_streams(arguments)?;
     let temperatures_c = arguments.temperatures_c()?;
     let sheet = SheetParameters::load(&arguments.sheet)?;
-    let (mut recordings, mut lines, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
-    for (path, temperature_c) in arguments.input.iter().zip(temperatures_c) {
-        let (recorded, gaps) = recorded::read(path, &arguments.channels.channels())?;
-        warnings.extend(doubts(&recorded.name, &gaps));
-        let recording = SheetRecording {
-            found: found(path, &recorded)?,
-            name: recorded.name.clone(),
-            temperature_c,
-        };
-        lines.push(line(path, &recorded, temperature_c)?);
-        recordings.push(recording);
-    }
-    let assigned = assign(&sheet, &recordings)
-        .map_err(|error| Failure::new(format!("{error}; give it with --temperature-c")))?;
-    let unused = recordings.iter().flat_map(|recording| {
-        let unused = recording.found.unused.iter();
-        unused.map(|cycles| (recording.name.clone(), *cycles))
-    });
+    let channels = arguments.channels.channels();
+    let inputs = arguments.input.iter().zip(temperatures_c);
+    let inputs =
+        inputs.map(|(path, temperature_c)| SheetInput::read(path, &channels, temperature_c));
+    let inputs = inputs.collect::<Result<Vec<_>, _>>()?;
     let sensors = SensorUncertainty {
         force: 0.01 * arguments.force_uncertainty_percent,
         displacement: 0.01 * arguments.displacement_uncertainty_percent,
     };
-    let mut report = SheetReport::measured(&sheet, lines, &assigned, unused.collect(), sensors);
+    let mut report = measured(&sheet, inputs, sensors)
+        .map_err(|error| Failure::new(format!("{error}; give it with --temperature-c")))?;
     report.fields.extend(arguments.fields());
-    report.warnings.extend(warnings);
     publish(&mut report, arguments.page.as_deref(), arguments.format)
-}
-
-/// Returns what makes a recording doubtful. Gaps do not, because they separate motions.
-fn doubts(name: &str, gaps: &Gaps) -> Vec<String> {
-    let left_out = (gaps.left_out.rows > 0).then(|| {
-        let rows = counted(gaps.left_out.rows, "row");
-        format!("omitted {rows} with a missing value")
-    });
-    let doubts = [
-        left_out,
-        gaps.unended_line.map(unended),
-        gaps.unfinished.map(unfinished),
-        gaps.interpolation.as_ref().map(interpolated),
-    ];
-    let named = |doubt: String| format!("{name}: {}", doubt.trim_start_matches("warning: "));
-    doubts.into_iter().flatten().map(named).collect()
-}
-
-/// Returns the motions of a recording.
-fn found(path: &Path, recorded: &Recorded) -> Outcome<dashpot_testbench::steady::Found> {
-    let found = find(Samples {
-        times_s: &recorded.times_s,
-        displacements_m: &recorded.displacements_m,
-        forces_n: &recorded.forces_n,
-    });
-    if found.is_empty() {
-        return Err(Failure::new(format!(
-            "{}: the displacement does not oscillate; allowed: at least one harmonic motion",
-            path.display()
-        )));
-    }
-    Ok(found)
-}
-
-fn line(path: &Path, recorded: &Recorded, temperature_c: Option<f64>) -> Outcome<RecordingLine> {
-    let times_s = &recorded.times_s;
-    let ends = times_s.first().zip(times_s.last());
-    Ok(RecordingLine {
-        name: recorded.name.clone(),
-        sha256: digest::sha256(path)?,
-        samples: times_s.len(),
-        duration_s: ends.map_or(0.0, |(first, last)| last - first),
-        temperature_c,
-    })
 }
 
 impl SheetArguments {

@@ -2,6 +2,7 @@
 
 mod figures;
 mod limit;
+mod measured;
 mod page;
 mod text;
 
@@ -15,6 +16,7 @@ use dashpot_testbench::steady::{Estimate, SensorUncertainty, UnusedCycles};
 use serde::Serialize;
 
 pub use limit::{Judged, Limited};
+pub use measured::{SheetInput, measured};
 
 /// Forces that change by more than this share from the first to the last cycles are named.
 const NAMED_CHANGE: f64 = 0.03;

@@ -9,17 +9,17 @@ use dashpot_core::parameters::Element;
 use super::parameter::Parameter;
 use super::recordings::Listed;
 use crate::health::{Noise, doubts_in_words};
-use crate::recorded_health::{history, noise};
+use crate::recorded_health::{NOISE_NEEDS, history, noise};
 use dashpot_files::{FileError, damper};
-use dashpot_recording::Channels;
+use dashpot_recording::{Channels, Measurement};
 
 /// How recordings are read and estimated.
 #[derive(Clone, Debug)]
 pub struct Estimation {
-    /// Preset or file of the damper's model, for recordings that name none.
+    /// Name of the damper's model, for errors.
     pub damper: String,
-    /// Overrides of its keys.
-    pub overrides: Vec<String>,
+    /// The damper's model, for recordings that name none.
+    pub parameters: CheckedParameters,
     /// Channels of all recordings.
     pub channels: Channels,
     /// Step (s).
@@ -71,18 +71,18 @@ impl Estimation {
     /// # Errors
     /// The damper is invalid; the message names it.
     pub fn parameters(&self, listed: &Listed) -> Result<CheckedParameters, String> {
-        let (name, mut overrides) = match &listed.model {
-            Some(model) => (model, Vec::new()),
-            None => (&self.damper, self.overrides.clone()),
+        let (name, model) = match &listed.model {
+            Some(model) => (model, damper::load(model, &[])),
+            None => (&self.damper, Ok(self.parameters.clone())),
         };
-        let loaded = damper::load(name, &overrides).map_err(|error| error.to_string())?;
-        match listed.temperature_c {
-            Some(temperature_c) if matches!(loaded.element, Element::Physical(_)) => {
-                overrides.push(format!("oil.temperature_c={temperature_c}"));
-                damper::load(name, &overrides).map_err(|error| error.to_string())
+        let model = model.and_then(|model| match listed.temperature_c {
+            Some(temperature_c) if matches!(model.element, Element::Physical(_)) => {
+                let warm = [format!("oil.temperature_c={temperature_c}")];
+                damper::change(name, &model, &warm)
             }
-            _ => Ok(loaded),
-        }
+            _ => Ok(model),
+        });
+        model.map_err(|error| error.to_string())
     }
 
     /// Estimates the recordings of one damper, in order.
@@ -90,9 +90,18 @@ impl Estimation {
     /// The first reading that fits the model is the baseline of the following ones, because no damper is exactly the
     /// nominal one: only what changes from then on is a change.
     pub fn readings(&self, recordings: &[Listed]) -> Vec<Recorded> {
+        self.readings_cancellable(recordings, &|| false)
+    }
+
+    /// Like [`Self::readings`], up to the recording before which `is_unwanted` returns true.
+    pub(super) fn readings_cancellable(
+        &self,
+        recordings: &[Listed],
+        is_unwanted: &dyn Fn() -> bool,
+    ) -> Vec<Recorded> {
         let mut baseline = None;
         let mut readings = Vec::new();
-        for listed in recordings {
+        for listed in recordings.iter().take_while(|_| !is_unwanted()) {
             let (reading, refusal) = match self.reading(listed, baseline.as_ref()) {
                 Ok((reading, model)) => {
                     let accepts = self.accepts_several_changed || baseline.is_none();
@@ -124,15 +133,14 @@ impl Estimation {
         let unreadable = |error: FileError| Refusal::Unreadable(error.to_string());
         let mut settings = self.settings;
         if self.estimates_displacement_noise || self.estimates_force_noise {
-            let found = noise(path, &self.channels, self.step_s).map_err(unreadable)?;
+            let measurement = Measurement::open(path, &self.channels).map_err(unreadable)?;
+            let found = noise(measurement, self.step_s).map_err(unreadable)?;
             let Some(Noise {
                 displacement_m,
                 force_n,
             }) = found
             else {
-                return Err(Refusal::Unusable(
-                    "cannot estimate the noise: this needs motion and at least 100 samples without a gap".into(),
-                ));
+                return Err(Refusal::Unusable(NOISE_NEEDS.into()));
             };
             if self.estimates_displacement_noise {
                 settings.displacement_noise_m = displacement_m;
@@ -149,8 +157,9 @@ impl Estimation {
             // A mount that cannot be told from a rigid one is no baseline; the nominal damper then stays it.
             let _ = model.set_baseline(baseline.as_baseline());
         }
-        let (history, _) = history(path, &self.channels, &model, self.step_s, f64::INFINITY)
-            .map_err(unreadable)?;
+        let measurement = Measurement::open(path, &self.channels).map_err(unreadable)?;
+        let (history, _) =
+            history(measurement, &model, self.step_s, f64::INFINITY).map_err(unreadable)?;
         let last = history.last().copied();
         let last = last.ok_or_else(|| Refusal::Unusable("there is no sample".into()))?;
         Ok((last, model))

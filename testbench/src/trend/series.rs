@@ -63,10 +63,23 @@ pub fn estimate(
     series: &[Series],
     estimation: &Estimation,
     threads: usize,
+    on_done: impl FnMut(u64),
+) -> Vec<Vec<Recorded>> {
+    estimate_cancellable(series, estimation, threads, on_done, &|| false)
+}
+
+/// Like [`estimate`]; recordings that have not begun when `is_unwanted` returns true are left out.
+pub fn estimate_cancellable(
+    series: &[Series],
+    estimation: &Estimation,
+    threads: usize,
     mut on_done: impl FnMut(u64),
+    is_unwanted: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Vec<Recorded>> {
     let mut found: Vec<Vec<Recorded>> = series.iter().map(|_| Vec::new()).collect();
-    let work = |series: &Series, _: &dyn Fn() -> bool| estimation.readings(&series.recordings);
+    let work = |series: &Series, _: &dyn Fn() -> bool| {
+        estimation.readings_cancellable(&series.recordings, is_unwanted)
+    };
     let outcome: Result<(), std::convert::Infallible> =
         dashpot_workers::in_parallel(series, threads, work, |index, readings| {
             on_done(readings.len() as u64);

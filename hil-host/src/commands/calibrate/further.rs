@@ -45,12 +45,7 @@ impl FurtherArguments {
             return Ok(Vec::new());
         };
         let tests = SheetParameters::load(name)?.tests.into_iter();
-        let planned = tests.map(|test| PlannedTest {
-            name: test.name,
-            motion: test.motion,
-            temperature_c: test.temperature_c,
-        });
-        Ok(planned.collect())
+        Ok(tests.map(PlannedTest::from).collect())
     }
 
     /// Returns the paths of the recordings that are held back.

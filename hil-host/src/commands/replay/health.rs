@@ -16,12 +16,12 @@ use crate::commands::sensors::{SensorArguments, model};
 use crate::commands::streams;
 use dashpot_calibration::cause::Causes;
 use dashpot_files::input;
-use dashpot_recording::Interpolation;
+use dashpot_recording::{Interpolation, Measurement};
 use dashpot_report::health::{LikelyCauses, page};
 use dashpot_testbench::health::{
     History, Noise, alarm_in_words, alarm_name, in_words, whole_in_words,
 };
-use dashpot_testbench::recorded_health;
+use dashpot_testbench::recorded_health::{self, NOISE_NEEDS};
 
 /// Options of the health estimate.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -135,8 +135,9 @@ impl Watched {
         }
         let step_s = arguments.step_us.step_s();
         let channels = arguments.recording.channels();
+        let measurement = Measurement::open(&arguments.input, &channels)?;
         let (history, interpolation) =
-            recorded_health::history(&arguments.input, &channels, &model, step_s, step_s)?;
+            recorded_health::history(measurement, &model, step_s, step_s)?;
         let Some(last) = history.last() else {
             return Err(Failure::new(
                 "the recording has no samples to estimate from",
@@ -180,11 +181,11 @@ fn noise(arguments: &ReplayArguments) -> Outcome<Noise> {
         return Ok(noise);
     }
     let channels = arguments.recording.channels();
-    let found = recorded_health::noise(&arguments.input, &channels, arguments.step_us.step_s())?;
+    let measurement = Measurement::open(&arguments.input, &channels)?;
+    let found = recorded_health::noise(measurement, arguments.step_us.step_s())?;
     let found = found.ok_or_else(|| {
         Failure::new(format!(
-            "{}: cannot estimate the noise: this needs motion and at least 100 samples without a gap; \
-             give --displacement-noise-m and --force-noise-n",
+            "{}: {NOISE_NEEDS}; give --displacement-noise-m and --force-noise-n",
             input::name(&arguments.input).display()
         ))
     })?;
@@ -204,19 +205,9 @@ fn baseline(path: &Path) -> Outcome<Baseline> {
         samples,
         rejected,
     } = earlier.map_err(|error| no_baseline(path, error))?.health;
-    if samples == 0 || rejected > samples {
-        let reason = format!("its reading used {samples} samples and left out {rejected}");
-        return Err(no_baseline(path, reason));
-    }
-    let mut baseline = Baseline::new(
-        flow_factor.value,
-        compliance_m_per_n.value,
-        clearance_m.value,
-    );
-    baseline.flow_factor_sd = flow_factor.sd;
-    baseline.compliance_sd_m_per_n = compliance_m_per_n.sd;
-    baseline.clearance_sd_m = clearance_m.sd;
-    Ok(baseline)
+    let estimates = [flow_factor, compliance_m_per_n, clearance_m];
+    recorded_health::baseline(estimates, samples, rejected)
+        .map_err(|reason| no_baseline(path, reason))
 }
 
 fn no_baseline(path: &Path, reason: impl std::fmt::Display) -> Failure {

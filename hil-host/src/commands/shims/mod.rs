@@ -8,15 +8,15 @@ mod report;
 use std::path::PathBuf;
 
 use dashpot_core::characteristic::Characteristic;
-use dashpot_core::parameters::Element;
 use fe::{PlateArguments, PlateReport};
-use report::{Report, ValveReport, print, valve_report};
+use report::{Report, print};
 
 use super::{DamperArguments, Format, print_report};
 use crate::commands::failure::{Failure, Outcome};
 use dashpot_files::damper;
 use dashpot_files::output::write_folder;
-use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, erratum};
+use dashpot_testbench::shim_report::{self, valve_reports};
+use dashpot_testbench::shim_valves::erratum;
 
 /// Analyse the shim packs of a damper: Cw, equivalent thickness, lift (theory, published, used) and flow.
 #[derive(Debug, Clone, clap::Args)]
@@ -51,20 +51,11 @@ pub struct ShimsArguments {
 pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
     let name = &arguments.damper.damper;
     let parameters = arguments.damper.load()?;
-    let Element::Physical(hydraulics) = &parameters.element else {
-        return Err(Failure::new(format!(
-            "{name}: a reduced damper has no shim packs; use a damper with [valves], such as `paper`"
-        )));
-    };
+    let hydraulics = shim_report::hydraulics(&parameters)
+        .map_err(|error| Failure::new(format!("{name}: {error}")))?;
     let characteristic = Characteristic::new(&parameters);
     let paper = damper::load("paper", &[])?;
-    let Element::Physical(paper) = &paper.element else {
-        return Err(Failure::new("the preset `paper` has no valves"));
-    };
-    let valves: Vec<ValveReport> = VALVE_LOCATIONS
-        .iter()
-        .map(|location| valve_report(location, hydraulics, paper, &characteristic))
-        .collect::<Outcome<_>>()?;
+    let valves = valve_reports(&parameters, &paper)?;
     let solved = if arguments.plates.fe {
         fe::solve(&arguments.plates, &parameters, hydraulics)?
     } else {
@@ -84,6 +75,12 @@ pub fn run(arguments: &ShimsArguments) -> Outcome<()> {
         }
         write_folder(&arguments.plots, &drawings)?
     };
-    let report = Report::new(name, valves, &erratum(paper)?, plates, plots);
+    let report = Report::new(
+        name,
+        valves,
+        &erratum(shim_report::hydraulics(&paper)?)?,
+        plates,
+        plots,
+    );
     print_report(arguments.format, &report, print)
 }

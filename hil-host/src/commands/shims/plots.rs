@@ -5,12 +5,12 @@ use dashpot_core::parameters::Hydraulics;
 use plotters::prelude::SeriesLabelPosition;
 
 use super::capital::capital;
-use super::report::{ValveReport, radii};
 use crate::commands::failure::Outcome;
 use dashpot_report::plot::curves::{Curve, ramp};
 use dashpot_report::plot::sheet::{Layout, Panel, Scale, sheet};
 use dashpot_report::plot::style::{BLUE_LINE, GREEN_LINE, RED_LINE};
 use dashpot_testbench::published::Deflection;
+use dashpot_testbench::shim_report::{ValveReport, radii};
 use dashpot_testbench::shim_valves::{VALVE_LOCATIONS, ValveLocation};
 
 /// Number of pressure steps in a curve.

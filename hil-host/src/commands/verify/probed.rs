@@ -2,58 +2,24 @@
 
 use std::io::{self, Write};
 
-use dashpot_reference::probing::{LargestErrors, MIN_RMS_FORCE_RATIO, PROMISED_FACTOR, Worst};
+use dashpot_reference::probing::{MIN_RMS_FORCE_RATIO, PROMISED_FACTOR};
 use serde::Serialize;
 
 use super::VerifyArguments;
 use crate::commands::failure::{Failure, Outcome};
-use crate::commands::step_size::StepSize;
+use crate::commands::step_size::microseconds;
 use crate::commands::{print_report, progress};
-use dashpot_files::Scalar;
-use dashpot_testbench::step_errors::{SCALARS, StepErrors};
+use dashpot_testbench::step_errors::{NamedMotion, StepErrorRow, StepErrors};
 
 /// Default steps (us): 1 kHz and 10 kHz.
 const STEPS_US: [f64; 2] = [1000.0, 100.0];
-
-/// Largest errors for one step size and scalar type.
-#[derive(Serialize)]
-struct Row {
-    scalar: Scalar,
-    step_s: f64,
-    #[serde(skip)]
-    step: StepSize,
-    nrmse: f64,
-    nrmse_motion: Named,
-    largest_error_n: f64,
-    largest_error_over_limit: f64,
-    largest_error_motion: Named,
-    largest_wrong_sign_n: f64,
-    promised_nrmse: f64,
-    promised_error_n: f64,
-}
-
-/// Kind and speed of a motion.
-#[derive(Serialize)]
-struct Named {
-    kind: &'static str,
-    speed_m_per_s: f64,
-}
-
-impl Named {
-    fn of(worst: &Worst) -> Self {
-        Self {
-            kind: worst.kind.name(),
-            speed_m_per_s: worst.speed_m_per_s,
-        }
-    }
-}
 
 #[derive(Serialize)]
 struct Report {
     top_speed_m_per_s: f64,
     force_limit_n: f64,
     promised_factor: f64,
-    errors: Vec<Row>,
+    errors: Vec<StepErrorRow>,
 }
 
 /// Runs the command over the fixed set.
@@ -81,14 +47,11 @@ pub(super) fn run(arguments: &VerifyArguments) -> Outcome<()> {
     };
     for step in steps {
         let errors = StepErrors::new(&parameters, step.step_s(), arguments.top_speed_m_per_s)?;
-        let largest = errors.largest(dashpot_workers::threads())?;
-        let promised = errors.promised(&largest);
+        report
+            .errors
+            .extend(errors.rows(dashpot_workers::threads())?);
         report.top_speed_m_per_s = errors.top_speed_m_per_s();
         report.force_limit_n = errors.force_limit_n();
-        for ((scalar, largest), promised) in SCALARS.into_iter().zip(&largest).zip(promised) {
-            let row = Row::new(scalar, step, largest, promised, report.force_limit_n);
-            report.errors.push(row);
-        }
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -98,30 +61,6 @@ pub(super) fn run(arguments: &VerifyArguments) -> Outcome<()> {
     let rows = report.errors.iter();
     let worst = rows.map(|row| row.nrmse).max_by(f64::total_cmp);
     arguments.judge("NRMSE", worst.unwrap_or(0.0))
-}
-
-impl Row {
-    fn new(
-        scalar: Scalar,
-        step: StepSize,
-        largest: &LargestErrors,
-        (promised_error_n, promised_nrmse): (f64, f64),
-        force_limit_n: f64,
-    ) -> Self {
-        Self {
-            scalar,
-            step_s: step.step_s(),
-            step,
-            nrmse: largest.nrmse.value,
-            nrmse_motion: Named::of(&largest.nrmse),
-            largest_error_n: largest.largest_n.value,
-            largest_error_over_limit: largest.largest_n.value / force_limit_n,
-            largest_error_motion: Named::of(&largest.largest_n),
-            largest_wrong_sign_n: largest.wrong_sign_n.value,
-            promised_nrmse,
-            promised_error_n,
-        }
-    }
 }
 
 fn print(out: &mut dyn Write, report: &Report, damper: &str) -> io::Result<()> {
@@ -142,11 +81,12 @@ fn print(out: &mut dyn Write, report: &Report, damper: &str) -> io::Result<()> {
         "wrong sign N"
     )?;
     for row in &report.errors {
-        let motion = |named: &Named| format!("{} at {:.3} m/s", named.kind, named.speed_m_per_s);
+        let motion =
+            |named: &NamedMotion| format!("{} at {:.3} m/s", named.kind, named.speed_m_per_s);
         writeln!(
             out,
             "  {:>9}  {:<6}  {:>8.1e}  {:<36}  {:>9.2}  {:>8.1e}  {:<36}  {:>12.2}",
-            row.step.step_us(),
+            microseconds(row.step_s),
             row.scalar,
             row.nrmse,
             motion(&row.nrmse_motion),

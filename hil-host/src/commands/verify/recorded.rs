@@ -9,31 +9,15 @@ use serde::Serialize;
 use super::VerifyArguments;
 use crate::commands::failure::Outcome;
 use crate::commands::gap_report::write_gaps;
-use crate::commands::step_size::StepSize;
+use crate::commands::step_size::microseconds;
 use crate::commands::{counted, print_report, progress};
-use dashpot_files::Scalar;
 use dashpot_files::input;
-use dashpot_recording::tick_grid::TickGrid;
 use dashpot_recording::{Gaps, Recording};
-use dashpot_testbench::verification::{
-    Deviation, deviation, fixed_step_forces, reference_forces, reference_forces_on_recording,
-};
-
-#[derive(Serialize)]
-struct Row {
-    scalar: Scalar,
-    #[serde(skip)]
-    step: StepSize,
-    /// Deviation on ticks.
-    #[serde(flatten)]
-    deviation: Deviation,
-    nrmse_on_recording: f64,
-    rejected_inputs: u16,
-}
+use dashpot_testbench::verification::{RecordedError, on_recording};
 
 #[derive(Serialize)]
 struct Report {
-    deviations: Vec<Row>,
+    deviations: Vec<RecordedError>,
     gaps: Gaps,
 }
 
@@ -56,29 +40,8 @@ pub(super) fn run(arguments: &VerifyArguments, input: &Path) -> Outcome<()> {
     let mut rows = Vec::new();
     for step in steps {
         let step_s = step.step_s();
-        let ticks = TickGrid::new(Recording::from_samples(&path, Rc::clone(&samples)), step_s)?
-            .read_all()?;
-        let displacements_m: Vec<f64> = ticks.iter().map(|tick| tick.displacement_m).collect();
-        let on_ticks = reference_forces(&parameters, step_s, &displacements_m)?;
-        let on_recording = reference_forces_on_recording(&parameters, step_s, &samples, &ticks)?;
-        for (scalar, fixed) in [
-            (
-                Scalar::F32,
-                fixed_step_forces::<f32>(&parameters, step_s, &displacements_m)?,
-            ),
-            (
-                Scalar::F64,
-                fixed_step_forces::<f64>(&parameters, step_s, &displacements_m)?,
-            ),
-        ] {
-            rows.push(Row {
-                scalar,
-                step,
-                deviation: deviation(step_s, &fixed.forces_n, &on_ticks)?,
-                nrmse_on_recording: deviation(step_s, &fixed.forces_n, &on_recording)?.nrmse,
-                rejected_inputs: fixed.rejected_inputs,
-            });
-        }
+        let recording = Recording::from_samples(&path, Rc::clone(&samples));
+        rows.extend(on_recording(&parameters, recording, &samples, step_s)?);
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -118,7 +81,7 @@ fn print(out: &mut dyn Write, report: &Report, damper: &str, path: &Path) -> io:
         writeln!(
             out,
             "  {:>9}  {:<6}  {:>14.2e}  {:>18.2e}  {:>12.2e}  {:>9.2}  {:>6.0}",
-            row.step.step_us(),
+            microseconds(deviation.step_s),
             row.scalar,
             deviation.nrmse,
             row.nrmse_on_recording,

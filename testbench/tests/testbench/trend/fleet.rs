@@ -85,7 +85,7 @@ fn write(folder: &Path, damper: &str, months: u64, overrides: impl Fn(f64) -> Ve
 fn estimation() -> Estimation {
     Estimation {
         damper: "reduced-vertical".into(),
-        overrides: Vec::new(),
+        parameters: damper::load("reduced-vertical", &[]).unwrap(),
         channels: Channels::default(),
         step_s: STEP_S,
         settings: HealthSettings::new(1e-5, 1.0),

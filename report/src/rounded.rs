@@ -1,12 +1,16 @@
 //! Numbers rounded for text.
 
 /// Formats a number with up to six digits, without trailing zeros.
-pub(super) fn six_digits(number: f64) -> String {
+///
+/// ```
+/// assert_eq!(dashpot_report::rounded::six_digits(1.0 / 3.0), "0.333333");
+/// ```
+pub fn six_digits(number: f64) -> String {
     digits(number, 5)
 }
 
 /// Formats a number with up to two digits, without trailing zeros.
-pub(super) fn two_digits(number: f64) -> String {
+pub fn two_digits(number: f64) -> String {
     digits(number, 1)
 }
 

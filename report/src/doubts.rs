@@ -1,0 +1,78 @@
+//! What makes a recording doubtful, in words.
+
+use dashpot_recording::{Gaps, Interpolation, UnfinishedEnd};
+
+use super::rounded::six_digits;
+
+fn counted(count: u64, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Returns what makes a recording doubtful, a sentence each without a full stop. Gaps do not, because they separate
+/// motions.
+pub fn doubts(gaps: &Gaps) -> Vec<String> {
+    let left_out = (gaps.left_out.rows > 0).then(|| {
+        let rows = counted(gaps.left_out.rows, "row");
+        format!("omitted {rows} with a missing value")
+    });
+    let doubts = [
+        left_out,
+        gaps.unended_line.map(unended),
+        gaps.unfinished.map(unfinished),
+        gaps.interpolation.as_ref().map(interpolated),
+    ];
+    let doubts = doubts.into_iter().flatten();
+    doubts
+        .map(|doubt| doubt.trim_start_matches("warning: ").to_owned())
+        .collect()
+}
+
+/// Returns the warning for a text file whose last line has no line end.
+pub fn unended(line: u64) -> String {
+    format!(
+        "warning: the last line, line {line}, has no line end: the file may have been cut off inside its last number"
+    )
+}
+
+/// Returns the warning for an MDF4 file that its logger did not finish.
+pub fn unfinished(end: UnfinishedEnd) -> String {
+    let rest = match end.left_bytes {
+        0 => String::new(),
+        bytes => format!("; {} after it cannot be read", counted(bytes, "byte")),
+    };
+    format!(
+        "warning: the logger did not finish this MDF4 file: rows are read up to the last whole one{rest}"
+    )
+}
+
+/// Returns the warning for a force from another group than the displacement.
+pub fn interpolated(interpolation: &Interpolation) -> String {
+    let Interpolation {
+        displacement_group,
+        force_group,
+        outside,
+        left_out,
+        longest_interval_s,
+    } = interpolation;
+    let mut warning = format!(
+        "warning: the force (group {force_group}) is interpolated linearly to the times of the displacement (group \
+         {displacement_group})"
+    );
+    if let Some(interval_s) = longest_interval_s {
+        warning += &format!(
+            "; its samples are up to {} s apart",
+            six_digits(*interval_s)
+        );
+    }
+    if *outside > 0 {
+        let rows = counted(*outside, "row");
+        warning += &format!("; omitted {rows} before its first or after its last sample");
+    }
+    if *left_out > 0 {
+        warning += &format!(
+            "; omitted {} of the force that are missing",
+            counted(*left_out, "sample")
+        );
+    }
+    warning
+}
