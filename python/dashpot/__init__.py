@@ -28,13 +28,27 @@ from ._dashpot import (
     calibrate,
     contact,
     creep_forces,
+    fleet,
+    health,
+    modes,
     read,
+    response,
+    sheet,
+    shims,
     vehicle,
+    verify,
 )
 from ._errors import DashpotError, DashpotFileError, DashpotKeyError
+from ._fleet import Fleet
+from ._health import Estimate, Health, HealthAlarm, HealthCause, HealthStatus
 from ._hybrid import Command, EnergyReading, HybridStatus, Measured, Motion, TrackingReading
+from ._modes import Modes
 from ._notebook import attach as _attach
+from ._response import Response, ResponseCurves
+from ._sheet import Sheet, SheetTest
+from ._shims import Shims
 from ._status import Status
+from ._verify import RecordedError, StepError
 
 _attach(Damper, Cycle, Calibrated, VehicleRun)
 
@@ -50,12 +64,26 @@ __all__ = [
     "DashpotFileError",
     "DashpotKeyError",
     "EnergyReading",
+    "Estimate",
+    "Fleet",
+    "Health",
+    "HealthAlarm",
+    "HealthCause",
+    "HealthStatus",
     "HybridStatus",
     "Measured",
+    "Modes",
     "Motion",
     "MotionFilter",
+    "RecordedError",
+    "Response",
+    "ResponseCurves",
+    "Sheet",
+    "SheetTest",
+    "Shims",
     "State",
     "Status",
+    "StepError",
     "Study",
     "TrackingReading",
     "TransferSystem",
@@ -64,6 +92,13 @@ __all__ = [
     "calibrate",
     "contact",
     "creep_forces",
+    "fleet",
+    "health",
+    "modes",
     "read",
+    "response",
+    "sheet",
+    "shims",
     "vehicle",
+    "verify",
 ]

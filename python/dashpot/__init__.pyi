@@ -1,5 +1,6 @@
 import enum
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from os import PathLike
 from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar, final, overload
 
@@ -15,6 +16,7 @@ _Floats: TypeAlias = NDArray[np.float32] | NDArray[np.float64]
 # A list of texts, of numbers and None, or of whole numbers for some columns.
 _Column: TypeAlias = NDArray[np.float64] | NDArray[np.int64] | Any
 _Measured: TypeAlias = NDArray[np.floating[Any]]
+_Recording: TypeAlias = Mapping[str, _Measured] | Sequence[_Measured]
 _T = TypeVar("_T")
 _A = TypeVar("_A", NDArray[np.float32], NDArray[np.float64])
 
@@ -30,12 +32,26 @@ __all__ = [
     "DashpotFileError",
     "DashpotKeyError",
     "EnergyReading",
+    "Estimate",
+    "Fleet",
+    "Health",
+    "HealthAlarm",
+    "HealthCause",
+    "HealthStatus",
     "HybridStatus",
     "Measured",
+    "Modes",
     "Motion",
     "MotionFilter",
+    "RecordedError",
+    "Response",
+    "ResponseCurves",
+    "Sheet",
+    "SheetTest",
+    "Shims",
     "State",
     "Status",
+    "StepError",
     "Study",
     "TrackingReading",
     "TransferSystem",
@@ -44,8 +60,15 @@ __all__ = [
     "calibrate",
     "contact",
     "creep_forces",
+    "fleet",
+    "health",
+    "modes",
     "read",
+    "response",
+    "sheet",
+    "shims",
     "vehicle",
+    "verify",
 ]
 
 __version__: str
@@ -581,6 +604,19 @@ class Calibrated:
         temperature and density.
         """
     @property
+    def validation(self) -> list[dict[str, Any]]:
+
+        """Each held-back test of `validate`, predicted with the calibrated damper: its root mean square error
+        `error_n`, the same beyond the noise as a share of the force `error_share`, the greatest `systematic` difference
+        over the velocity or `None`, and further keys as in the JSON of `dashpot calibrate --validate`.
+        """
+    @property
+    def plan(self) -> dict[str, dict[str, float]]:
+
+        """The tests of the sheet `plan` by name, each with what would remain of the standard deviation of each
+        parameter after that test (1).
+        """
+    @property
     def standard_deviations(self) -> dict[str, float]:
         """Standard deviations of the fitted parameters from linear theory, in the units of the parameters."""
     @property
@@ -621,6 +657,10 @@ def calibrate(
     temperature_uncertainty_k: float = 5.0,
     density_uncertainty_kg_per_m3: float = 0.0,
     max_misfit_percent: float = 20.0,
+    temperature_c: float | Sequence[float | None] | None = None,
+    vary_each: Sequence[str] | dict[str, tuple[float, float] | None] | None = None,
+    validate: Sequence[Sequence[_Measured]] | None = None,
+    plan: _Path | None = None,
 ) -> Calibrated:
     """Fits parameters of `damper` to bench tests: recorded loops `tests`, each consisting of three float64 arrays, time
     (s), displacement (m) and force (N), or the `indices` of tests, each a dictionary with the columns that `dashpot
@@ -633,11 +673,18 @@ def calibrate(
     zero. With `skew=False` the sensors are assumed to record at the same instant. The search has `starts` starting
     points, 4 by default.
 
+    `temperature_c` is the oil's temperature in the recordings (degrees Celsius): a number, or a sequence with one for
+    each of `tests` and then of `validate`, `None` for that of the damper. `vary_each` names parameters that each test
+    has for itself, in the form of `vary`; results call that of the first test `KEY@1`. `validate` has further loops,
+    which are not fitted but predicted. `plan` is a sheet, built in or a file, whose tests are judged by how much each
+    would narrow the intervals.
+
     Intervals include the effect of the oil's temperature, known within `temperature_uncertainty_k`, and its density,
     known within `density_uncertainty_kg_per_m3` (half-widths of 95 % intervals). Parameters that the tests do not
     determine are refused, and so is a model whose misfit beyond the noise exceeds `max_misfit_percent` of a test's
     force. Ctrl-C cancels the fit.
     """
+
 @final
 class Contact:
     """Contact of a wheelset on a track. `dashpot.contact` returns it."""
@@ -746,4 +793,449 @@ def read(
     row of a text file contains names, and `decimal_mark` is `point` or `comma`. `skip_invalid` skips rows that lack a
     value. A text file whose last line has no line end may be truncated within a number; it is read with a
     `UserWarning`.
+    """
+
+class HealthStatus(enum.IntFlag):
+    """Bits of a health estimate. Alarms are latched; `DOUBTS` are the bits of an estimate that cannot be trusted."""
+    FLOW = 1
+    STIFFNESS = 2
+    CLEARANCE = 4
+    LITTLE_EXCITATION = 8
+    INPUT_REJECTED = 16
+    RESTARTED = 32
+    NO_FORCE = 64
+    FORCE_ZERO = 128
+    LATE = 256
+    SEVERAL_CHANGED = 512
+    MISFIT = 1024
+    DOUBTS = 1856
+
+class Estimate(NamedTuple):
+    """An estimated value and its standard deviation."""
+    value: float
+    sd: float
+
+class HealthAlarm(NamedTuple):
+    """An alarm: its parameter, when it was first raised (s), and a sentence."""
+    parameter: str
+    time_s: float
+    words: str
+
+class HealthCause(NamedTuple):
+    """A possible cause of what the end of a recording shows, with its size, its probability, and a sentence.
+
+    `kind` is a name such as `clearance` or `force_scale`; `value` is in the unit of that quantity.
+    """
+    kind: str
+    value: float
+    probability: float
+    words: str
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Health:
+    """Health of a damper at the end of a recording. `dashpot.health` returns it.
+
+    The quantities from `flow_factor` to `added_friction_n` are each a `dashpot.Estimate`. `samples` were used and
+    `rejected` left out. `alarms` lists each alarm once; `doubts` has sentences that say why the estimates cannot be
+    trusted. `causes` has the possible causes of a change, the most likely first, or is `None` with a baseline and for a
+    recording that is too short to tell; `remarks` belongs to the causes. `history` has arrays over `time_s`: each
+    estimate and its standard deviation (`clearance_m`, `clearance_m_sd`, ...), the bits `status`, the extremes of the
+    force, and the share of the samples used.
+    """
+    flow_factor: Estimate
+    damping_factor: Estimate
+    stiffness_n_per_m: Estimate
+    clearance_m: Estimate
+    lag_s: Estimate
+    compliance_m_per_n: Estimate
+    force_zero_n: Estimate
+    added_friction_n: Estimate
+    samples: int
+    rejected: int
+    status: HealthStatus
+    is_trusted: bool
+    displacement_noise_m: float
+    force_noise_n: float
+    alarms: list[HealthAlarm]
+    doubts: list[str]
+    causes: list[HealthCause] | None
+    remarks: list[str]
+    history: dict[str, NDArray[Any]]
+    def plot(self, quantity: str = "clearance_m", axes: Any = None) -> Any:
+        """Plots an estimate over time with a band of two standard deviations, and returns the axes, new ones by
+        default. An unknown name raises `KeyError`.
+        """
+    def _repr_html_(self) -> str: ...
+
+def health(
+    damper: Damper,
+    recording: _Recording,
+    *,
+    step_s: float = 0.001,
+    displacement_noise_m: float | None = None,
+    force_noise_n: float | None = None,
+    memory_s: float | None = None,
+    law_deviation: float | None = None,
+    lag_s: float | None = None,
+    lag_sd_s: float | None = None,
+    baseline: Health | None = None,
+) -> Health:
+    """Estimates the health of a damper from its recorded motion and force, as `dashpot replay --health`: damping,
+    stiffness and clearance with standard deviations, alarms, and the likely cause of a change.
+
+    `recording` has the float64 arrays `time_s`, `displacement_m` and `force_n`: a dictionary, as `dashpot.read(path,
+    with_force=True)` returns it, or a sequence of the three. It is resampled to ticks of `step_s` (s). Noise that is
+    not given is estimated from the recording. `memory_s` is the time in contact after which the weight of a sample
+    drops to 1/e (default 1 s), `law_deviation` the relative error of the model of a healthy damper within a stroke
+    (default 0.05), `lag_s` the lag of the measured force and `lag_sd_s` its standard deviation (default 0 and 1 ms).
+
+    `baseline` is the result of a recording of the damper when it was healthy; without it, the damper itself is the
+    baseline. Ctrl-C cancels the estimate.
+    """
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fleet:
+    """Trends of a fleet's dampers. `dashpot.fleet` returns it.
+
+    `trends` has a row for each damper and parameter, the damper to look at first in front, and `readings` a row for
+    each recording: dictionaries of columns, as `pandas.DataFrame` accepts them, with the names of the files that
+    `dashpot health` writes with `--trends` and `--output`. `recordings_used` of the `recordings` have a place in a
+    trend; the column `refused_because` of `readings` says why others have none. `text` is the report of the command.
+    """
+    vehicles: int
+    dampers: int
+    recordings: int
+    recordings_used: int
+    recordings_unreadable: int
+    trends: dict[str, _Column]
+    readings: dict[str, _Column]
+    text: str
+    def _repr_html_(self) -> str: ...
+
+def fleet(
+    folder: _Path,
+    damper: Damper,
+    *,
+    mileage: bool = False,
+    limit_damping_factor: float | None = None,
+    limit_stiffness_n_per_m: float | None = None,
+    limit_clearance_m: float | None = None,
+    accept_several_changed: bool = False,
+    step_s: float = 0.001,
+    displacement_noise_m: float | None = None,
+    force_noise_n: float | None = None,
+    memory_s: float | None = None,
+    law_deviation: float | None = None,
+    lag_s: float | None = None,
+    lag_sd_s: float | None = None,
+    time: str | None = None,
+    displacement: str | None = None,
+    force: str | None = None,
+    time_unit: str | None = None,
+    displacement_unit: str | None = None,
+    force_unit: str | None = None,
+    group: str | None = None,
+    skip_invalid: bool = False,
+    header: bool | None = None,
+    decimal_mark: Literal["point", "comma"] | None = None,
+) -> Fleet:
+    """Estimates trends of a fleet's dampers over months of recordings, as `dashpot health`: rates of change, and when
+    limits are reached.
+
+    The file recordings.csv in `folder` lists the recordings; without it, files must be named
+    VEHICLE/DAMPER/DATE.EXTENSION. `damper` is the model of recordings that name none. `mileage` uses the mileage
+    instead of the date. The limits are the lowest damping relative to nominal, the lowest stiffness and the highest
+    clearance, by default those of the kind of damper. `accept_several_changed` uses readings of which several
+    parameters have changed together. The other arguments are those of `dashpot.health` and `dashpot.read`. Ctrl-C
+    cancels the estimate.
+    """
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ResponseCurves:
+    """Curves of a `dashpot.Response`: arrays with one row per amplitude and one column per frequency.
+
+    For x = A sin wt, the first harmonic of the force is A (K' sin wt + K" cos wt): `storage_n_per_m` is K' (N/m),
+    `loss_n_per_m` is K", `dynamic_stiffness_n_per_m` the magnitude of both, `loss_angle_deg` the phase by which the
+    force leads the displacement (degrees; NaN without a force), and `damping_n_s_per_m` is K"/w (N s/m).
+    """
+    dynamic_stiffness_n_per_m: NDArray[np.float64]
+    loss_angle_deg: NDArray[np.float64]
+    storage_n_per_m: NDArray[np.float64]
+    loss_n_per_m: NDArray[np.float64]
+    damping_n_s_per_m: NDArray[np.float64]
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response:
+    """Frequency response of a damper at `frequency_hz` and `amplitude_m`. `dashpot.response` returns it.
+
+    `harmonic` has the curves of the periodic force, `linearised` those for a peak velocity of 0.1 mm/s with the
+    clearance taken up (a single row), and `swept` those of one motion through all frequencies, or `None`. `difference`
+    has the relative differences of the swept from the harmonic complex stiffness, or is `None`.
+    """
+    frequency_hz: NDArray[np.float64]
+    amplitude_m: NDArray[np.float64]
+    harmonic: ResponseCurves
+    linearised: ResponseCurves
+    swept: ResponseCurves | _MaybeNone
+    difference: NDArray[np.float64] | _MaybeNone
+    def plot(self, quantity: str = "dynamic_stiffness_n_per_m", axes: Any = None) -> Any:
+        """Plots a quantity of the curves over frequency with matplotlib, one line per amplitude and a dashed one for
+        the linearised damper, and returns the axes, new ones by default. An unknown name raises `AttributeError`.
+        """
+
+def response(
+    damper: Damper,
+    amplitude_m: float | Sequence[float] | NDArray[np.float64] | None = None,
+    *,
+    frequency_hz: NDArray[np.float64] | None = None,
+    swept: bool = False,
+    octaves_per_minute: float = 1.0,
+) -> Response:
+    """Computes dynamic stiffness, loss angle and damping over frequency and amplitude, and those of the linearised
+    damper, as `dashpot response`.
+
+    `amplitude_m` (m) is a number or a sequence. `frequency_hz` (Hz) is a float64 array; the default is that of the
+    command, 41 frequencies from 0.1 to 20 Hz in a constant ratio. With `swept`, one motion through all frequencies,
+    which must rise, at `octaves_per_minute` is demodulated and compared. Use a loop over `damper.replace` to compare
+    dampers. Ctrl-C cancels the computation.
+    """
+
+@dataclass(frozen=True)
+class StepError:
+    """Largest errors of a damper's step in one precision over a fixed set of motions. `dashpot.verify` returns them.
+
+    `nrmse` is the root mean square error of the worst motion over its root mean square force, `largest_error_n` the
+    largest error at a tick, and `largest_wrong_sign_n` the largest force where that of the reference has the opposite
+    sign or is zero. The motions are pairs of kind and speed (m/s). `promised_nrmse` and `promised_error_n` are
+    guaranteed for every motion of the class in docs/numerics.md.
+    """
+    scalar: Literal["f32", "f64"]
+    step_s: float
+    nrmse: float
+    nrmse_motion: tuple[str, float]
+    largest_error_n: float
+    largest_error_over_limit: float
+    largest_error_motion: tuple[str, float]
+    largest_wrong_sign_n: float
+    promised_nrmse: float
+    promised_error_n: float
+
+@dataclass(frozen=True)
+class RecordedError:
+    """Errors of a damper's step in one precision on a recorded motion. `dashpot.verify` returns them.
+
+    `nrmse` is the error of the step alone, with the reference on the displacements at the ticks; `nrmse_on_recording`
+    includes the resampling, with the reference on the samples of the recording. `rejected_inputs` is the number of
+    ticks whose displacement was held or limited.
+    """
+    scalar: Literal["f32", "f64"]
+    step_s: float
+    nrmse: float
+    largest_error_over_peak: float
+    largest_error_n: float
+    reference_rms_n: float
+    reference_peak_n: float
+    nrmse_on_recording: float
+    rejected_inputs: int
+
+@overload
+def verify(
+    damper: Damper,
+    recording: None = None,
+    *,
+    step_s: float | Sequence[float] | None = None,
+    top_speed_m_per_s: float | None = None,
+) -> list[StepError]:
+    """Measures the accuracy of the fixed step against the adaptive reference solver, as `dashpot verify`: two rows for
+    each step of `step_s` (s), one in each precision.
+
+    Without a recording the damper follows about a hundred motions scaled to it, and each row is a `dashpot.StepError`;
+    `top_speed_m_per_s` is the top speed of the motions. `recording` has the float64 arrays `time_s` and
+    `displacement_m`, as a dictionary or a pair, and each row is then a `dashpot.RecordedError`. Ctrl-C cancels between
+    two steps.
+    """
+@overload
+def verify(
+    damper: Damper,
+    recording: _Recording,
+    *,
+    step_s: float | Sequence[float] | None = None,
+    top_speed_m_per_s: None = None,
+) -> list[RecordedError]:
+    """Measures the accuracy of the fixed step against the adaptive reference solver, as `dashpot verify`: two rows for
+    each step of `step_s` (s), one in each precision.
+
+    Without a recording the damper follows about a hundred motions scaled to it, and each row is a `dashpot.StepError`;
+    `top_speed_m_per_s` is the top speed of the motions. `recording` has the float64 arrays `time_s` and
+    `displacement_m`, as a dictionary or a pair, and each row is then a `dashpot.RecordedError`. Ctrl-C cancels between
+    two steps.
+    """
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Shims:
+    """A valve of a damper and its shim pack. `dashpot.shims` returns one for each valve.
+
+    `shims_m` are the thicknesses of the discs (m), which are clamped at `clamp_radius_m` and free at `free_radius_m`.
+    `equivalent_thickness_m` and `edge_compliance_m_per_pa` follow from disc theory under uniform pressure, as does
+    `cw`, the deflection coefficient `cw_m6_per_n` over `radius_m`; all three are `None` if the file gives the
+    compliance `given_edge_compliance_m_per_pa` instead of discs. The damper model uses
+    `effective_edge_compliance_m_per_pa`, which is one of the two multiplied by `equivalent_pressure_factor`, and no
+    lift below `preload_pa`.
+
+    `pressures` has columns over `pressure_pa`: `lift_m` and `flow_m3_per_s` as used, `theory_uniform_m`, and the
+    published deflections, NaN except for the packs of the source paper, as `theory_over_published`.
+    """
+    valve: str
+    clamp_radius_m: float
+    free_radius_m: float
+    shims_m: NDArray[np.float64]
+    equivalent_thickness_m: float | None
+    edge_compliance_m_per_pa: float | None
+    cw: dict[str, NDArray[np.float64]] | None
+    given_edge_compliance_m_per_pa: float | None
+    equivalent_pressure_factor: float
+    effective_edge_compliance_m_per_pa: float
+    preload_pa: float
+    theory_over_published: float | None
+    pressures: dict[str, NDArray[np.float64]]
+    def plot(self, quantity: str = "lift_m", axes: Any = None) -> Any:
+        """Plots a column of `pressures` over the pressure with matplotlib, and returns the axes, new ones by default.
+        An unknown name raises `KeyError`.
+        """
+    def _repr_html_(self) -> str: ...
+
+def shims(damper: Damper) -> list[Shims]:
+    """Computes the shim packs of a damper's three valves, as `dashpot shims`: stiffness by disc theory, and lift and
+    flow over the pressure as the damper model uses them. Each valve is a `dashpot.Shims`. A reduced damper has no
+    valves and is refused.
+    """
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Modes:
+    """Modes of a vehicle. `dashpot.modes` returns it.
+
+    `modes` has columns, as `pandas.DataFrame` accepts them: what moves (`mode`), `undamped_hz`, `damped_hz` and
+    `damping_ratio`, which is negative if a mode grows. `axle_loads_n` is an array, and `speed_km_h` the speed of the
+    modes, `None` at standstill. The critical speeds and the amplitude of the limit cycle, `limit_cycle_m`, are `None`
+    unless `hunting` found them. `friction_elements` is the number of friction elements of the vehicle.
+    """
+    vehicle: str
+    axle_loads_n: NDArray[np.float64]
+    speed_km_h: float | None
+    critical_speed_km_h: float | None
+    nonlinear_critical_speed_km_h: float | None
+    limit_cycle_m: float | None
+    friction_elements: int
+    modes: dict[str, _Column]
+    def _repr_html_(self) -> str: ...
+
+def modes(
+    vehicle: _Path,
+    *,
+    speed_km_h: float | None = None,
+    hunting: bool = False,
+    sliding: bool = False,
+    friction: float = 0.4,
+    dampers: _Dampers | None = None,
+    overrides: _Overrides | None = None,
+    contact: dict[str, Any] | None = None,
+) -> Modes:
+    """Computes axle loads and natural modes of a vehicle at standstill or at a speed, as `dashpot modes`: frequency,
+    damping and what moves.
+
+    `vehicle` is built in or a file; `dampers`, `overrides` and `contact` are those of `dashpot.vehicle`. With `hunting`
+    the critical speeds are searched for, and the modes are those at the linear one. With `sliding` the friction
+    elements slide and have no part in a mode; otherwise they stick.
+    """
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SheetTest:
+    """A measured test of a `dashpot.Sheet`.
+
+    `indices` has the values by name, `half_widths` half of the 95 % interval of each, and `limits` a dictionary for
+    each limit of the sheet: `index`, `value`, `half_width`, `least`, `most`, `verdict` (`within`, `undecided` or
+    `outside`) and further keys. `recording`, `start_s` and `end_s` say where it was measured, in `cycles` cycles;
+    `unsteady_cycles` were left out. `distortion` is the displacement about a sine, `force_change` the change of the
+    force from the first to the last cycles, each as a share. `displacement_m`, `velocity_m_per_s` and `force_n` are the
+    mean cycle, in steps of `step_s`.
+    """
+    name: str
+    amplitude_m: float
+    frequency_hz: float
+    peak_velocity_m_per_s: float
+    temperature_c: float | None
+    step_s: float
+    cycles: int
+    indices: dict[str, float | None]
+    limits: list[dict[str, Any]]
+    recording: str
+    start_s: float
+    end_s: float
+    unsteady_cycles: int
+    distortion: float
+    force_change: float
+    half_widths: dict[str, float | None]
+    displacement_m: NDArray[np.float64]
+    velocity_m_per_s: NDArray[np.float64]
+    force_n: NDArray[np.float64]
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Sheet:
+    """An acceptance sheet from recordings of a bench. `dashpot.sheet` returns it.
+
+    `verdict` is `passed`, `failed`, `undecided`, `incomplete` or `no_limits`; `is_good` is true for the first and the
+    last. `tests` has a `dashpot.SheetTest` for each measured test, and `missing` the names of the others. `recordings`
+    states each file with its SHA-256, `other_motions` the motions that belong to no test, and `unused_cycles` the
+    cycles that belong to no steady motion. `limits` and `limits_not_kept` are numbers. `page` is the sheet as a
+    self-contained HTML page, for archiving or printing, and `text` the report of the command.
+    """
+    title: str
+    sheet: str
+    fields: dict[str, str]
+    verdict: Literal["passed", "failed", "undecided", "incomplete", "no_limits"]
+    is_good: bool
+    limits: int
+    limits_not_kept: int
+    warnings: list[str]
+    tests: list[SheetTest]
+    recordings: list[dict[str, Any]]
+    missing: list[str]
+    other_motions: list[dict[str, Any]]
+    unused_cycles: list[Any]
+    text: str
+    page: str
+    def plot(self, axes: Any = None) -> Any:
+        """Plots the mean loops of force over displacement with matplotlib, and returns the axes, new ones by default.
+        """
+    def _repr_html_(self) -> str: ...
+
+def sheet(
+    sheet: _Path,
+    recordings: _Path | Sequence[_Path],
+    *,
+    temperature_c: float | Sequence[float | None] | None = None,
+    force_uncertainty_percent: float = 0.0,
+    displacement_uncertainty_percent: float = 0.0,
+    serial_number: str | None = None,
+    operator: str | None = None,
+    date: str | None = None,
+    time: str | None = None,
+    displacement: str | None = None,
+    force: str | None = None,
+    time_unit: str | None = None,
+    displacement_unit: str | None = None,
+    force_unit: str | None = None,
+    group: str | None = None,
+    skip_invalid: bool = False,
+    header: bool | None = None,
+    decimal_mark: Literal["point", "comma"] | None = None,
+) -> Sheet:
+    """Computes an acceptance sheet from recordings of a bench, as `dashpot sheet`: indices with uncertainties, limits
+    and the verdict.
+
+    `sheet` is built in or a file. `recordings` is a file or a sequence of files, and `temperature_c` the oil's
+    temperature in them (degrees Celsius): a number, or a sequence with one for each. The uncertainties are those of the
+    calibration of the sensors, in per cent of the value (half of a 95 % interval). Serial number, operator and date are
+    for the header. The other arguments are those of `dashpot.read`. A sheet that is not passed is returned like any
+    other: see its `verdict`.
     """

@@ -9,7 +9,7 @@ def _number(value):
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _table(title, header, rows):
+def table(title, header, rows):
     """Returns an HTML table; every text is escaped, because names come from files."""
 
     def cells(kind, row):
@@ -20,24 +20,25 @@ def _table(title, header, rows):
 
 
 def _damper_html(self):
-    return _table(self.name, ("key", "value"), self.items())
+    return table(self.name, ("key", "value"), self.items())
 
 
 def _cycle_html(self):
-    return _table("bench test", ("index", "value"), self.indices.items())
+    return table("bench test", ("index", "value"), self.indices.items())
 
 
 def _calibrated_html(self):
     rows = ((key, value, *self.intervals[key]) for key, value in self.values.items())
-    return _table("calibrated", ("key", "value", "95 % from", "to"), rows)
+    return table("calibrated", ("key", "value", "95 % from", "to"), rows)
 
 
 def _run_html(self):
     rows = [("ending", self.ending), ("ticks", len(next(iter(self.history.values()), ())))]
-    return _table(self.case, ("run", ""), [*rows, *(("warning", warning) for warning in self.warnings)])
+    return table(self.case, ("run", ""), [*rows, *(("warning", warning) for warning in self.warnings)])
 
 
-def _axes(axes):
+def axes_for(axes):
+    """Returns the axes, or new ones of matplotlib."""
     if axes is not None:
         return axes
     try:
@@ -49,7 +50,7 @@ def _axes(axes):
 
 def _plot_cycle(self, axes=None):
     """Plots the loop of force over displacement with matplotlib, and returns the axes, new ones by default."""
-    axes = _axes(axes)
+    axes = axes_for(axes)
     axes.plot(1e3 * self.displacement_m, 1e-3 * self.force_n)
     axes.set_xlabel("displacement, mm")
     axes.set_ylabel("force, kN")
@@ -63,7 +64,7 @@ def _plot_run(self, *signals, axes=None):
     """
     names = signals or tuple(name for name in self.history if name not in ("time_s", "distance_m"))
     columns = [self.history[name] for name in names]
-    axes = _axes(axes)
+    axes = axes_for(axes)
     for name, column in zip(names, columns):
         axes.plot(self.history["time_s"], column, label=name)
     axes.set_xlabel("time, s")

@@ -1,26 +1,26 @@
 //! Calibration of damper parameters, with intervals, from bench tests in memory.
 
 use dashpot_calibration::{
-    Assumed, Calibrated as Found, Calibration, IndexTest, LoopTest, Prior, Recorded, Request, SKEW,
+    Assumed, Calibrated as Found, Calibration, LoopTest, PlannedTest, Predicted, Promise, Recorded,
+    SKEW,
 };
 use dashpot_core::parameters::STEP_RANGE_S;
+use dashpot_files::sheet::SheetParameters;
 use dashpot_testbench::TestbenchError;
-use numpy::{Ix1, PyArray1, PyArray2};
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyList};
+use pyo3::types::{PyDict, PyList};
 
-use crate::arrays;
+use crate::calibration_request::{Samples, index_tests, recorded, request, temperatures_c, within};
 use crate::calibration_words;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::run_in_thread;
+use crate::overrides::path;
 use crate::whole::Whole;
 
 /// Default number of starts of the search, the same as for the command.
 const STARTS: u64 = 4;
-
-/// Arrays of time (s), displacement (m) and force (N).
-type Samples<'py> = [Bound<'py, PyAny>; 3];
 
 /// Result of a calibration. `dashpot.calibrate` returns it.
 ///
@@ -37,6 +37,8 @@ pub struct Calibrated {
     calibration: Calibration,
     found: Found,
     damper: Py<Damper>,
+    predicted: Vec<Predicted>,
+    promises: Vec<Promise>,
 }
 
 #[pymethods]
@@ -90,6 +92,29 @@ impl Calibrated {
             .iter()
             .map(calibration_words::warning)
             .collect()
+    }
+
+    /// Each held-back test of `validate`, predicted with the calibrated damper: its root mean square error `error_n`,
+    /// the same beyond the noise as a share of the force `error_share`, the greatest `systematic` difference over the
+    /// velocity or `None`, and further keys as in the JSON of `dashpot calibrate --validate`.
+    #[getter]
+    fn validation<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyAny>> {
+        crate::json::report(py, &self.predicted)
+    }
+
+    /// The tests of the sheet `plan` by name, each with what would remain of the standard deviation of each parameter
+    /// after that test (1).
+    #[getter]
+    fn plan<'py>(&self, py: Python<'py>) -> Outcome<Bound<'py, PyDict>> {
+        let plan = PyDict::new(py);
+        for promise in &self.promises {
+            let shares = PyDict::new(py);
+            for (key, share) in &promise.shares {
+                shares.set_item(key, share)?;
+            }
+            plan.set_item(&promise.test, shares)?;
+        }
+        Ok(plan)
     }
 
     /// Standard deviations of the fitted parameters from linear theory, in the units of the parameters.
@@ -164,6 +189,12 @@ impl Calibrated {
 /// zero. With `skew=False` the sensors are assumed to record at the same instant. The search has `starts` starting
 /// points, 4 by default.
 ///
+/// `temperature_c` is the oil's temperature in the recordings (degrees Celsius): a number, or a sequence with one for
+/// each of `tests` and then of `validate`, `None` for that of the damper. `vary_each` names parameters that each test
+/// has for itself, in the form of `vary`; results call that of the first test `KEY@1`. `validate` has further loops,
+/// which are not fitted but predicted. `plan` is a sheet, built in or a file, whose tests are judged by how much each
+/// would narrow the intervals.
+///
 /// Intervals include the effect of the oil's temperature, known within `temperature_uncertainty_k`, and its density,
 /// known within `density_uncertainty_kg_per_m3` (half-widths of 95 % intervals). Parameters that the tests do not
 /// determine are refused, and so is a model whose misfit beyond the noise exceeds `max_misfit_percent` of a test's
@@ -181,7 +212,8 @@ impl Calibrated {
 #[pyfunction]
 #[pyo3(signature = (
     damper, tests=None, vary=None, *, indices=None, priors=None, known_priors=true, skew=true, starts=None,
-    step_s=0.00025, hold=None, temperature_uncertainty_k=5.0, density_uncertainty_kg_per_m3=0.0, max_misfit_percent=20.0
+    step_s=0.00025, hold=None, temperature_uncertainty_k=5.0, density_uncertainty_kg_per_m3=0.0,
+    max_misfit_percent=20.0, temperature_c=None, vary_each=None, validate=None, plan=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn calibrate(
@@ -199,6 +231,10 @@ pub fn calibrate(
     temperature_uncertainty_k: f64,
     density_uncertainty_kg_per_m3: f64,
     max_misfit_percent: f64,
+    temperature_c: Option<&Bound<'_, PyAny>>,
+    vary_each: Option<&Bound<'_, PyAny>>,
+    validate: Option<Vec<Samples<'_>>>,
+    plan: Option<&Bound<'_, PyAny>>,
 ) -> Outcome<Calibrated> {
     if !STEP_RANGE_S.contains(&step_s) {
         return Err(TestbenchError::Step { step_s }.into());
@@ -206,7 +242,7 @@ pub fn calibrate(
     let starts = starts.unwrap_or(Whole::Count(STARTS));
     let starts = starts.within("starts", 1..=1000)? as usize;
     let damper = damper.get();
-    let mut request = request(vary, priors, hold)?;
+    let mut request = request(vary, vary_each, priors, hold)?;
     request.only_own_priors = !known_priors;
     if !skew {
         request.hold.push((SKEW.into(), None));
@@ -225,18 +261,18 @@ pub fn calibrate(
         )?,
         max_misfit: 0.01 * within("max_misfit_percent", max_misfit_percent, [0.1, 1e4])?,
     };
-    let tests: Vec<Recorded> = tests
-        .unwrap_or_default()
-        .iter()
-        .enumerate()
-        .map(|(number, test)| recorded(number, test))
-        .collect::<Outcome<_>>()?;
+    let planned = match plan {
+        Some(sheet) => SheetParameters::load(&path(sheet)?)?.tests,
+        None => Vec::new(),
+    };
+    let planned: Vec<PlannedTest> = planned.into_iter().map(PlannedTest::from).collect();
+    let tests = all_recorded("tests", tests)?;
+    let held_back = all_recorded("validate", validate)?;
+    let temperatures_c = temperatures_c(temperature_c, tests.len() + held_back.len())?;
+    let (fitted_c, held_back_c) = temperatures_c.split_at(tests.len());
     let indices = index_tests(indices)?;
     let work = |is_unwanted: &(dyn Fn() -> bool + Sync)| {
-        let mut loops = Vec::new();
-        for test in &tests {
-            loops.extend(LoopTest::from_recording(test, step_s)?);
-        }
+        let loops = loops_of(&tests, fitted_c, step_s)?;
         // Without loops there is no skew, so it cannot be held.
         if loops.is_empty() && !skew {
             request.hold.retain(|(key, _)| key != SKEW);
@@ -253,117 +289,47 @@ pub fn calibrate(
             assumed,
         };
         let found = calibration.run_cancellable(&|_| {}, is_unwanted)?;
-        Ok::<_, Refusal>((calibration, found))
+        let held_back = loops_of(&held_back, held_back_c, step_s)?;
+        let predicted = calibration.predicted(&found, held_back)?;
+        let promises = match &planned[..] {
+            [] => Vec::new(),
+            planned => calibration.promises(&found, planned)?,
+        };
+        Ok::<_, Refusal>((calibration, found, predicted, promises))
     };
-    let (calibration, found) = py.detach(|| run_in_thread(work))??;
+    let (calibration, found, predicted, promises) = py.detach(|| run_in_thread(work))??;
     let name = format!("{}, calibrated", damper.name);
     let damper = Py::new(py, Damper::of(name, found.damper.clone())?)?;
     Ok(Calibrated {
         calibration,
         found,
         damper,
+        predicted,
+        promises,
     })
 }
 
-/// Checks that an argument is within its range.
-fn within(name: &str, value: f64, [min, max]: [f64; 2]) -> Outcome<f64> {
-    if (min..=max).contains(&value) {
-        return Ok(value);
-    }
-    refuse(format!("{name}: {value}, allowed: {min} to {max}"))
+/// Recorded loops from arrays; errors call them `list`.
+fn all_recorded(list: &str, tests: Option<Vec<Samples<'_>>>) -> Outcome<Vec<Recorded>> {
+    let tests = tests.unwrap_or_default();
+    let tests = tests.iter().enumerate();
+    tests
+        .map(|(number, test)| recorded(list, number, test))
+        .collect()
 }
 
-/// Builds the request from the arguments.
-fn request(
-    vary: Option<&Bound<'_, PyAny>>,
-    priors: Option<&Bound<'_, PyDict>>,
-    hold: Option<&Bound<'_, PyDict>>,
-) -> Outcome<Request> {
-    let mut keys: Vec<(String, Option<[f64; 2]>)> = Vec::new();
-    match vary.map(|vary| (vary, vary.cast::<PyDict>())) {
-        Some((_, Ok(bounded))) => {
-            for (key, bounds) in bounded {
-                keys.push((key.extract()?, bounds.extract()?));
-            }
+/// Tests of the recordings at their temperatures.
+fn loops_of(
+    recorded: &[Recorded],
+    temperatures_c: &[Option<f64>],
+    step_s: f64,
+) -> Outcome<Vec<LoopTest>> {
+    let mut loops = Vec::new();
+    for (test, temperature_c) in recorded.iter().zip(temperatures_c) {
+        for mut test in LoopTest::from_recording(test, step_s)? {
+            test.temperature_c = *temperature_c;
+            loops.push(test);
         }
-        Some((listed, Err(_))) => {
-            let listed: Vec<String> = listed.extract()?;
-            keys.extend(listed.into_iter().map(|key| (key, None)));
-        }
-        None => {}
     }
-    let mut given: Vec<(String, Prior)> = Vec::new();
-    for (key, pair) in priors.into_iter().flatten() {
-        let (key, (mean, standard_deviation)): (String, (f64, f64)) =
-            (key.extract()?, pair.extract()?);
-        if !(standard_deviation > 0.0 && standard_deviation.is_finite()) {
-            return refuse(format!(
-                "prior {key}: standard deviation {standard_deviation}, allowed: above 0"
-            ));
-        }
-        let prior = Prior {
-            mean,
-            standard_deviation,
-        };
-        given.push((key, prior));
-    }
-    let mut held: Vec<(String, Option<f64>)> = Vec::new();
-    for (key, value) in hold.into_iter().flatten() {
-        held.push((key.extract()?, value.extract()?));
-    }
-    Ok(Request {
-        vary_each: Vec::new(),
-        vary: keys,
-        priors: given,
-        hold: held,
-        only_own_priors: false,
-    })
-}
-
-/// Builds a recorded loop from three arrays.
-fn recorded(number: usize, [time_s, displacement_m, force_n]: &Samples<'_>) -> Outcome<Recorded> {
-    let numbers = |name: &str, array| {
-        let array = arrays::read::<f64, Ix1>(name, array).map_err(|refusal| match refusal {
-            Refusal::Value(words) => Refusal::Value(format!("tests[{number}]: {words}")),
-            other => other,
-        })?;
-        Ok::<_, Refusal>(array.as_array().to_vec())
-    };
-    let (times, displacements) = (
-        numbers("time", time_s)?,
-        numbers("displacement", displacement_m)?,
-    );
-    let forces = numbers("force", force_n)?;
-    Ok(Recorded::new(
-        format!("test {number}"),
-        times,
-        displacements,
-        forces,
-    )?)
-}
-
-/// Reads tests that give only their indices.
-fn index_tests(indices: Option<&Bound<'_, PyAny>>) -> Outcome<Vec<IndexTest>> {
-    let Some(indices) = indices else {
-        return Ok(Vec::new());
-    };
-    let py = indices.py();
-    let finite = [("allow_nan", false)].into_py_dict(py)?;
-    let text = py
-        .import("json")?
-        .call_method("dumps", (indices,), Some(&finite));
-    let text: String = match text {
-        Ok(text) => text.extract()?,
-        Err(error) => {
-            return refuse(format!(
-                "indices: {}; allowed: a list of dicts of finite Python numbers; leave out indices that were not \
-                 measured",
-                error.value(py)
-            ));
-        }
-    };
-    match serde_json::from_str(&text) {
-        Ok(tests) => Ok(tests),
-        Err(error) => refuse(format!("indices: {error}")),
-    }
+    Ok(loops)
 }

@@ -9,6 +9,7 @@ use dashpot_files::FileError;
 use dashpot_files::case::CaseError;
 use dashpot_files::damper::DamperError;
 use dashpot_files::profile::NamedProfileError;
+use dashpot_files::sheet::SheetFileError;
 use dashpot_files::study::StudyFileError;
 use dashpot_files::track::TrackFileError;
 use dashpot_files::vehicle::VehicleFileError;
@@ -98,6 +99,7 @@ macro_rules! with_file {
 with_file!(
     DamperError::File,
     NamedProfileError::File,
+    SheetFileError::File,
     TestbenchError::Recording,
     TrackFileError::File,
     VehicleRunError::Track,

@@ -15,7 +15,8 @@ pub fn report<'py>(py: Python<'py>, report: &impl Serialize) -> Outcome<Bound<'p
     }
 }
 
-fn in_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+/// Converts a value to a Python object.
+pub fn in_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     Ok(match value {
         Value::Null => py.None().into_bound(py),
         Value::Bool(truth) => truth.into_pyobject(py)?.to_owned().into_any(),

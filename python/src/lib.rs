@@ -7,26 +7,37 @@ mod arrays;
 mod bank;
 mod built;
 mod calibration;
+mod calibration_request;
 mod calibration_words;
+mod class;
 mod contact;
 mod contact_table;
 mod contact_warnings;
 mod creep_forces;
 mod damper;
 mod error;
+mod fleet;
+mod health;
 mod hybrid;
 mod interruption;
 mod json;
+mod modes;
 mod overrides;
 mod pickled;
 mod recording;
 mod remedy;
 mod replacements;
+mod response;
 mod rig;
+mod sensors;
+mod sheet;
+mod shims;
 mod state;
 mod stepped_vehicle;
 mod sweep;
+mod table;
 mod vehicle;
+mod verify;
 mod whole;
 
 /// The compiled module.
@@ -49,11 +60,23 @@ mod _dashpot {
     #[pymodule_export]
     use crate::damper::Damper;
     #[pymodule_export]
+    use crate::fleet::fleet;
+    #[pymodule_export]
+    use crate::health::health;
+    #[pymodule_export]
     use crate::hybrid::{MotionFilter, TransferSystem};
+    #[pymodule_export]
+    use crate::modes::modes;
     #[pymodule_export]
     use crate::recording::read;
     #[pymodule_export]
+    use crate::response::response;
+    #[pymodule_export]
     use crate::rig::Cycle;
+    #[pymodule_export]
+    use crate::sheet::sheet;
+    #[pymodule_export]
+    use crate::shims::shims;
     #[pymodule_export]
     use crate::state::State;
     #[pymodule_export]
@@ -62,4 +85,6 @@ mod _dashpot {
     use crate::sweep::Study;
     #[pymodule_export]
     use crate::vehicle::{VehicleRun, vehicle};
+    #[pymodule_export]
+    use crate::verify::verify;
 }

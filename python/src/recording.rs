@@ -9,10 +9,11 @@ use dashpot_recording::{
     Channel, Channels, DecimalMark, Gaps, Measurement, Quantity, Recording, Sample, TextOptions,
 };
 use dashpot_testbench::TestbenchError;
-use numpy::PyArray1;
+use numpy::{Ix1, PyArray1};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyMapping};
 
+use crate::arrays::read as read_array;
 use crate::error::{Outcome, refuse};
 use crate::overrides::path_of_file;
 
@@ -55,18 +56,9 @@ pub fn read<'py>(
     header: Option<bool>,
     decimal_mark: Option<&str>,
 ) -> Outcome<Bound<'py, PyDict>> {
-    let channels = Channels {
-        time: channel(Quantity::Time, time, time_unit)?,
-        displacement: channel(Quantity::Displacement, displacement, displacement_unit)?,
-        force: channel(Quantity::Force, force, force_unit)?,
-        group,
-        skip_invalid,
-        text: TextOptions {
-            header,
-            decimal_mark: decimal_mark.map(mark).transpose()?,
-            ..TextOptions::default()
-        },
-    };
+    let names = [time, displacement, force];
+    let units = [time_unit, displacement_unit, force_unit];
+    let channels = channels(names, units, group, skip_invalid, header, decimal_mark)?;
     let path = path_of_file(path)?;
     let path = path.as_path();
     if step_s.is_some() && with_force {
@@ -148,6 +140,59 @@ fn columns(
     };
     let columns = vec![("time_s", times), ("displacement_m", displacements)];
     Ok((columns, gaps))
+}
+
+/// Numbers of a recording: a mapping with arrays of these names, as `read` returns it, or a sequence of arrays in their
+/// order.
+pub fn arrays_of<const N: usize>(
+    recording: &Bound<'_, PyAny>,
+    names: [&str; N],
+) -> Outcome<[Vec<f64>; N]> {
+    let is_mapping = recording.cast::<PyMapping>().is_ok();
+    let listed = match is_mapping {
+        true => Vec::new(),
+        false => recording.try_iter()?.collect::<PyResult<Vec<_>>>()?,
+    };
+    if !is_mapping && listed.len() != N {
+        return refuse(format!(
+            "recording: {} arrays, allowed: {N}, {}",
+            listed.len(),
+            names.join(", ")
+        ));
+    }
+    let mut found = [const { Vec::new() }; N];
+    for (number, name) in names.into_iter().enumerate() {
+        let array = match listed.get(number) {
+            Some(array) => array.clone(),
+            None if recording.contains(name)? => recording.get_item(name)?,
+            None => return refuse(format!("recording: no array {name}")),
+        };
+        found[number] = read_array::<f64, Ix1>(name, &array)?.as_array().to_vec();
+    }
+    Ok(found)
+}
+
+/// Channels with the names and units of time, displacement and force.
+pub fn channels(
+    [time, displacement, force]: [Option<String>; 3],
+    [time_unit, displacement_unit, force_unit]: [Option<&str>; 3],
+    group: Option<String>,
+    skip_invalid: bool,
+    header: Option<bool>,
+    decimal_mark: Option<&str>,
+) -> Outcome<Channels> {
+    Ok(Channels {
+        time: channel(Quantity::Time, time, time_unit)?,
+        displacement: channel(Quantity::Displacement, displacement, displacement_unit)?,
+        force: channel(Quantity::Force, force, force_unit)?,
+        group,
+        skip_invalid,
+        text: TextOptions {
+            header,
+            decimal_mark: decimal_mark.map(mark).transpose()?,
+            ..TextOptions::default()
+        },
+    })
 }
 
 /// Parses a decimal mark, given by name or as the character itself.

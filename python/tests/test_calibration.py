@@ -118,6 +118,40 @@ class Calibration(Test):
         self.assertAlmostEqual(found.values[DAMPING] / 100e3, 1, 3)
         self.assertEqual(found.loops, [])
 
+    def test_held_back_tests_are_predicted_and_further_tests_judged(self):
+        found = dashpot.calibrate(self.start, self.tests[:1], [DAMPING], step_s=1e-3, starts=1, validate=self.tests[1:],
+                                  plan="example")
+        (held_back,) = found.validation
+        self.assertEqual(held_back["test"], "validate 0")
+        # The stiffness is wrong by 29 %, which the second test shows.
+        self.assertGreater(held_back["error_share"], 0.05)
+        exact = dashpot.calibrate(self.start, self.tests, [DAMPING, STIFFNESS], step_s=1e-3, starts=1,
+                                  validate=[loop(7, 12.0, 3e-4)])
+        self.assertLess(exact.validation[0]["error_share"], 0.01)
+        self.assertEqual(exact.plan, {})
+        self.assertEqual(set(next(iter(found.plan.values()))), set(found.values))
+        self.assertTrue(all(0 < share <= 1 for shares in found.plan.values() for share in shares.values()))
+
+    def test_parameters_of_single_tests_and_their_temperatures(self):
+        made = dashpot.Damper("in-service", {"mount.clearance_m": 0.0})
+        tests = []
+        for seed, temperature_c in enumerate((20.0, 50.0)):
+            time_s, x, _ = loop(seed, 1.0, 1e-2)
+            force_n = made.replace({"oil.temperature_c": temperature_c}).build(1e-3, float).replay(x)
+            offset = 100.0 * (seed + 1)
+            noise = numpy.random.default_rng(seed).normal(0, 20, len(x))
+            tests.append((time_s, x, force_n + offset + noise))
+        key = "orifice.discharge_coefficient"
+        found = dashpot.calibrate(made, tests, [key], step_s=1e-3, starts=1, temperature_c=[20.0, 50.0],
+                                  vary_each=["force_offset_n"])
+        self.assertAlmostEqual(found.values["force_offset_n@1"], 100, -1)
+        self.assertAlmostEqual(found.values["force_offset_n@2"], 200, -1)
+        self.assertAlmostEqual(found.values[key] / made[key], 1, 2)
+        self.assert_refused("temperature_c: 3 values for 2 recordings, allowed: one for all, or one for each",
+                            dashpot.calibrate, made, tests, [key], temperature_c=[1, 2, 3])
+        self.assert_refused("temperature_c: 400, allowed: -100 to 300", dashpot.calibrate, made, tests, [key],
+                            temperature_c=400)
+
     def test_an_interruption_ends_it(self):
         indices = [{"amplitude_m": 3e-3, "frequency_hz": 1.0, "max_extension_force_n": 1900.0}]
         for tests in ({"tests": self.tests}, {"indices": indices}):

@@ -38,12 +38,14 @@ macro_rules! suites {
 }
 
 suites!(
+    test_analysis,
     test_arrays,
     test_bank,
     test_calibration,
     test_contact,
     test_damper,
     test_documentation,
+    test_health,
     test_hybrid,
     test_notebook,
     test_recording,

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use super::Class;
 use crate::error::{Outcome, refuse};
 
-static MOTION: Class = Class::new("Motion");
+static MOTION: Class = super::class("Motion");
 
 /// Estimates velocity, acceleration and jerk of a displacement that is known only at the ticks.
 ///

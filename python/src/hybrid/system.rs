@@ -10,10 +10,10 @@ use super::any::AnyCompensator;
 use super::compensator::Given;
 use crate::error::{Outcome, refuse};
 
-static COMMAND: Class = Class::new("Command");
-static STATUS: Class = Class::new("HybridStatus");
-static TRACKING: Class = Class::new("TrackingReading");
-static ENERGY: Class = Class::new("EnergyReading");
+static COMMAND: Class = super::class("Command");
+static STATUS: Class = super::class("HybridStatus");
+static TRACKING: Class = super::class("TrackingReading");
+static ENERGY: Class = super::class("EnergyReading");
 
 /// All that stands between a simulated vehicle and an actuator: compensator, tracking, energy and guard, in single
 /// precision with the bits of the target.

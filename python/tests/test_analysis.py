@@ -1,0 +1,190 @@
+"""Response, verification, shim packs, modes and sheets: the numbers of the command, tables, plots and refusals."""
+
+import json
+import pathlib
+import pickle
+import tempfile
+
+import dashpot
+import numpy
+from common import Test, columns, command
+from interruption import interrupted
+
+SHEET = """title = "Acceptance"
+[[field]]
+name = "Part number"
+text = "SV-25"
+[[test]]
+name = "one hertz"
+amplitude_m = 10e-3
+frequency_hz = 1
+[test.limits.dynamic_stiffness_n_per_m]
+nominal = 160e3
+tolerance_percent = 3
+"""
+
+
+class Response(Test):
+    def test_the_numbers_are_those_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            command("response", "--damper", "in-service", "--amplitude-m", "1e-3,5e-3", "--from-hz", "0.5", "--to-hz", "8",
+                    "--points", "5", "--swept", "--output", "out.csv", folder=folder)
+            told = columns(pathlib.Path(folder, "out.csv"))
+        hz = numpy.array(told["frequency_hz"][:5], float)
+        found = dashpot.response(dashpot.Damper("in-service"), [1e-3, 5e-3], frequency_hz=hz, swept=True)
+        for kind, curves in (("harmonic", found.harmonic), ("swept", found.swept), ("linearised", found.linearised)):
+            rows = [row for row, response in enumerate(told["response"]) if response == kind]
+            for name in ("dynamic_stiffness_n_per_m", "loss_angle_deg", "storage_n_per_m", "loss_n_per_m", "damping_n_s_per_m"):
+                expected = numpy.array([told[name][row] for row in rows], float).reshape(-1, 5)
+                self.assertEqual(getattr(curves, name).tolist(), expected.tolist(), (kind, name))
+        differences = [cell for cell, kind in zip(told["difference"], told["response"]) if kind == "swept"]
+        self.assertEqual(found.difference.ravel().tolist(), [float(cell) for cell in differences])
+        self.assertEqual(pickle.loads(pickle.dumps(found)).harmonic.loss_n_per_m.tolist(), found.harmonic.loss_n_per_m.tolist())
+        self.assertEqual(len(found.plot().lines), 3)
+
+    def test_the_defaults_are_those_of_the_command(self):
+        report = json.loads(command("response", "--damper", "reduced-vertical", "--format", "json"))
+        found = dashpot.response(dashpot.Damper("reduced-vertical"))
+        self.assertEqual(found.amplitude_m.tolist(), [series["amplitude_m"] for series in report["series"][:3]])
+        self.assertEqual(found.frequency_hz.tolist(), [row["frequency_hz"] for row in report["series"][0]["rows"]])
+        self.assertIsNone(found.swept)
+
+    def test_wrong_arguments_are_refused_and_an_interruption_ends_it(self):
+        damper = dashpot.Damper("in-service")
+        self.assert_refused("amplitude_m: empty, allowed: at least one amplitude", dashpot.response, damper, [])
+        falling = numpy.array([2.0, 1.0])
+        self.assert_refused("frequency_hz: not rising, allowed with swept=True: rising frequencies", dashpot.response, damper,
+                            frequency_hz=falling, swept=True)
+        with self.assertRaisesRegex(dashpot.DashpotError, "frequency"):
+            dashpot.response(damper, frequency_hz=numpy.array([-1.0]))
+        self.assertTrue(interrupted(dashpot.response, damper, frequency_hz=numpy.geomspace(0.1, 20, 5000)))
+
+
+class Verification(Test):
+    def test_the_numbers_are_those_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            time_s = numpy.arange(400) * 2e-3
+            x = 5e-3 * numpy.sin(20 * time_s)
+            path = pathlib.Path(folder, "run.csv")
+            rows = "".join(f"{time!r},{position!r}\n" for time, position in zip(time_s.tolist(), x.tolist()))
+            path.write_text("time_s,displacement_m\n" + rows)
+            told = json.loads(command("verify", "--damper", "paper", "--input", path, "--step-us", 1000, "--format", "json"))
+        found = dashpot.verify(dashpot.Damper("paper"), (time_s, x), step_s=1e-3)
+        self.assertEqual([vars(row) for row in found], told["deviations"])
+        self.assertLess(found[0].nrmse, 0.01)
+
+    def test_the_fixed_set_is_that_of_the_command(self):
+        told = json.loads(command("verify", "--damper", "reduced-vertical", "--step-us", 5000, "--format", "json"))
+        found = dashpot.verify(dashpot.Damper("reduced-vertical"), step_s=5e-3)
+        for row, expected in zip(found, told["errors"], strict=True):
+            for name in ("nrmse_motion", "largest_error_motion"):
+                expected[name] = tuple(expected[name][part] for part in ("kind", "speed_m_per_s"))
+            self.assertEqual(vars(row), expected)
+
+    def test_wrong_arguments_are_refused(self):
+        damper = dashpot.Damper("paper")
+        self.assert_refused("recording: 1 arrays, allowed: 2, time_s, displacement_m", dashpot.verify, damper, [numpy.zeros(3)])
+        self.assert_refused("recording: no array displacement_m", dashpot.verify, damper, {"time_s": numpy.zeros(3)})
+        self.assert_refused("3 times and 2 displacements, allowed: the same number of each", dashpot.verify, damper,
+                            (numpy.arange(3.0), numpy.zeros(2)))
+        self.assert_refused("top_speed_m_per_s: 99, allowed: above 0 and at most limits.rate_m_per_s = 2 m/s", dashpot.verify,
+                            damper, top_speed_m_per_s=99)
+
+
+class Shims(Test):
+    def test_the_numbers_are_those_of_the_command(self):
+        told = json.loads(command("shims", "--damper", "in-service", "--no-plots", "--format", "json"))
+        for found, expected in zip(dashpot.shims(dashpot.Damper("in-service")), told["valves"], strict=True):
+            pack = expected.pop("pack") or {}
+            cw, pressures, shims_m = pack.pop("cw", None), expected.pop("pressures"), expected.pop("shims_m")
+            for name, value in {**expected, **pack}.items():
+                self.assertEqual(getattr(found, name), value, name)
+            self.assertEqual(found.shims_m.tolist(), shims_m)
+            for name, values in found.pressures.items():
+                expected = [numpy.nan if row[name] is None else row[name] for row in pressures]
+                numpy.testing.assert_array_equal(values, expected)
+            if cw:
+                self.assertEqual(found.cw["cw_m6_per_n"].tolist(), [row["cw_m6_per_n"] for row in cw])
+            self.assertIn(found.valve, found._repr_html_())
+            self.assertEqual(len(found.plot("flow_m3_per_s").lines), 1)
+
+    def test_a_damper_without_valves_is_refused(self):
+        self.assert_refused("a reduced damper has no shim packs; use a damper with [valves], such as `paper`", dashpot.shims,
+                            dashpot.Damper("reduced-vertical"))
+
+
+class Modes(Test):
+    def test_the_numbers_are_those_of_the_command(self):
+        damper = dashpot.Damper("in-service")
+        for options, arguments in (
+            ((), {}),
+            (("--speed-km-h", 120, "--set", "body.mass_kg=70e3", "--rail-inclination", 0.05),
+             {"speed_km_h": 120, "overrides": {"body.mass_kg": 70e3}, "contact": {"rail_inclination": 0.05}}),
+        ):
+            told = json.loads(command("modes", "--vehicle", "locomotive", *options, "--format", "json"))
+            found = dashpot.modes("locomotive", **arguments)
+            self.assertEqual((found.axle_loads_n.tolist(), found.speed_km_h), (told["axle_loads_n"], told["speed_km_h"]))
+            for name, values in found.modes.items():
+                self.assertEqual(list(values), [row[name] for row in told["modes"]], name)
+            self.assertIn(found.modes["mode"][0], found._repr_html_())
+        softer = dashpot.modes("locomotive", dampers={"vertical": damper}).modes["damping_ratio"]
+        self.assertNotEqual(softer.tolist(), dashpot.modes("locomotive").modes["damping_ratio"].tolist())
+
+    def test_wrong_arguments_are_refused(self):
+        self.assert_refused("speed_km_h: 0, allowed: 1 to 700 km/h", dashpot.modes, "locomotive", speed_km_h=0)
+        self.assert_refused("hunting and speed_km_h: both given, allowed: only one of them", dashpot.modes, "locomotive",
+                            speed_km_h=80, hunting=True)
+        self.assert_refused("friction: 3, allowed: 0 to 2", dashpot.modes, "locomotive", speed_km_h=80, friction=3)
+        with self.assertRaises(dashpot.DashpotError):
+            dashpot.modes("lokomotive")
+
+
+class Sheet(Test):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.folder = pathlib.Path(self.temporary.name)
+        (self.folder / "sheet.toml").write_text(SHEET)
+        time_s = numpy.arange(4000) * 2e-3
+        w = 2 * numpy.pi
+        x = 0.01 * numpy.sin(w * time_s)
+        force_n = 1e5 * x + 2e4 * w * 0.01 * numpy.cos(w * time_s)
+        rows = numpy.stack([time_s, 1e3 * x, force_n], 1)
+        numpy.savetxt(self.folder / "bench.csv", rows, delimiter=",", header="time_s,Weg,force_n", comments="")
+
+    def sheet(self, **options):
+        return dashpot.sheet(self.folder / "sheet.toml", self.folder / "bench.csv", displacement="Weg",
+                             displacement_unit="mm", **options)
+
+    def test_the_sheet_is_that_of_the_command(self):
+        options = ("sheet", "--sheet", "sheet.toml", "--input", "bench.csv", "--displacement", "Weg", "--displacement-unit", "mm",
+                   "--operator", "A. Miller", "--temperature-c", "20")
+        text = command(*options, folder=self.folder)
+        told = json.loads(command(*options, "--page", "page.html", "--format", "json", folder=self.folder))
+        found = self.sheet(operator="A. Miller", temperature_c=20)
+        self.assertEqual((found.verdict, found.limits, found.title), (told["verdict"], told["limits"], told["title"]))
+        self.assertEqual((found.verdict, found.is_good), ("passed", True))
+        self.assertEqual(found.fields, {line["name"]: line["text"] for line in told["fields"]})
+        self.assertEqual(found.recordings, told["recordings"])
+        self.assertEqual(found.text, text)
+        self.assertEqual(found.page.replace(str(self.folder) + "/", ""), (self.folder / "page.html").read_text())
+        for test, expected in zip(found.tests, told["tests"], strict=True):
+            for name, value in expected.items():
+                self.assertEqual(getattr(test, name), value, name)
+            self.assertAlmostEqual(test.force_n.max() / 1e3, 1.606, 2)
+        self.assertIn("one hertz", found._repr_html_())
+        self.assertEqual(len(found.plot().lines), 1)
+
+    def test_a_failed_sheet_is_returned(self):
+        (self.folder / "sheet.toml").write_text(SHEET.replace("160e3", "250e3"))
+        found = self.sheet()
+        self.assertEqual((found.verdict, found.is_good, found.limits_not_kept), ("failed", False, 1))
+        self.assertEqual(found.tests[0].limits[0]["verdict"], "outside")
+
+    def test_wrong_arguments_are_refused(self):
+        self.assert_refused("recordings: empty, allowed: at least one file", dashpot.sheet, "example", [])
+        self.assert_refused("temperature_c: 2 values for 1 recordings, allowed: one for all, or one for each", self.sheet,
+                            temperature_c=[20, 30])
+        self.assert_refused("force_uncertainty_percent: -1, allowed: 0 to 100", self.sheet, force_uncertainty_percent=-1)
+        with self.assertRaises(dashpot.DashpotFileError):
+            dashpot.sheet("example", self.folder / "none.csv")
