@@ -51,6 +51,27 @@ class Sheet:
     `recordings` states each file with its SHA-256, `other_motions` the motions that belong to no test, and
     `unused_cycles` the cycles that belong to no steady motion. `limits` and `limits_not_kept` are numbers. `page` is the
     sheet as a self-contained HTML page, for archiving or printing, and `text` the report of the command.
+
+    >>> import dashpot, numpy, pathlib, tempfile
+    >>> time_s = numpy.arange(4000) * 2e-3
+    >>> x, v = 0.01 * numpy.sin(6 * time_s), 0.06 * numpy.cos(6 * time_s)
+    >>> rows = numpy.stack([time_s, x, 100e3 * x + 20e3 * v], 1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     acceptance, bench = pathlib.Path(folder, "acceptance.toml"), pathlib.Path(folder, "bench.csv")
+    ...     _ = acceptance.write_text('''
+    ... title = "Acceptance"
+    ... [[test]]
+    ... name = "slow"
+    ... amplitude_m = 0.01
+    ... frequency_hz = 0.955
+    ... [test.limits.max_extension_force_n]
+    ... nominal = 1560
+    ... tolerance_percent = 5
+    ... ''')
+    ...     numpy.savetxt(bench, rows, delimiter=",", header="time_s,displacement_m,force_n", comments="")
+    ...     found = dashpot.sheet(acceptance, bench)
+    >>> found.verdict, round(found.tests[0].indices["max_extension_force_n"], -1)
+    ('passed', 1560.0)
     """
 
     title: str

@@ -24,8 +24,8 @@ static MODES: Class = Class::new("dashpot._modes", "Modes");
 ///
 /// >>> import dashpot
 /// >>> found = dashpot.modes("locomotive", speed_km_h=180)
-/// >>> found.modes["mode"][0], round(float(found.modes["damping_ratio"].min()), 2) > 0
-/// ('lateral and roll', True)
+/// >>> found.modes["mode"][1], round(float(found.modes["undamped_hz"][1]), 2)
+/// ('body bounce', 1.79)
 #[pyfunction]
 #[pyo3(signature = (
     vehicle, *, speed_km_h=None, hunting=false, sliding=false, friction=0.4, dampers=None, overrides=None, contact=None

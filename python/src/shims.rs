@@ -31,8 +31,8 @@ const PRESSURES: [&str; 6] = [
 /// >>> valves = dashpot.shims(dashpot.Damper("in-service"))
 /// >>> [valve.valve for valve in valves]
 /// ['piston extension', 'piston compression', 'foot compression']
-/// >>> float(valves[0].pressures["pressure_pa"][0])
-/// 1000000.0
+/// >>> round(1e3 * float(valves[0].pressures["lift_m"][-1]), 3)  # mm, at 10 MPa
+/// 0.028
 #[pyfunction]
 pub fn shims<'py>(py: Python<'py>, damper: &Bound<'py, Damper>) -> Outcome<Bound<'py, PyList>> {
     let parameters = &damper.get().parameters;
