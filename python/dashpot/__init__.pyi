@@ -1205,8 +1205,7 @@ class Sheet:
     text: str
     page: str
     def plot(self, axes: Any = None) -> Any:
-        """Plots the mean loops of force over displacement with matplotlib, and returns the axes, new ones by default.
-        """
+        """Plots the mean loops of force over displacement with matplotlib; returns the axes, new ones by default."""
     def _repr_html_(self) -> str: ...
 
 def sheet(

@@ -9,10 +9,10 @@ from ._notebook import table
 class Fleet:
     """Trends of a fleet's dampers. `dashpot.fleet` returns it.
 
-    `trends` has a row for each damper and parameter, the damper to look at first in front, and `readings` a row for each
-    recording: dictionaries of columns, as `pandas.DataFrame` accepts them, with the names of the files that `dashpot
-    health` writes with `--trends` and `--output`. `recordings_used` of the `recordings` have a place in a trend; the
-    column `refused_because` of `readings` says why others have none. `text` is the report of the command.
+    `trends` has a row for each damper and parameter, the damper to look at first in front, and `readings` a row for
+    each recording: dictionaries of columns, as `pandas.DataFrame` accepts them, with the names of the files that
+    `dashpot health` writes with `--trends` and `--output`. `recordings_used` of the `recordings` have a place in a
+    trend; the column `refused_because` of `readings` says why others have none. `text` is the report of the command.
 
     >>> import dashpot, numpy, pathlib, tempfile
     >>> damper, time_s = dashpot.Damper("in-service"), numpy.arange(8000) * 1e-3

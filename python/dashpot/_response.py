@@ -45,8 +45,8 @@ class Response:
         return f"<Response at {amplitudes} m, {len(hz)} frequencies from {hz[0]:g} to {hz[-1]:g} Hz>"
 
     def plot(self, quantity="dynamic_stiffness_n_per_m", axes=None):
-        """Plots a quantity of the curves over frequency with matplotlib, one line per amplitude and a dashed one for the
-        linearised damper, and returns the axes, new ones by default. An unknown name raises `AttributeError`.
+        """Plots a quantity of the curves over frequency with matplotlib, one line per amplitude and a dashed one for
+        the linearised damper, and returns the axes, new ones by default. An unknown name raises `AttributeError`.
         """
         rows, linear = getattr(self.harmonic, quantity), getattr(self.linearised, quantity)
         axes = axes_for(axes)

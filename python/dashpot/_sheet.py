@@ -49,8 +49,8 @@ class Sheet:
     `verdict` is `passed`, `failed`, `undecided`, `incomplete` or `no_limits`; `is_good` is true for the first and the
     last. `tests` has a `dashpot.SheetTest` for each measured test, and `missing` the names of the others.
     `recordings` states each file with its SHA-256, `other_motions` the motions that belong to no test, and
-    `unused_cycles` the cycles that belong to no steady motion. `limits` and `limits_not_kept` are numbers. `page` is the
-    sheet as a self-contained HTML page, for archiving or printing, and `text` the report of the command.
+    `unused_cycles` the cycles that belong to no steady motion. `limits` and `limits_not_kept` are numbers. `page` is
+    the sheet as a self-contained HTML page, for archiving or printing, and `text` the report of the command.
 
     >>> import dashpot, numpy, pathlib, tempfile
     >>> time_s = numpy.arange(4000) * 2e-3
@@ -94,17 +94,14 @@ class Sheet:
         return f"<Sheet '{self.title}': {self.verdict}, {self.limits_not_kept} of {self.limits} limits not kept>"
 
     def _repr_html_(self):
-        rows = [
-            (test.name, limit["index"], limit["value"], limit["half_width"], limit["least"], limit["most"], limit["verdict"])
-            for test in self.tests
-            for limit in test.limits
-        ]
+        keys = ("index", "value", "half_width", "least", "most", "verdict")
+        rows = [(test.name, *(limit[key] for key in keys)) for test in self.tests for limit in test.limits]
         warnings = "".join(f"<p>{html.escape(warning)}</p>" for warning in self.warnings)
         header = ("test", "index", "value", "±", "from", "to", "verdict")
         return table(f"{self.title}: {self.verdict}", header, rows) + warnings
 
     def plot(self, axes=None):
-        """Plots the mean loops of force over displacement with matplotlib, and returns the axes, new ones by default."""
+        """Plots the mean loops of force over displacement with matplotlib; returns the axes, new ones by default."""
         axes = axes_for(axes)
         for test in self.tests:
             axes.plot(1e3 * test.displacement_m, 1e-3 * test.force_n, label=test.name)

@@ -10,10 +10,11 @@ class Shims:
     """A valve of a damper and its shim pack. `dashpot.shims` returns one for each valve.
 
     `shims_m` are the thicknesses of the discs (m), which are clamped at `clamp_radius_m` and free at `free_radius_m`.
-    `equivalent_thickness_m` and `edge_compliance_m_per_pa` follow from disc theory under uniform pressure, as does `cw`,
-    the deflection coefficient `cw_m6_per_n` over `radius_m`; all three are `None` if the file gives the compliance
-    `given_edge_compliance_m_per_pa` instead of discs. The damper model uses `effective_edge_compliance_m_per_pa`, which
-    is one of the two multiplied by `equivalent_pressure_factor`, and no lift below `preload_pa`.
+    `equivalent_thickness_m` and `edge_compliance_m_per_pa` follow from disc theory under uniform pressure, as does
+    `cw`, the deflection coefficient `cw_m6_per_n` over `radius_m`; all three are `None` if the file gives the
+    compliance `given_edge_compliance_m_per_pa` instead of discs. The damper model uses
+    `effective_edge_compliance_m_per_pa`, which is one of the two multiplied by `equivalent_pressure_factor`, and no
+    lift below `preload_pa`.
 
     `pressures` has columns over `pressure_pa`: `lift_m` and `flow_m3_per_s` as used, `theory_uniform_m`, and the
     published deflections, NaN except for the packs of the source paper, as `theory_over_published`.
@@ -40,8 +41,8 @@ class Shims:
         return table(self.valve, tuple(self.pressures), zip(*self.pressures.values()))
 
     def plot(self, quantity="lift_m", axes=None):
-        """Plots a column of `pressures` over the pressure with matplotlib, and returns the axes, new ones by default. An
-        unknown name raises `KeyError`.
+        """Plots a column of `pressures` over the pressure with matplotlib, and returns the axes, new ones by default.
+        An unknown name raises `KeyError`.
         """
         values = self.pressures[quantity]
         axes = axes_for(axes)

@@ -9,8 +9,8 @@ class StepError:
 
     `nrmse` is the root mean square error of the worst motion over its root mean square force, `largest_error_n` the
     largest error at a tick, and `largest_wrong_sign_n` the largest force where that of the reference has the opposite
-    sign or is zero. The motions are pairs of kind and speed (m/s). `promised_nrmse` and `promised_error_n` are guaranteed
-    for every motion of the class in docs/numerics.md.
+    sign or is zero. The motions are pairs of kind and speed (m/s). `promised_nrmse` and `promised_error_n` are
+    guaranteed for every motion of the class in docs/numerics.md.
     """
 
     scalar: str

@@ -33,10 +33,11 @@ const ANY_NOISE: Noise = Noise {
 /// limits are reached.
 ///
 /// The file recordings.csv in `folder` lists the recordings; without it, files must be named
-/// VEHICLE/DAMPER/DATE.EXTENSION. `damper` is the model of recordings that name none. `mileage` uses the mileage instead
-/// of the date. The limits are the lowest damping relative to nominal, the lowest stiffness and the highest clearance,
-/// by default those of the kind of damper. `accept_several_changed` uses readings of which several parameters have
-/// changed together. The other arguments are those of `dashpot.health` and `dashpot.read`. Ctrl-C cancels the estimate.
+/// VEHICLE/DAMPER/DATE.EXTENSION. `damper` is the model of recordings that name none. `mileage` uses the mileage
+/// instead of the date. The limits are the lowest damping relative to nominal, the lowest stiffness and the highest
+/// clearance, by default those of the kind of damper. `accept_several_changed` uses readings of which several
+/// parameters have changed together. The other arguments are those of `dashpot.health` and `dashpot.read`. Ctrl-C
+/// cancels the estimate.
 #[pyfunction]
 #[pyo3(signature = (
     folder, damper, *, mileage=false, limit_damping_factor=None, limit_stiffness_n_per_m=None, limit_clearance_m=None,

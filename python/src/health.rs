@@ -53,10 +53,10 @@ const ESTIMATES: [(&str, Estimated); 8] = [
 /// stiffness and clearance with standard deviations, alarms, and the likely cause of a change.
 ///
 /// `recording` has the float64 arrays `time_s`, `displacement_m` and `force_n`: a dictionary, as `dashpot.read(path,
-/// with_force=True)` returns it, or a sequence of the three. It is resampled to ticks of `step_s` (s). Noise that is not
-/// given is estimated from the recording. `memory_s` is the time in contact after which the weight of a sample drops to
-/// 1/e (default 1 s), `law_deviation` the relative error of the model of a healthy damper within a stroke (default
-/// 0.05), `lag_s` the lag of the measured force and `lag_sd_s` its standard deviation (default 0 and 1 ms).
+/// with_force=True)` returns it, or a sequence of the three. It is resampled to ticks of `step_s` (s). Noise that is
+/// not given is estimated from the recording. `memory_s` is the time in contact after which the weight of a sample
+/// drops to 1/e (default 1 s), `law_deviation` the relative error of the model of a healthy damper within a stroke
+/// (default 0.05), `lag_s` the lag of the measured force and `lag_sd_s` its standard deviation (default 0 and 1 ms).
 ///
 /// `baseline` is the result of a recording of the damper when it was healthy; without it, the damper itself is the
 /// baseline. Ctrl-C cancels the estimate.

@@ -19,8 +19,8 @@ static MODES: Class = Class::new("dashpot._modes", "Modes");
 /// damping and what moves.
 ///
 /// `vehicle` is built in or a file; `dampers`, `overrides` and `contact` are those of `dashpot.vehicle`. With `hunting`
-/// the critical speeds are searched for, and the modes are those at the linear one. With `sliding` the friction elements
-/// slide and have no part in a mode; otherwise they stick.
+/// the critical speeds are searched for, and the modes are those at the linear one. With `sliding` the friction
+/// elements slide and have no part in a mode; otherwise they stick.
 ///
 /// >>> import dashpot
 /// >>> found = dashpot.modes("locomotive", speed_km_h=180)

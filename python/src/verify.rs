@@ -27,8 +27,9 @@ static RECORDED_ERROR: Class = Class::new(MODULE, "RecordedError");
 /// each step of `step_s` (s), one in each precision.
 ///
 /// Without a recording the damper follows about a hundred motions scaled to it, and each row is a `dashpot.StepError`;
-/// `top_speed_m_per_s` is the top speed of the motions. `recording` has the float64 arrays
-/// `time_s` and `displacement_m`, as a dictionary or a pair, and each row is then a `dashpot.RecordedError`. Ctrl-C cancels between two steps.
+/// `top_speed_m_per_s` is the top speed of the motions. `recording` has the float64 arrays `time_s` and
+/// `displacement_m`, as a dictionary or a pair, and each row is then a `dashpot.RecordedError`. Ctrl-C cancels between
+/// two steps.
 ///
 /// >>> import dashpot, numpy
 /// >>> time_s = numpy.arange(500) * 1e-3

@@ -57,8 +57,8 @@ pub enum ModesError {
     Contact(String),
     /// The contact is not that of uniform track.
     #[error(
-        "contact: values of one rail or along the track, allowed: values of the whole track, because modes are those of \
-         a vehicle on uniform track"
+        "contact: values of one rail or along the track, allowed: values of the whole track, because modes are those \
+         of a vehicle on uniform track"
     )]
     NotUniform,
     /// The vehicle is invalid.
