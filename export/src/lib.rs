@@ -16,6 +16,7 @@ mod word;
 pub use c::{c_header, c_source};
 pub use error::{ExportError, NameError};
 pub use health::{health_c_header, health_c_source, health_rust_source};
+pub use name::constant_name;
 pub use provenance::Provenance;
 pub use rust::rust_source;
 pub use standalone::{standalone_header, standalone_source, standalone_table_bytes};

@@ -1,7 +1,10 @@
 //! Checks of constant names and include names.
 
+use std::path::Path;
+
 use super::error::{C_LIBRARY_PREFIX, RESERVED_SUFFIXES};
 use super::{ExportError, NameError};
+use dashpot_files::input::is_standard_stream;
 
 /// Checks a constant name: a capital letter, then capitals, digits and `_`. No keyword of Rust, C or C++ has this form.
 pub(super) fn check(name: &str) -> Result<(), ExportError> {
@@ -28,6 +31,35 @@ pub(super) fn check_c(name: &str) -> Result<(), ExportError> {
         return Err(name_error(name, NameError::Reserved));
     }
     Ok(())
+}
+
+/// Derives a constant name from a preset or a file: MY_DAMPER for `data/my-damper.toml`, DAMPER for standard input.
+///
+/// ```
+/// assert_eq!(dashpot_export::constant_name("data/my-damper.toml"), "MY_DAMPER");
+/// ```
+pub fn constant_name(damper: &str) -> String {
+    if is_standard_stream(Path::new(damper)) {
+        return "DAMPER".into();
+    }
+    let stem = Path::new(damper)
+        .file_stem()
+        .map_or_else(|| damper.into(), |stem| stem.to_string_lossy());
+    let name: String = stem
+        .chars()
+        .map(|letter| {
+            if letter.is_ascii_alphanumeric() {
+                letter.to_ascii_uppercase()
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    if name.starts_with(|first: char| first.is_ascii_uppercase()) {
+        name
+    } else {
+        format!("DAMPER_{name}")
+    }
 }
 
 fn name_error(name: &str, reason: NameError) -> ExportError {

@@ -1,4 +1,5 @@
 import enum
+import pathlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -60,6 +61,7 @@ __all__ = [
     "calibrate",
     "contact",
     "creep_forces",
+    "export",
     "fleet",
     "health",
     "modes",
@@ -683,6 +685,24 @@ def calibrate(
     known within `density_uncertainty_kg_per_m3` (half-widths of 95 % intervals). Parameters that the tests do not
     determine are refused, and so is a model whose misfit beyond the noise exceeds `max_misfit_percent` of a test's
     force. Ctrl-C cancels the fit.
+    """
+
+def export(
+    damper: Damper,
+    output: _Path,
+    *,
+    lang: Literal["rust", "c", "bin"] = "c",
+    standalone: bool = False,
+    step_s: float = 0.001,
+    dtype: DTypeLike | None = None,
+    name: str | None = None,
+) -> list[pathlib.Path]:
+    """Builds a damper for a fixed step and writes it, as `dashpot export --lang`; returns the files, which replace
+    older ones.
+
+    `lang` is `"rust"` (a `static` of dashpot-core), `"c"` (bytes for the C library, and a header beside `output`) or
+    `"bin"` (bytes only). With `standalone`, C contains the step and needs no library. `dtype` is float32, as on the
+    target, or float64. `name` is that of the constant, by default the damper's in capitals. A comment states this call.
     """
 
 @final

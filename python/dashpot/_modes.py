@@ -13,6 +13,11 @@ class Modes:
     `damping_ratio`, which is negative if a mode grows. `axle_loads_n` is an array, and `speed_km_h` the speed of the
     modes, `None` at standstill. The critical speeds and the amplitude of the limit cycle, `limit_cycle_m`, are `None`
     unless `hunting` found them. `friction_elements` is the number of friction elements of the vehicle.
+
+    >>> import dashpot
+    >>> found = dashpot.modes("locomotive")
+    >>> len(found.axle_loads_n), found.critical_speed_km_h
+    (6, None)
     """
 
     vehicle: str

@@ -12,6 +12,12 @@ class ResponseCurves:
     For x = A sin wt, the first harmonic of the force is A (K' sin wt + K" cos wt): `storage_n_per_m` is K' (N/m),
     `loss_n_per_m` is K", `dynamic_stiffness_n_per_m` the magnitude of both, `loss_angle_deg` the phase by which the
     force leads the displacement (degrees; NaN without a force), and `damping_n_s_per_m` is K"/w (N s/m).
+
+    >>> import dashpot, numpy
+    >>> damper = dashpot.Damper("reduced-vertical")
+    >>> curves = dashpot.response(damper, [1e-3, 2e-3], frequency_hz=numpy.array([1.0, 2.0, 4.0])).harmonic
+    >>> curves.loss_angle_deg.shape
+    (2, 3)
     """
 
     dynamic_stiffness_n_per_m: object
@@ -31,6 +37,12 @@ class Response:
     `harmonic` has the curves of the periodic force, `linearised` those for a peak velocity of 0.1 mm/s with the
     clearance taken up (a single row), and `swept` those of one motion through all frequencies, or `None`. `difference`
     has the relative differences of the swept from the harmonic complex stiffness, or is `None`.
+
+    >>> import dashpot, numpy
+    >>> damper = dashpot.Damper("reduced-vertical", {"mount.clearance_m": 0.0})
+    >>> found = dashpot.response(damper, 1e-3, frequency_hz=numpy.array([0.5]), swept=False)
+    >>> round(float(found.linearised.loss_angle_deg[0, 0]), 1)  # atan(K/(C w)) with 8 MN/m and 120 kN s/m
+    87.3
     """
 
     frequency_hz: object

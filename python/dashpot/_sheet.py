@@ -16,6 +16,10 @@ class SheetTest:
     `unsteady_cycles` were left out. `distortion` is the displacement about a sine, `force_change` the change of the
     force from the first to the last cycles, each as a share. `displacement_m`, `velocity_m_per_s` and `force_n` are the
     mean cycle, in steps of `step_s`.
+
+    >>> import dashpot
+    >>> "force_n" in dashpot.SheetTest.__dataclass_fields__
+    True
     """
 
     name: str

@@ -18,6 +18,13 @@ class Shims:
 
     `pressures` has columns over `pressure_pa`: `lift_m` and `flow_m3_per_s` as used, `theory_uniform_m`, and the
     published deflections, NaN except for the packs of the source paper, as `theory_over_published`.
+
+    >>> import dashpot
+    >>> valve = dashpot.shims(dashpot.Damper("in-service"))[0]
+    >>> row = valve.pressures["pressure_pa"].argmax()
+    >>> lifted = valve.effective_edge_compliance_m_per_pa * (10e6 - valve.preload_pa)
+    >>> bool(abs(valve.pressures["lift_m"][row] / lifted - 1) < 1e-12)
+    True
     """
 
     valve: str

@@ -11,6 +11,11 @@ class StepError:
     largest error at a tick, and `largest_wrong_sign_n` the largest force where that of the reference has the opposite
     sign or is zero. The motions are pairs of kind and speed (m/s). `promised_nrmse` and `promised_error_n` are
     guaranteed for every motion of the class in docs/numerics.md.
+
+    >>> import dashpot
+    >>> rows = dashpot.verify(dashpot.Damper("reduced-vertical"), step_s=5e-3)
+    >>> [row.scalar for row in rows], rows[0].promised_nrmse >= rows[0].nrmse
+    (['f64', 'f32'], True)
     """
 
     scalar: str
@@ -32,6 +37,12 @@ class RecordedError:
     `nrmse` is the error of the step alone, with the reference on the displacements at the ticks;
     `nrmse_on_recording` includes the resampling, with the reference on the samples of the recording. `rejected_inputs`
     is the number of ticks whose displacement was held or limited.
+
+    >>> import dashpot, numpy
+    >>> time_s = numpy.arange(300) * 1e-3
+    >>> rows = dashpot.verify(dashpot.Damper("paper"), (time_s, 5e-3 * numpy.sin(20 * time_s)), step_s=1e-3)
+    >>> rows[0].nrmse < 0.01, rows[0].rejected_inputs
+    (True, 0)
     """
 
     scalar: str

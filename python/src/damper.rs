@@ -55,6 +55,14 @@ impl Damper {
         self.keyed.number(&key.extract::<String>().ok()?).ok()
     }
 
+    /// The damper as a reader of Python knows it.
+    pub fn called(&self) -> String {
+        match self.name.split_once(", ") {
+            Some((name, changes)) => format!("Damper('{name}', {changes})"),
+            None => format!("Damper('{}')", self.name),
+        }
+    }
+
     /// Text of the damper as a damper file.
     pub fn text(&self) -> Outcome<String> {
         Ok(damper::text(&self.parameters)?)
@@ -299,10 +307,7 @@ impl Damper {
     }
 
     fn __repr__(&self) -> String {
-        match self.name.split_once(", ") {
-            Some((name, changes)) => format!("Damper('{name}', {changes})"),
-            None => format!("Damper('{}')", self.name),
-        }
+        self.called()
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> Outcome<Pickled<'py>> {

@@ -38,6 +38,14 @@ const ANY_NOISE: Noise = Noise {
 /// clearance, by default those of the kind of damper. `accept_several_changed` uses readings of which several
 /// parameters have changed together. The other arguments are those of `dashpot.health` and `dashpot.read`. Ctrl-C
 /// cancels the estimate.
+///
+/// >>> import dashpot, tempfile
+/// >>> with tempfile.TemporaryDirectory() as folder:
+/// ...     try:
+/// ...         dashpot.fleet(folder, dashpot.Damper("in-service"))
+/// ...     except dashpot.DashpotError as error:
+/// ...         print("no recording" in str(error))
+/// True
 #[pyfunction]
 #[pyo3(signature = (
     folder, damper, *, mileage=false, limit_damping_factor=None, limit_stiffness_n_per_m=None, limit_clearance_m=None,

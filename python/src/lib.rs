@@ -16,6 +16,7 @@ mod contact_warnings;
 mod creep_forces;
 mod damper;
 mod error;
+mod export;
 mod fleet;
 mod health;
 mod hybrid;
@@ -59,6 +60,8 @@ mod _dashpot {
     use crate::creep_forces::creep_forces;
     #[pymodule_export]
     use crate::damper::Damper;
+    #[pymodule_export]
+    use crate::export::export;
     #[pymodule_export]
     use crate::fleet::fleet;
     #[pymodule_export]

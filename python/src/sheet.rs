@@ -28,6 +28,13 @@ static TEST: Class = Class::new(MODULE, "SheetTest");
 /// calibration of the sensors, in per cent of the value (half of a 95 % interval). Serial number, operator and date are
 /// for the header. The other arguments are those of `dashpot.read`. A sheet that is not passed is returned like any
 /// other: see its `verdict`.
+///
+/// >>> import dashpot
+/// >>> try:
+/// ...     dashpot.sheet("example", "nowhere.csv")
+/// ... except dashpot.DashpotFileError as error:
+/// ...     print(error.filename)
+/// nowhere.csv
 #[pyfunction]
 #[pyo3(signature = (
     sheet, recordings, *, temperature_c=None, force_uncertainty_percent=0.0, displacement_uncertainty_percent=0.0,

@@ -188,3 +188,41 @@ class Sheet(Test):
         self.assert_refused("force_uncertainty_percent: -1, allowed: 0 to 100", self.sheet, force_uncertainty_percent=-1)
         with self.assertRaises(dashpot.DashpotFileError):
             dashpot.sheet("example", self.folder / "none.csv")
+
+
+class Export(Test):
+    def test_the_files_are_those_of_the_command(self):
+        def shown(path):
+            # The comments state the command, or the call.
+            return [line for line in path.read_text().splitlines() if "dashpot export " not in line and "dashpot.export(" not in line]
+
+        damper = dashpot.Damper("in-service")
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            for lang, end, standalone in (("c", ".c", False), ("c", ".c", True), ("rust", ".rs", False), ("bin", ".bin", False)):
+                # The C library uses single precision.
+                both = (("f32", numpy.float32), ("f64", float))
+                for scalar, dtype in both[:1] if lang == "c" and not standalone else both:
+                    told, mine = folder / "told" / f"x{end}", folder / "mine" / f"x{end}"
+                    told.parent.mkdir(exist_ok=True)
+                    mine.parent.mkdir(exist_ok=True)
+                    options = ("--standalone",) if standalone else ()
+                    command("export", "--damper", "in-service", "--lang", lang, "--scalar", scalar, "--step-us", 500, *options,
+                            "--output", told)
+                    files = dashpot.export(damper, mine, lang=lang, standalone=standalone, step_s=500e-6, dtype=dtype)
+                    self.assertEqual([pathlib.Path(file).name for file in files], [mine.name, *(["x.h"] if lang == "c" else [])])
+                    for file in map(pathlib.Path, files):
+                        if lang == "bin":
+                            self.assertEqual(file.read_bytes(), (told.parent / file.name).read_bytes())
+                        else:
+                            self.assertEqual(shown(file), shown(told.parent / file.name))
+
+    def test_wrong_arguments_are_refused(self):
+        damper = dashpot.Damper("in-service")
+        self.assert_refused("lang: `java`, allowed: `rust`, `c` or `bin`", dashpot.export, damper, "x.java", lang="java")
+        self.assert_refused('standalone: allowed only with lang="c"', dashpot.export, damper, "x.rs", lang="rust", standalone=True)
+        self.assert_refused("output: the name of the header, allowed: another one, such as x.c", dashpot.export, damper, "x.h")
+        with self.assertRaisesRegex(dashpot.DashpotError, "lower"):
+            dashpot.export(damper, "x.c", name="lower")
+        with self.assertRaises(dashpot.DashpotFileError):
+            dashpot.export(damper, "/nowhere/x.c")

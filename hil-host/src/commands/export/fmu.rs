@@ -7,13 +7,12 @@ use dashpot_core::Damper;
 use serde::Serialize;
 
 use super::ExportArguments;
-use super::named::constant_name;
 use crate::commands::failure::{Failure, Outcome};
 use crate::commands::print_report_beside;
-use dashpot_export::Word;
 use dashpot_export::fmu::{
     Binary, CompileError, Fmu, Interface, NamedDamper, Platform, Remedy, Target, archive, compile,
 };
+use dashpot_export::{Word, constant_name};
 use dashpot_files::Scalar;
 use dashpot_files::damper;
 use dashpot_files::output::{self, write_bytes};

@@ -1,10 +1,8 @@
 //! Name of the exported constant, and the command line that repeats the export.
 
-use std::path::Path;
-
 use super::{ExportArguments, Language};
 use crate::commands::failure::{Failure, Outcome};
-use dashpot_files::input::is_standard_stream;
+use dashpot_export::constant_name;
 
 /// Returns the name of the constant, by default ending in `end`; `None` for bytes only.
 pub(super) fn name_of(arguments: &ExportArguments, end: &str) -> Outcome<Option<String>> {
@@ -37,29 +35,4 @@ pub(super) fn command_line(arguments: &ExportArguments, name: &str) -> String {
         arguments.output.display()
     ));
     line
-}
-
-/// Derives a constant name: MY_DAMPER for `data/my-damper.toml`, DAMPER for standard input.
-pub(super) fn constant_name(damper: &str) -> String {
-    if is_standard_stream(Path::new(damper)) {
-        return "DAMPER".into();
-    }
-    let stem = Path::new(damper)
-        .file_stem()
-        .map_or_else(|| damper.into(), |stem| stem.to_string_lossy());
-    let name: String = stem
-        .chars()
-        .map(|letter| {
-            if letter.is_ascii_alphanumeric() {
-                letter.to_ascii_uppercase()
-            } else {
-                '_'
-            }
-        })
-        .collect();
-    if name.starts_with(|first: char| first.is_ascii_uppercase()) {
-        name
-    } else {
-        format!("DAMPER_{name}")
-    }
 }
