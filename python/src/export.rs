@@ -31,7 +31,6 @@ use crate::overrides::path_of_file;
 /// (['damper.c', 'damper.h'], True)
 #[pyfunction]
 #[pyo3(signature = (damper, output, *, lang="c", standalone=false, step_s=0.001, dtype=None, name=None))]
-#[expect(clippy::too_many_arguments, reason = "Python callers name arguments")]
 pub fn export(
     damper: &Bound<'_, Damper>,
     output: &Bound<'_, PyAny>,
