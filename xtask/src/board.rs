@@ -1,5 +1,5 @@
-//! Checks and builds the image for the board NUCLEO-H753ZI, in its own workspace. It takes minutes of processor time and
-//! packages that nothing else needs, so it has a command of its own.
+//! Checks and builds the image for the board NUCLEO-H753ZI, in its own workspace. It takes minutes of processor time
+//! and packages that nothing else needs, so it has a command of its own.
 
 use std::path::PathBuf;
 use std::process::Command;
