@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::run::{Outcome, cargo_command, output_of};
 
 /// Programs that take longest. They begin first, so that none of them runs alone at the end.
-const LONGEST: [&str; 4] = ["commands", "vehicle", "runs", "pages"];
+const LONGEST: [&str; 5] = ["commands", "on_target", "vehicle", "runs", "pages"];
 
 /// A program with tests.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,17 +1,21 @@
 //! Axle loads, natural modes and critical speeds of a vehicle, from its linear equations.
 
+mod critical;
+mod report;
+
 use dashpot_rail::contact::{ContactGeometry, WheelsetContact};
 use dashpot_rail::creep::KalkerBook;
-use dashpot_rail::vehicle::{
-    Element, Law, Mode, Running, Standstill, VehicleError, VehicleParameters,
-};
-use serde::Serialize;
+use dashpot_rail::vehicle::{Element, Law, Standstill, VehicleParameters};
 
 use dashpot_files::case::NORMAL_DAMPING_S_PER_M;
 use dashpot_files::contact::{self, ContactOptions, ContactParameters, Wheels};
 use dashpot_files::vehicle::{self, Replacement, VehicleFileError};
 use dashpot_vehicle_run::contact::ContactSetup;
 use dashpot_vehicle_run::{VehicleRunError, hunting};
+
+pub use critical::MIN_GROWTH;
+use critical::{MAX_SEARCH_KM_H, critical_speed_km_h, modes_at};
+pub use report::{CriticalSpeeds, DryFriction, ModeRow, ModesReport};
 
 /// What is computed.
 #[derive(Clone, Debug)]
@@ -74,48 +78,6 @@ pub enum ModesError {
     },
 }
 
-/// Modes of a vehicle.
-#[derive(Clone, Debug, Serialize)]
-pub struct ModesReport {
-    /// Name of the vehicle.
-    pub vehicle: String,
-    /// Axle loads (N).
-    pub axle_loads_n: Vec<f64>,
-    /// Speed of the modes; `None` at standstill.
-    pub speed_km_h: Option<f64>,
-    /// Critical speeds, if they were asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hunting: Option<CriticalSpeeds>,
-    /// `None` if the vehicle has no friction elements.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub dry_friction: Option<DryFriction>,
-    /// Modes in order of frequency; at a speed those below 50 Hz.
-    pub modes: Vec<ModeRow>,
-}
-
-/// Friction elements in the linear equations.
-#[derive(Clone, Debug, Serialize)]
-pub struct DryFriction {
-    /// Number of elements.
-    pub elements: usize,
-    /// `sticking` or `sliding`.
-    pub linearised_as: &'static str,
-}
-
-/// Critical speeds.
-#[derive(Clone, Debug, Serialize)]
-pub struct CriticalSpeeds {
-    /// Speed at which a mode becomes unstable; `None` if none does up to the maximum speed.
-    pub critical_speed_km_h: Option<f64>,
-    /// Maximum speed of the search.
-    pub greatest_speed_km_h: f64,
-    /// `None` if a push decays even at the linear critical speed, or at the maximum speed if there is no linear
-    /// critical speed. `None` if friction slides, which concerns the linear equations only.
-    pub nonlinear_critical_speed_km_h: Option<f64>,
-    /// Maximum lateral displacement of a wheelset in the limit cycle at that speed, m.
-    pub limit_cycle_m: Option<f64>,
-}
-
 type Contact = WheelsetContact<KalkerBook, ContactGeometry>;
 
 /// Speeds at which modes are computed, km/h.
@@ -124,40 +86,8 @@ pub const SPEEDS_KM_H: std::ops::RangeInclusive<f64> = 1.0..=700.0;
 /// Friction coefficients.
 const FRICTION: std::ops::RangeInclusive<f64> = 0.0..=2.0;
 
-/// Maximum speed and step of the search for a critical speed, km/h.
-const MAX_SEARCH_KM_H: f64 = 500.0;
-const SEARCH_STEP_KM_H: f64 = 10.0;
-
-/// A mode is unstable if it grows by more than this part of its frequency. Rounding gives the modes of a vehicle
-/// without dampers a small damping of either sign.
-pub const MIN_GROWTH: f64 = 1e-9;
-
 /// Modes above this frequency (Hz) are those of wheel and rail and are not listed.
 const MAX_MODE_HZ: f64 = 50.0;
-
-/// A mode.
-#[derive(Clone, Debug, Serialize)]
-pub struct ModeRow {
-    /// What moves.
-    pub mode: String,
-    /// Frequency without damping (Hz).
-    pub undamped_hz: f64,
-    /// Frequency (Hz).
-    pub damped_hz: f64,
-    /// Damping ratio (1), negative if the mode grows.
-    pub damping_ratio: f64,
-}
-
-impl From<&Mode> for ModeRow {
-    fn from(mode: &Mode) -> Self {
-        Self {
-            mode: mode.description(),
-            undamped_hz: mode.undamped_hz(),
-            damped_hz: mode.damped_hz(),
-            damping_ratio: mode.damping_ratio(),
-        }
-    }
-}
 
 impl ModesRequest {
     /// The modes of a vehicle at standstill, with the command's default friction of 0.4.
@@ -316,40 +246,4 @@ fn limit_cycle(
     hunting
         .critical(0.1 * max_m_per_s..=max_m_per_s)
         .map_err(refused)
-}
-
-fn modes_at(
-    vehicle: &VehicleParameters,
-    contacts: &[&Contact],
-    km_h: f64,
-) -> Result<Vec<Mode>, VehicleError> {
-    Running::with_contacts(vehicle, contacts, km_h / 3.6)?.modes()
-}
-
-/// Finds the lowest speed at which a mode is unstable: search in steps, then bisection to 0.01 km/h.
-fn critical_speed_km_h(
-    vehicle: &VehicleParameters,
-    contacts: &[&Contact],
-) -> Result<Option<f64>, VehicleError> {
-    let grows = |km_h: f64| -> Result<bool, VehicleError> {
-        let modes = modes_at(vehicle, contacts, km_h)?;
-        Ok(modes.iter().any(|mode| mode.damping_ratio() < -MIN_GROWTH))
-    };
-    let mut stable = 0.0;
-    while stable < MAX_SEARCH_KM_H {
-        let mut growing = stable + SEARCH_STEP_KM_H;
-        if grows(growing)? {
-            while growing - stable > 0.01 {
-                let middle = 0.5 * (stable + growing);
-                if grows(middle)? {
-                    growing = middle;
-                } else {
-                    stable = middle;
-                }
-            }
-            return Ok(Some(growing));
-        }
-        stable = growing;
-    }
-    Ok(None)
 }
