@@ -60,8 +60,8 @@ pub fn ci() -> Outcome {
     test()
 }
 
-/// Runs checks that take minutes and seldom fail: the workspace with its lowest compiler, the page's module built again,
-/// the wheel, and the image for a board.
+/// Runs checks that take minutes and seldom fail: the workspace with its lowest compiler, the page's module built
+/// again, the wheel, and the image for a board.
 ///
 /// # Errors
 /// The first check that failed.
