@@ -1,4 +1,4 @@
-//! What images with the server of other boards share: outputs and the look of a watchdog.
+//! Outputs and a stand-in for the watchdog, for images with the server of other boards.
 
 use core::cell::RefCell;
 

@@ -4,19 +4,18 @@ use dashpot_calibration::{
     Assumed, Calibrated as Found, Calibration, LoopTest, PlannedTest, Predicted, Promise, Recorded,
     SKEW,
 };
-use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_files::sheet::SheetParameters;
-use dashpot_testbench::TestbenchError;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::calibration_request::{Samples, index_tests, recorded, request, temperatures_c, within};
+use crate::calibration_request::{Samples, index_tests, recorded, request, temperatures_c};
 use crate::calibration_words;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::run_in_thread;
 use crate::overrides::path;
+use crate::range::{check_step, within};
 use crate::whole::Whole;
 
 /// Default number of starts of the search, the same as for the command.
@@ -236,9 +235,7 @@ pub fn calibrate(
     validate: Option<Vec<Samples<'_>>>,
     plan: Option<&Bound<'_, PyAny>>,
 ) -> Outcome<Calibrated> {
-    if !STEP_RANGE_S.contains(&step_s) {
-        return Err(TestbenchError::Step { step_s }.into());
-    }
+    check_step(step_s)?;
     let starts = starts.unwrap_or(Whole::Count(STARTS));
     let starts = starts.within("starts", 1..=1000)? as usize;
     let damper = damper.get();

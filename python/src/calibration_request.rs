@@ -7,17 +7,10 @@ use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arrays;
 use crate::error::{Outcome, Refusal, refuse};
+use crate::range::within;
 
 /// Arrays of time (s), displacement (m) and force (N).
 pub type Samples<'py> = [Bound<'py, PyAny>; 3];
-
-/// Checks that an argument is within its range.
-pub fn within(name: &str, value: f64, [min, max]: [f64; 2]) -> Outcome<f64> {
-    if (min..=max).contains(&value) {
-        return Ok(value);
-    }
-    refuse(format!("{name}: {value}, allowed: {min} to {max}"))
-}
 
 /// Keys with their bounds.
 type Keys = Vec<(String, Option<[f64; 2]>)>;

@@ -3,19 +3,18 @@
 use std::path::{Path, PathBuf};
 
 use dashpot_core::Damper as Built;
-use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_export::{
     ExportError, Provenance, Word, c_header, c_source, constant_name, rust_source,
     standalone_header, standalone_source,
 };
 use dashpot_files::output::write_together;
-use dashpot_testbench::TestbenchError;
 use pyo3::prelude::*;
 
 use crate::arrays::Precision;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::overrides::path_of_file;
+use crate::range::check_step;
 
 /// Builds a damper for a fixed step and writes it, as `dashpot export --lang`; returns the files, which replace older
 /// ones.
@@ -40,9 +39,7 @@ pub fn export(
     dtype: Option<&Bound<'_, PyAny>>,
     name: Option<String>,
 ) -> Outcome<Vec<PathBuf>> {
-    if !STEP_RANGE_S.contains(&step_s) {
-        return Err(TestbenchError::Step { step_s }.into());
-    }
+    check_step(step_s)?;
     if standalone && lang != "c" {
         return refuse("standalone: allowed only with lang=\"c\"");
     }
@@ -62,7 +59,7 @@ pub fn export(
     }
 }
 
-/// What is written.
+/// The damper and the form in which to write it.
 struct Wanted<'a> {
     damper: &'a Damper,
     output: PathBuf,

@@ -1,7 +1,5 @@
 //! Trends of the dampers of a fleet.
 
-use dashpot_core::parameters::STEP_RANGE_S;
-use dashpot_testbench::TestbenchError;
 use dashpot_testbench::health::Noise;
 use dashpot_testbench::trend::limits::Limits;
 use dashpot_testbench::trend::reading::Estimation;
@@ -17,6 +15,7 @@ use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::run_in_thread;
 use crate::overrides::path_of_file;
+use crate::range::check_step;
 use crate::recording::channels;
 use crate::sensors::{Sensors, model};
 use crate::table::columns;
@@ -81,9 +80,7 @@ pub fn fleet<'py>(
     header: Option<bool>,
     decimal_mark: Option<&str>,
 ) -> Outcome<Bound<'py, PyAny>> {
-    if !STEP_RANGE_S.contains(&step_s) {
-        return Err(TestbenchError::Step { step_s }.into());
-    }
+    check_step(step_s)?;
     let limits = Limits {
         damping_factor: positive("limit_damping_factor", limit_damping_factor)?,
         stiffness_n_per_m: positive("limit_stiffness_n_per_m", limit_stiffness_n_per_m)?,

@@ -6,9 +6,7 @@ use std::rc::Rc;
 use dashpot_calibration::Recorded;
 use dashpot_calibration::cause::{Causes, end_of};
 use dashpot_core::health::{Baseline, Estimate, HealthReading};
-use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_recording::{MeasuredSample, Measurement};
-use dashpot_testbench::TestbenchError;
 use dashpot_testbench::health::{
     History, Noise, Reading, alarm_in_words, alarm_name, doubts_in_words,
 };
@@ -21,6 +19,7 @@ use crate::class::Class;
 use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::run_in_thread;
+use crate::range::check_step;
 use crate::recording::arrays_of;
 use crate::sensors::{Sensors, model};
 
@@ -87,9 +86,7 @@ pub fn health<'py>(
     lag_sd_s: Option<f64>,
     baseline: Option<&Bound<'py, PyAny>>,
 ) -> Outcome<Bound<'py, PyAny>> {
-    if !STEP_RANGE_S.contains(&step_s) {
-        return Err(TestbenchError::Step { step_s }.into());
-    }
+    check_step(step_s)?;
     let sensors = Sensors {
         displacement_noise_m,
         force_noise_n,

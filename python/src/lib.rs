@@ -25,6 +25,7 @@ mod json;
 mod modes;
 mod overrides;
 mod pickled;
+mod range;
 mod recording;
 mod remedy;
 mod replacements;

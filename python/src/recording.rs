@@ -2,13 +2,11 @@
 
 use std::path::Path;
 
-use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_files::nearest_nanosecond;
 use dashpot_recording::tick_grid::TickGrid;
 use dashpot_recording::{
     Channel, Channels, DecimalMark, Gaps, Measurement, Quantity, Recording, Sample, TextOptions,
 };
-use dashpot_testbench::TestbenchError;
 use numpy::{Ix1, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
@@ -16,6 +14,7 @@ use pyo3::types::{PyDict, PyMapping};
 use crate::arrays::read as read_array;
 use crate::error::{Outcome, refuse};
 use crate::overrides::path_of_file;
+use crate::range::check_step;
 
 /// Reads a CSV, MDF4 or Parquet recording into the arrays `time_s` and `displacement_m`, and `force_n` if `with_force`
 /// is true.
@@ -120,10 +119,8 @@ fn columns(
     }
     let recording = || Recording::open_with(path, channels);
     let ((times, displacements), gaps): ((Vec<f64>, Vec<f64>), Gaps) = match step_s {
-        Some(step_s) if !STEP_RANGE_S.contains(&step_s) => {
-            return Err(TestbenchError::Step { step_s }.into());
-        }
         Some(step_s) => {
+            check_step(step_s)?;
             let mut grid = TickGrid::new(recording()?, step_s)?;
             let mut ticks = Vec::new();
             while let Some(tick) = grid.next_tick()? {

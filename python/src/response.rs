@@ -107,7 +107,7 @@ pub fn response<'py>(
     RESPONSE.make_of(&found)
 }
 
-/// What is computed.
+/// The damper and the motions whose response to compute.
 struct Computed<'a> {
     damper: &'a Damper,
     amplitudes_m: &'a [f64],

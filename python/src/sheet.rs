@@ -9,11 +9,12 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::calibration_request::{temperatures_c, within};
+use crate::calibration_request::temperatures_c;
 use crate::class::Class;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::json;
 use crate::overrides::{path, path_of_file};
+use crate::range::within;
 use crate::recording::channels;
 
 const MODULE: &str = "dashpot._sheet";

@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::rc::Rc;
 
-use dashpot_core::parameters::STEP_RANGE_S;
 use dashpot_recording::{Recording, Sample};
 use dashpot_testbench::TestbenchError;
 use dashpot_testbench::step_errors::StepErrors;
@@ -17,6 +16,7 @@ use crate::damper::Damper;
 use crate::error::{Outcome, Refusal, refuse};
 use crate::interruption::run_in_thread;
 use crate::json;
+use crate::range::check_step;
 use crate::recording::arrays_of;
 
 const MODULE: &str = "dashpot._verify";
@@ -90,10 +90,10 @@ fn steps_s(given: Option<&Bound<'_, PyAny>>, default: &[f64]) -> Outcome<Vec<f64
             Err(_) => given.extract()?,
         },
     };
-    match steps_s.iter().find(|step_s| !STEP_RANGE_S.contains(step_s)) {
-        Some(step_s) => Err(TestbenchError::Step { step_s: *step_s }.into()),
-        None => Ok(steps_s),
+    for step_s in &steps_s {
+        check_step(*step_s)?;
     }
+    Ok(steps_s)
 }
 
 fn samples(recording: &Bound<'_, PyAny>) -> Outcome<Vec<Sample>> {

@@ -1,14 +1,10 @@
-//! What makes a recording doubtful, in words.
+//! Reasons to doubt a recording, in words.
 
 use dashpot_recording::{Gaps, Interpolation, UnfinishedEnd};
 
-use super::rounded::six_digits;
+use super::rounded::{counted, six_digits};
 
-fn counted(count: u64, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
-/// Returns what makes a recording doubtful, a sentence each without a full stop. Gaps do not, because they separate
+/// Returns the reasons to doubt a recording, a sentence each without a full stop. Gaps do not, because they separate
 /// motions.
 pub fn doubts(gaps: &Gaps) -> Vec<String> {
     let left_out = (gaps.left_out.rows > 0).then(|| {
@@ -21,16 +17,13 @@ pub fn doubts(gaps: &Gaps) -> Vec<String> {
         gaps.unfinished.map(unfinished),
         gaps.interpolation.as_ref().map(interpolated),
     ];
-    let doubts = doubts.into_iter().flatten();
-    doubts
-        .map(|doubt| doubt.trim_start_matches("warning: ").to_owned())
-        .collect()
+    doubts.into_iter().flatten().collect()
 }
 
 /// Returns the warning for a text file whose last line has no line end.
 pub fn unended(line: u64) -> String {
     format!(
-        "warning: the last line, line {line}, has no line end: the file may have been cut off inside its last number"
+        "the last line, line {line}, has no line end: the file may have been cut off inside its last number"
     )
 }
 
@@ -41,7 +34,7 @@ pub fn unfinished(end: UnfinishedEnd) -> String {
         bytes => format!("; {} after it cannot be read", counted(bytes, "byte")),
     };
     format!(
-        "warning: the logger did not finish this MDF4 file: rows are read up to the last whole one{rest}"
+        "the logger did not finish this MDF4 file: rows are read up to the last whole one{rest}"
     )
 }
 
@@ -55,7 +48,7 @@ pub fn interpolated(interpolation: &Interpolation) -> String {
         longest_interval_s,
     } = interpolation;
     let mut warning = format!(
-        "warning: the force (group {force_group}) is interpolated linearly to the times of the displacement (group \
+        "the force (group {force_group}) is interpolated linearly to the times of the displacement (group \
          {displacement_group})"
     );
     if let Some(interval_s) = longest_interval_s {

@@ -1,4 +1,4 @@
-//! Numbers rounded for text.
+//! Numbers rounded for text, and counts.
 
 /// Formats a number with up to six digits, without trailing zeros.
 ///
@@ -24,4 +24,13 @@ fn digits(number: f64, digits: usize) -> String {
         Ok(rounded) => format!("{rounded:e}"),
         Err(_) => text,
     }
+}
+
+/// Formats a count with its noun.
+///
+/// ```
+/// assert_eq!(dashpot_report::rounded::counted(2, "tick"), "2 ticks");
+/// ```
+pub fn counted(count: u64, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

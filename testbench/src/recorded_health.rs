@@ -13,7 +13,7 @@ const NOISE_SAMPLES: usize = 20_000;
 /// Ticks between two checks for a cancellation.
 const TICKS_BETWEEN_CHECKS: u64 = 10_000;
 
-/// What the noise is estimated from, in words for errors.
+/// The error if the noise cannot be estimated, in words.
 pub const NOISE_NEEDS: &str =
     "cannot estimate the noise: this needs motion and at least 100 samples without a gap";
 

@@ -38,7 +38,7 @@ const LINK_BAUD: u32 = 1_000_000;
 pub const PORT: u16 = 5555;
 
 /// Address of the board on the network, as of `dashpot link --link tcp:192.168.7.2:5555`. For an address from a DHCP
-/// server write `embassy_net::Config::dhcpv4(Default::default())`; the log tells it.
+/// server write `embassy_net::Config::dhcpv4(Default::default())`; the log has the address.
 #[cfg(feature = "ethernet")]
 pub fn address() -> embassy_net::Config {
     embassy_net::Config::ipv4_static(embassy_net::StaticConfigV4 {

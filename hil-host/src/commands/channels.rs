@@ -195,10 +195,10 @@ fn print(out: &mut dyn Write, report: &Report, arguments: &ChannelsArguments) ->
         print_time(out, time)?;
     }
     if let Some(line) = overview.unended_line {
-        writeln!(out, "{}", unended(line))?;
+        writeln!(out, "warning: {}", unended(line))?;
     }
     if let Some(end) = overview.unfinished {
-        writeln!(out, "{}", unfinished(end))?;
+        writeln!(out, "warning: {}", unfinished(end))?;
     }
     writeln!(out, "\nto replay: {}", report.replay)
 }

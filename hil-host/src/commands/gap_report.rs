@@ -17,13 +17,13 @@ pub(super) fn write_gaps(out: &mut dyn Write, gaps: &Gaps) -> io::Result<()> {
         )?;
     }
     if let Some(line) = gaps.unended_line {
-        writeln!(out, "{}", unended(line))?;
+        writeln!(out, "warning: {}", unended(line))?;
     }
     if let Some(end) = gaps.unfinished {
-        writeln!(out, "{}", unfinished(end))?;
+        writeln!(out, "warning: {}", unfinished(end))?;
     }
     if let Some(interpolation) = &gaps.interpolation {
-        writeln!(out, "{}", interpolated(interpolation))?;
+        writeln!(out, "warning: {}", interpolated(interpolation))?;
     }
     let (Some(longest), Some(median_s)) = (gaps.longest, gaps.median_interval_s) else {
         return Ok(());

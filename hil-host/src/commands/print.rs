@@ -13,12 +13,8 @@ use super::failure::{Failure, Outcome};
 use dashpot_files::input;
 pub(super) use dashpot_files::nearest_nanosecond;
 use dashpot_files::output::{cannot_write, write_whole};
+pub(super) use dashpot_report::rounded::counted;
 use dashpot_report::verdict;
-
-/// Formats a count with its noun: `1 tick`, `2 ticks`.
-pub(super) fn counted(count: u64, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
 
 /// True if the user asked for no reports (`--quiet`).
 static IS_QUIET: AtomicBool = AtomicBool::new(false);

@@ -17,7 +17,7 @@ pub use critical::MIN_GROWTH;
 use critical::{MAX_SEARCH_KM_H, critical_speed_km_h, modes_at};
 pub use report::{CriticalSpeeds, DryFriction, ModeRow, ModesReport};
 
-/// What is computed.
+/// The vehicle, its speed and the modes to compute.
 #[derive(Clone, Debug)]
 pub struct ModesRequest {
     /// Vehicle: built-in name or file.
@@ -38,7 +38,7 @@ pub struct ModesRequest {
     pub friction: f64,
 }
 
-/// Why there are no modes.
+/// Reasons for not computing modes.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModesError {

@@ -1,4 +1,4 @@
-//! What a user sees of modes.
+//! Results: modes and critical speeds, as rows for reports.
 
 use dashpot_rail::vehicle::Mode;
 use serde::Serialize;
@@ -48,7 +48,7 @@ pub struct CriticalSpeeds {
 /// A mode.
 #[derive(Clone, Debug, Serialize)]
 pub struct ModeRow {
-    /// What moves.
+    /// Bodies that move, and how.
     pub mode: String,
     /// Frequency without damping (Hz).
     pub undamped_hz: f64,

@@ -9,7 +9,7 @@ use crate::{STEP_S, rig};
 /// A sensor that fails for more ticks than this has failed for good: its damper has no force until it is back.
 const MAX_BAD_TICKS: u32 = 20;
 
-/// What happened since the last report.
+/// Faults and costs since the last report.
 #[derive(Clone, Copy, Debug)]
 pub struct Report {
     /// Number of ticks since the start.

@@ -336,13 +336,18 @@ impl Report {
                 writeln!(out, "note: {}: omitted {left_out}", recording.file)?;
             }
             if let Some(line) = recording.unended_line {
-                writeln!(out, "{}: {}", recording.file, unended(line))?;
+                writeln!(out, "{}: warning: {}", recording.file, unended(line))?;
             }
             if let Some(end) = recording.unfinished {
-                writeln!(out, "{}: {}", recording.file, unfinished(end))?;
+                writeln!(out, "{}: warning: {}", recording.file, unfinished(end))?;
             }
             if let Some(interpolation) = &recording.interpolation {
-                writeln!(out, "{}: {}", recording.file, interpolated(interpolation))?;
+                writeln!(
+                    out,
+                    "{}: warning: {}",
+                    recording.file,
+                    interpolated(interpolation)
+                )?;
             }
         }
         writeln!(out)?;

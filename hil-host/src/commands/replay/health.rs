@@ -277,7 +277,7 @@ impl HealthReport {
             writeln!(out, "{name:<22} {value:>20}{unit}")?;
         }
         if let Some(interpolation) = &self.interpolation {
-            writeln!(out, "{}", interpolated(interpolation))?;
+            writeln!(out, "warning: {}", interpolated(interpolation))?;
         }
         for alarm in &self.alarms {
             writeln!(
