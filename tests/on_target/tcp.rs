@@ -1,6 +1,7 @@
 //! The link over TCP on an emulated Cortex-M7: answers have the host's bits, and a tick with the network stack keeps
 //! its budget.
 
+use std::io::ErrorKind;
 use std::net::TcpListener;
 use std::path::PathBuf;
 
@@ -10,7 +11,7 @@ use dashpot::{damper, document};
 use dashpot_core::link::{Clock, Device};
 use dashpot_experiment::digest::Digest;
 use dashpot_experiment::network::{hello_frame, step_frame};
-use dashpot_host_link::{Client, Pace, RetryLimits, Session, SessionError, Tcp};
+use dashpot_host_link::{Client, LinkError, Pace, RetryLimits, Session, SessionError, Tcp};
 use dashpot_testbench::excitation::Excitation;
 use serde_json::Value;
 use xtask::processor::CORTEX_M7;
@@ -60,6 +61,20 @@ fn images_with_tcp() -> Option<(PathBuf, TargetToolchain)> {
     Some((images, toolchain))
 }
 
+/// Opens a session with the image, which refuses a host in the moment before it listens (for the next one). Each refusal
+/// comes from the image, so every try gives it time.
+fn open(address: &str, number: u16) -> Session<Tcp> {
+    for _ in 0..100 {
+        let link = Tcp::connect(address).unwrap();
+        match Session::open(Client::new(link, RetryLimits::default(), number)) {
+            Err(SessionError::Link(LinkError::Line { source, .. }))
+                if source.kind() == ErrorKind::ConnectionReset => {}
+            opened => return opened.unwrap(),
+        }
+    }
+    panic!("the image never listened");
+}
+
 /// The emulator has an Ethernet controller and passes connections to a port of this machine on to the image.
 #[test]
 fn a_board_on_the_network_has_the_hosts_bits() {
@@ -75,9 +90,7 @@ fn a_board_on_the_network_has_the_hosts_bits() {
     assert_eq!(board.line(), "listens\n");
     // One host after the other.
     for (session, ticks) in [(1, 300), (2, 50)] {
-        let link = Tcp::connect(&address).unwrap();
-        let client = Client::new(link, RetryLimits::default(), 10 * session);
-        let mut session = Session::open(client).unwrap();
+        let mut session = open(&address, 10 * session);
         let ride = Excitation::Ride.displacements_m(1e-3);
         let mut ride = ride.into_iter().take(ticks);
         let motion = || Ok::<_, SessionError>(ride.next().map(|x| x as f32));
