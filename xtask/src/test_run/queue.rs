@@ -11,7 +11,7 @@ use crate::run::Outcome;
 /// Programs that run at once. Each runs as many tests at once as there are processors.
 const AT_ONCE: usize = 2;
 
-/// Runs all programs and prints the output of each at its end. Returns those that failed.
+/// Runs all programs and prints the output of each at its end. Returns those that failed, with what failed in them.
 ///
 /// # Errors
 /// A program cannot be started.
@@ -25,8 +25,7 @@ pub(super) fn run_all(built: &Built, variables: &[(&str, &str)]) -> Outcome<Vec<
             let Some(program) = next else {
                 return Ok(());
             };
-            if !run(built, program, variables)? {
-                let failure = format!("the tests of `{}` failed", program.name);
+            if let Some(failure) = run(built, program, variables)? {
                 failures
                     .lock()
                     .map_err(|_| "a thread failed")?
@@ -49,8 +48,12 @@ pub(super) fn run_all(built: &Built, variables: &[(&str, &str)]) -> Outcome<Vec<
     failures.into_inner().map_err(|_| "a thread failed".into())
 }
 
-/// Runs a program; returns true if all of its tests passed.
-fn run(built: &Built, program: &TestProgram, variables: &[(&str, &str)]) -> Outcome<bool> {
+/// Runs a program; returns what failed, if anything did.
+fn run(
+    built: &Built,
+    program: &TestProgram,
+    variables: &[(&str, &str)],
+) -> Outcome<Option<String>> {
     let start = Instant::now();
     let mut command = built.command(program);
     let output = command
@@ -64,5 +67,33 @@ fn run(built: &Built, program: &TestProgram, variables: &[(&str, &str)]) -> Outc
         .and_then(|()| out.write_all(&output.stdout))
         .and_then(|()| out.write_all(&output.stderr))
         .and_then(|()| out.flush());
-    Ok(output.status.success())
+    let failed = !output.status.success();
+    Ok(failed.then(|| {
+        let name = &program.name;
+        let said = failures_in(&String::from_utf8_lossy(&output.stdout));
+        format!("the tests of `{name}` failed{said}")
+    }))
+}
+
+/// What a test program says of its failed tests, which is far above the end of a whole run.
+fn failures_in(output: &str) -> String {
+    match output.split_once("\nfailures:\n") {
+        Some((_, failures)) => format!(":\n{}", failures.trim()),
+        None => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::failures_in;
+
+    #[test]
+    fn the_end_of_a_run_repeats_the_messages_of_failed_tests() {
+        let output = "test a ... FAILED\n\nfailures:\n\n---- a stdout ----\nleft: 1\n\n\nfailures:\n    a\n\n";
+        assert_eq!(
+            failures_in(output),
+            ":\n---- a stdout ----\nleft: 1\n\n\nfailures:\n    a"
+        );
+        assert_eq!(failures_in("signal: 6, SIGABRT"), "");
+    }
 }
