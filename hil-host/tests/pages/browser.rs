@@ -22,6 +22,9 @@ const LETTERING: &str = "window.lettering = [];
         write.call(this, text, ...place);
     };";
 
+/// Time after which a page is taken to hang. On busy processors, what takes a second may take minutes.
+pub const HANGS: Duration = Duration::from_secs(1200);
+
 /// Browser with its own page.
 pub struct Browser {
     runtime: Runtime,
@@ -75,6 +78,7 @@ impl Browser {
         }
         let capabilities = json!({
             "goog:chromeOptions": options,
+            "timeouts": { "script": HANGS.as_millis() as u64 },
             "goog:loggingPrefs": { "browser": "ALL", "performance": "ALL" },
         });
         let runtime = Builder::new_current_thread().enable_all().build().unwrap();
@@ -146,17 +150,27 @@ impl Browser {
 
     /// Moves the mouse to a relative position in the plot with this index.
     pub fn point(&self, plot: usize, at: [f64; 2]) {
-        self.act(plot, &[at], false);
+        self.act(plot, &[at]);
     }
 
     /// Drags over part of a plot.
     pub fn drag(&self, plot: usize, from: [f64; 2], to: [f64; 2]) {
-        self.act(plot, &[from, to], false);
+        self.act(plot, &[from, to]);
     }
 
-    /// Double-clicks in the middle of a plot.
+    /// Double-clicks in the middle of a plot. The browser is told that the second click belongs to the first; from
+    /// clicks alone it would conclude that from the time between them, which is long on busy processors.
     pub fn double_click(&self, plot: usize) {
-        self.act(plot, &[[0.5, 0.5]], true);
+        self.act(plot, &[[0.5, 0.5]]);
+        let [left, top, width, height] = self.area(plot);
+        let (x, y) = (left + 0.5 * width, top + 0.5 * height);
+        for count in [1, 2] {
+            for kind in ["mousePressed", "mouseReleased"] {
+                let event =
+                    json!({ "type": kind, "x": x, "y": y, "button": "left", "clickCount": count });
+                self.tell("Input.dispatchMouseEvent", event);
+            }
+        }
     }
 
     /// Gives an element the focus and presses keys.
@@ -196,30 +210,29 @@ impl Browser {
         self.runtime.block_on(acted).unwrap();
     }
 
-    fn act(&self, plot: usize, places: &[[f64; 2]], clicks: bool) {
+    /// Scrolls to a plot and returns the place of its curves in the window: left, top, width and height.
+    fn area(&self, plot: usize) -> [f64; 4] {
         let area = self.find(&format!(
             "const over = document.querySelectorAll('.u-over')[{plot}];
              over.scrollIntoView({{ block: 'center' }});
              const {{ left, top, width, height }} = over.getBoundingClientRect();
              return [left, top, width, height];"
         ));
-        let area: Vec<f64> = serde_json::from_value(area).unwrap();
+        serde_json::from_value(area).unwrap()
+    }
+
+    fn act(&self, plot: usize, places: &[[f64; 2]]) {
+        let [left, top, width, height] = self.area(plot);
         let to = |[x, y]: [f64; 2]| PointerAction::MoveTo {
             duration: Some(Duration::ZERO),
-            x: (area[0] + x * area[2]).round(),
-            y: (area[1] + y * area[3]).round(),
+            x: (left + x * width).round(),
+            y: (top + y * height).round(),
         };
         let (button, mut mouse) = (MOUSE_BUTTON_LEFT, MouseActions::new("mouse".into()));
         mouse = mouse.then(to(places[0]));
         if let [_, end] = places {
             let [down, up] = [PointerAction::Down { button }, PointerAction::Up { button }];
             mouse = mouse.then(down).then(to(*end)).then(up);
-        }
-        if clicks {
-            for _ in 0..2 {
-                let [down, up] = [PointerAction::Down { button }, PointerAction::Up { button }];
-                mouse = mouse.then(down).then(up);
-            }
         }
         let acted = self.client().perform_actions(mouse);
         self.runtime.block_on(acted).unwrap();

@@ -3,7 +3,7 @@
 use std::fs;
 use std::time::{Duration, Instant};
 
-use crate::browser::Browser;
+use crate::browser::{Browser, HANGS};
 use crate::shown::{HEALTH, VEHICLE};
 
 /// Clicks the button of the plot with this index and returns the name of the saved file and its text.
@@ -30,7 +30,7 @@ fn saved(browser: &Browser, page: &str, plot: usize) -> (String, String) {
                 return (name, text);
             }
         }
-        assert!(started.elapsed() < Duration::from_secs(20), "nothing saved");
+        assert!(started.elapsed() < HANGS, "nothing saved");
         std::thread::sleep(Duration::from_millis(20));
     }
 }
