@@ -62,6 +62,8 @@ __all__ = [
     "contact",
     "creep_forces",
     "export",
+    "export_fmu",
+    "export_health",
     "fleet",
     "health",
     "modes",
@@ -703,6 +705,50 @@ def export(
     `lang` is `"rust"` (a `static` of dashpot-core), `"c"` (bytes for the C library, and a header beside `output`) or
     `"bin"` (bytes only). With `standalone`, C contains the step and needs no library. `dtype` is float32, as on the
     target, or float64. `name` is that of the constant, by default the damper's in capitals. A comment states this call.
+    """
+
+def export_fmu(
+    dampers: Damper | Sequence[Damper],
+    output: _Path,
+    *,
+    fmi: Literal[2, 3] = 3,
+    step_s: float = 0.001,
+    dtype: DTypeLike | None = None,
+    name: str | None = None,
+    loadable: bool = False,
+    platforms: dict[str, str] | None = None,
+    sources_only: bool = False,
+) -> list[str]:
+    """Writes a damper, or a sequence of dampers as a bank, as an FMU for co-simulation, as `dashpot export --fmi`;
+    returns the platforms of its libraries.
+
+    `fmi` is the version of the standard, 2 or 3; `step_s` the internal step; `dtype` float32 or float64; `name` that of
+    the FMU, by default the first damper's in small letters. With `loadable`, the constants are images in the FMU, where
+    they can be replaced. A C compiler builds the library for this platform: `cc`, or the one in the variable `CC`.
+    `platforms` adds others: a dictionary from platform to compiler, such as `{"x86_64-windows":
+    "x86_64-w64-mingw32-gcc"}`. With `sources_only` no compiler is needed; the importer compiles the sources.
+    """
+
+def export_health(
+    damper: Damper,
+    output: _Path,
+    *,
+    displacement_noise_m: float,
+    force_noise_n: float,
+    lang: Literal["rust", "c", "bin"] = "c",
+    step_s: float = 0.001,
+    memory_s: float | None = None,
+    law_deviation: float | None = None,
+    lag_s: float | None = None,
+    lag_sd_s: float | None = None,
+    name: str | None = None,
+) -> list[pathlib.Path]:
+    """Builds the health model of a damper for a fixed step and writes it, as `dashpot export --health`; returns the
+    files, which replace older ones.
+
+    The noise of the sensors (standard deviations) must be given; the other properties are those of `dashpot.health`.
+    `lang` and `name` are those of `dashpot.export`; the default name ends in `_HEALTH`. Firmware takes the constant
+    with `HealthModel::from_image`, C with `dashpot_health_model_init`.
     """
 
 @final

@@ -62,7 +62,7 @@ mod _dashpot {
     #[pymodule_export]
     use crate::damper::Damper;
     #[pymodule_export]
-    use crate::export::export;
+    use crate::export::{export, export_fmu, export_health};
     #[pymodule_export]
     use crate::fleet::fleet;
     #[pymodule_export]

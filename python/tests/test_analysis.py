@@ -1,9 +1,10 @@
-"""Response, verification, shim packs, modes and sheets: the numbers of the command, tables, plots and refusals."""
+"""Response, verification, shim packs, modes, sheets and exports: the numbers of the command, tables, plots and refusals."""
 
 import json
 import pathlib
 import pickle
 import tempfile
+import zipfile
 
 import dashpot
 import numpy
@@ -191,11 +192,21 @@ class Sheet(Test):
 
 
 class Export(Test):
-    def test_the_files_are_those_of_the_command(self):
-        def shown(path):
-            # The comments state the command, or the call.
-            return [line for line in path.read_text().splitlines() if "dashpot export " not in line and "dashpot.export(" not in line]
+    def shown(self, path):
+        """Returns a file without the comments that state the command or the call."""
+        calls = ("dashpot export ", "dashpot.export(", "dashpot.export_health(")
+        return [line for line in path.read_text().splitlines() if not any(call in line for call in calls)]
 
+    def assert_same(self, files, folder):
+        """Asserts that the files are those of the command in another folder."""
+        for file in map(pathlib.Path, files):
+            told = folder / file.name
+            if file.suffix == ".bin":
+                self.assertEqual(file.read_bytes(), told.read_bytes())
+            else:
+                self.assertEqual(self.shown(file), self.shown(told))
+
+    def test_the_files_are_those_of_the_command(self):
         damper = dashpot.Damper("in-service")
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
@@ -211,11 +222,69 @@ class Export(Test):
                             "--output", told)
                     files = dashpot.export(damper, mine, lang=lang, standalone=standalone, step_s=500e-6, dtype=dtype)
                     self.assertEqual([pathlib.Path(file).name for file in files], [mine.name, *(["x.h"] if lang == "c" else [])])
-                    for file in map(pathlib.Path, files):
-                        if lang == "bin":
-                            self.assertEqual(file.read_bytes(), (told.parent / file.name).read_bytes())
-                        else:
-                            self.assertEqual(shown(file), shown(told.parent / file.name))
+                    self.assert_same(files, told.parent)
+
+    def test_a_health_model_is_that_of_the_command(self):
+        damper = dashpot.Damper("in-service")
+        noise = {"displacement_noise_m": 60e-6, "force_noise_n": 60}
+        with tempfile.TemporaryDirectory() as folder:
+            told, mine = pathlib.Path(folder, "told"), pathlib.Path(folder, "mine")
+            told.mkdir()
+            mine.mkdir()
+            for lang, end in (("c", ".c"), ("rust", ".rs"), ("bin", ".bin")):
+                command("export", "--damper", "in-service", "--health", "--lang", lang, "--step-us", 500, "--displacement-noise-m",
+                        60e-6, "--force-noise-n", 60, "--memory-s", 2, "--output", told / f"x{end}")
+                files = dashpot.export_health(damper, mine / f"x{end}", lang=lang, step_s=500e-6, memory_s=2, **noise)
+                self.assertEqual(len(files), 2 if lang == "c" else 1)
+                self.assert_same(files, told)
+        self.assert_refused("displacement_noise_m: 0, allowed: 1e-9 to 1e-2 m", dashpot.export_health, damper, "x.c",
+                            **{**noise, "displacement_noise_m": 0})
+        self.assert_refused('name: `A`, but bytes have no name; allowed with lang="rust" or "c"', dashpot.export_health, damper,
+                            "x.bin", lang="bin", name="A", **noise)
+
+    def test_an_fmu_is_that_of_the_command(self):
+        def contents(path):
+            with zipfile.ZipFile(path) as archive:
+                return {name: archive.read(name) for name in archive.namelist()}
+
+        one, bank = dashpot.Damper("in-service"), [dashpot.Damper("paper"), dashpot.Damper("in-service")]
+        with tempfile.TemporaryDirectory() as folder:
+            told, mine = pathlib.Path(folder, "told.fmu"), pathlib.Path(folder, "mine.fmu")
+            cases = (
+                (one, {}, ("--damper", "in-service", "--fmi", 3)),
+                (bank, {"fmi": 2, "dtype": float, "loadable": True, "name": "two", "step_s": 500e-6, "sources_only": True},
+                 ("--damper", "paper", "--also", "in-service", "--fmi", 2, "--scalar", "f64", "--loadable", "--name", "two",
+                  "--step-us", 500, "--sources-only")),
+            )
+            for dampers, options, words in cases:
+                command("export", *words, "--output", told)
+                platforms = dashpot.export_fmu(dampers, mine, **options)
+                self.assertEqual(len(platforms), 0 if options else 1)
+                self.assertEqual(contents(mine), contents(told))
+            changed = dashpot.Damper("in-service", {"mount.clearance_m": 1e-3})
+            dashpot.export_fmu(changed, mine, sources_only=True)
+            self.assertIn(b"in-service, mount.clearance_m=0.001", contents(mine)["modelDescription.xml"])
+
+    def test_wrong_arguments_of_an_fmu_are_refused(self):
+        damper = dashpot.Damper("in-service")
+
+        def export(dampers=damper, **options):
+            return dashpot.export_fmu(dampers, "/nowhere/x.fmu", **options)
+
+        self.assert_refused("fmi: 1, allowed: 2 or 3", export, fmi=1)
+        self.assert_refused("dampers: empty, allowed: a damper, or a sequence of at least one", export, [])
+        self.assert_refused("platforms: not with sources_only=True, which compiles for no platform", export,
+                            platforms={"x86_64-windows": "cc"}, sources_only=True)
+        self.assert_refused("platforms: x86_64-windows: no compiler", export, platforms={"x86_64-windows": ""})
+        with self.assertRaisesRegex(dashpot.DashpotError, "platforms: unknown platform win64; allowed: a processor"):
+            export(platforms={"win64": "cc"})
+        with self.assertRaisesRegex(dashpot.DashpotError, "none-cc.*allowed: another C compiler with platforms={\"aarch64-linux\": "
+                                    "COMPILER}, or no library with sources_only=True"):
+            export(platforms={"aarch64-linux": "none-cc"})
+        with self.assertRaisesRegex(dashpot.DashpotError, "FMI 2 has no folder.*allowed: fmi=3"):
+            export(fmi=2, platforms={"aarch64-linux": "cc"})
+        with self.assertRaises(dashpot.DashpotFileError):
+            export(sources_only=True)
 
     def test_wrong_arguments_are_refused(self):
         damper = dashpot.Damper("in-service")

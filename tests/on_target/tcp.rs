@@ -61,8 +61,8 @@ fn images_with_tcp() -> Option<(PathBuf, TargetToolchain)> {
     Some((images, toolchain))
 }
 
-/// Opens a session with the image, which refuses a host in the moment before it listens (for the next one). Each refusal
-/// comes from the image, so every try gives it time.
+/// Opens a session with the image, which refuses a host in the moment before it listens, also between two hosts. Each
+/// refusal comes from the image, so every try gives it time.
 fn open(address: &str, number: u16) -> Session<Tcp> {
     for _ in 0..100 {
         let link = Tcp::connect(address).unwrap();

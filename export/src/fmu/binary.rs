@@ -150,6 +150,18 @@ impl Target {
             compiler: env::var("CC").unwrap_or_default(),
         }
     }
+
+    /// These targets, after [`Target::here`] if none of them is for this platform.
+    pub fn with_here(mut targets: Vec<Self>) -> Vec<Self> {
+        let here = Self::here();
+        if targets
+            .iter()
+            .all(|target| target.platform != here.platform)
+        {
+            targets.insert(0, here);
+        }
+        targets
+    }
 }
 
 /// Describes the type of a file.

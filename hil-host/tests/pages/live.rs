@@ -26,7 +26,7 @@ fn a_person_worsens_a_damper_and_sees_its_force_go() {
     browser.wait_for("live.scene && live.status && live.histories[0].newest?.time_s > 0.5");
     assert_eq!(browser.find("return live.scene.wheelsets.length;"), 6);
     run_for(&browser, 0.5);
-    // As new, some yaw damper always has a force after the first 0.1 s. In fifteen millimetres, all move freely at times.
+    // As new, some yaw damper always has a force after 0.1 s. In fifteen millimetres, all move freely at times.
     let free = "[...live.index].filter(([name]) => /yaw_damper_\\d_force_n$/.test(name))\
                 .filter(([, place]) => live.histories[0].newest.last[place] === 0).length";
     assert!(browser.find(&format!("return {free};")).as_f64().unwrap() < 8.0);

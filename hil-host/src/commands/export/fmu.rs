@@ -92,15 +92,11 @@ impl FmuArguments {
     /// # Errors
     /// A platform is given twice.
     pub(super) fn targets(&self) -> Outcome<Vec<Target>> {
-        let mut targets = Vec::new();
-        let is_here = |target: &Target| target.platform == Platform::here();
-        if !self.targets.iter().any(is_here) {
-            targets.push(Target::here());
-        }
+        let mut targets: Vec<Target> = Vec::new();
         for target in &self.targets {
             if targets
                 .iter()
-                .any(|other: &Target| other.platform == target.platform)
+                .any(|other| other.platform == target.platform)
             {
                 let platform = &target.platform;
                 return Err(Failure::wrong_use(format!(
@@ -109,7 +105,7 @@ impl FmuArguments {
             }
             targets.push(target.clone());
         }
-        Ok(targets)
+        Ok(Target::with_here(targets))
     }
 
     /// Returns the requested interface; `None` without `--fmi`.

@@ -1,0 +1,31 @@
+//! Dampers for firmware and other tools: source code, bytes and FMUs.
+
+mod damper;
+mod fmu;
+mod health;
+mod written;
+
+pub use damper::export;
+pub use fmu::export_fmu;
+pub use health::export_health;
+
+use dashpot_export::ExportError;
+
+use crate::damper::Damper;
+use crate::error::Refusal;
+
+/// The name of a damper without its overrides.
+fn own_name(damper: &Damper) -> &str {
+    damper.name.split(", ").next().unwrap_or_default()
+}
+
+/// A step in microseconds, without the rounding error of the product.
+fn step_us(step_s: f64) -> f64 {
+    (step_s * 1e12).round() / 1e6
+}
+
+impl From<ExportError> for Refusal {
+    fn from(error: ExportError) -> Self {
+        Self::Value(error.to_string())
+    }
+}
