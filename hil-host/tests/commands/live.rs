@@ -57,11 +57,19 @@ fn a_scene_comes_first_and_every_tick_is_in_a_frame() {
     let (mut viewer, scene) = operator(&live);
     assert_eq!(scene["source"], "machine");
     let signals = scene["signals"].as_array().unwrap().len();
-    let mut before = viewer.frame();
-    for _ in 0..100 {
+    let (mut before, mut in_a_row, mut lost) = (viewer.frame(), 0, 0);
+    while in_a_row < 100 {
         let frame = viewer.frame();
         assert_eq!(frame.signals, signals);
-        assert_eq!(frame.ticks, before.ticks + f64::from(frame.ticks_in_frame));
+        if frame.ticks != before.ticks + f64::from(frame.ticks_in_frame) {
+            // A busy machine may let the viewer lose frames, and tells it.
+            let mut told = (0..20).map(|_| viewer.text("status")["lost_frames"].as_u64().unwrap());
+            let more = told.find(|told| *told > lost);
+            lost = more.expect("a tick is in no frame");
+            (before, in_a_row) = (viewer.frame(), 0);
+            continue;
+        }
+        in_a_row += 1;
         assert!((frame.time_s - 1e-3 * frame.ticks).abs() < 1e-9);
         for ((last, least), greatest) in frame.last.iter().zip(&frame.least).zip(&frame.greatest) {
             assert!(least <= last && last <= greatest);
@@ -218,6 +226,11 @@ fn a_viewer_who_never_reads_loses_frames_and_nobody_else_notices() {
         viewers
     });
     let mut viewers = watching.join().unwrap();
+    // Nobody else has frames left to read when the run ends.
+    assert_eq!(viewers[0].ask(json!({"do": "stop"})), None);
+    for viewer in &mut viewers {
+        viewer.status(|status| status["factor"] == 0.0);
+    }
     live.signal("-TERM");
     for viewer in &mut viewers {
         let texts = viewer.rest();

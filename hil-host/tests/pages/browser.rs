@@ -78,7 +78,7 @@ impl Browser {
         }
         let capabilities = json!({
             "goog:chromeOptions": options,
-            "timeouts": { "script": HANGS.as_millis() as u64 },
+            "timeouts": { "script": HANGS.as_millis() as u64, "pageLoad": HANGS.as_millis() as u64 },
             "goog:loggingPrefs": { "browser": "ALL", "performance": "ALL" },
         });
         let runtime = Builder::new_current_thread().enable_all().build().unwrap();

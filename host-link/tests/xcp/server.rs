@@ -103,8 +103,8 @@ fn lost_ticks_are_seen_by_the_master() {
     let mut samples = 0_u32;
     let mut overloads = 0;
     let mut last_us = 0;
-    let mut is_over = false;
-    while !is_over {
+    let mut is_leaving = false;
+    loop {
         let (number, packet) = master.receive();
         let before = std::mem::replace(&mut counter, number);
         lost += u32::from(number.wrapping_sub(before).wrapping_sub(1));
@@ -114,19 +114,22 @@ fn lost_ticks_are_seen_by_the_master() {
                 samples += 1;
                 last_us = u32::from_le_bytes(packet[2..6].try_into().unwrap());
             }
+            // The answer to DISCONNECT.
+            [0xFF, ..] if is_leaving => break,
             _ => panic!("{packet:x?}"),
         }
-        // While the master reads, the server keeps up: the last tick is not lost.
-        if overloads == 0 && samples + 8192 < sent {
+        if is_leaving || (overloads == 0 && samples + 8192 < sent) {
             continue;
         }
         sent += 1;
         feed.tick(1e-3 * f64::from(sent), &values);
-        is_over = overloads > 0 && samples + lost >= 400_000;
+        if overloads > 0 && samples + lost >= 400_000 {
+            is_leaving = true;
+            master.send(&[0xFE]);
+        }
     }
     assert!(overloads > 0 && lost > 0);
     assert!(last_us >= 1000 * 400_000);
-    master.ask(&[0xFE]);
     drop(feed);
     let summary = running.finish().unwrap();
     assert_eq!(summary.lost_ticks % 0x10000, u64::from(lost) % 0x10000);

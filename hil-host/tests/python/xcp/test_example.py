@@ -8,13 +8,15 @@ import runpy
 import unittest
 from pathlib import Path
 
-from running import Vehicle
+from pyxcp.config import Transport
+from running import PATIENCE_S, Vehicle
 
 EXAMPLE = Path(__file__).parents[4] / "docs" / "xcp_client.py"
 
 
 class Example(unittest.TestCase):
     def test_it_measures_and_calibrates(self):
+        Transport.timeout.default_value = PATIENCE_S
         with Vehicle() as vehicle, contextlib.chdir(vehicle.folder.name):
             printed = io.StringIO()
             with contextlib.redirect_stdout(printed):

@@ -9,14 +9,15 @@ use dashpot_hybrid::rig::RigClient;
 
 use crate::commands::failure::{Failure, Outcome};
 
-/// How long the rig may take for its first answer.
-const FIRST_ANSWER: Duration = Duration::from_secs(2);
-/// How long a run that is not paced waits for the answer of a tick.
-const ANSWER: Duration = Duration::from_millis(500);
+/// How long the rig may take for its first answer, and how long a run that is not paced waits for that of a tick. A busy
+/// machine may take seconds.
+const ANSWER: Duration = Duration::from_secs(5);
 /// Shortest timeout that all systems take.
 const SHORTEST: Duration = Duration::from_micros(100);
-/// Time between two first commands.
+/// Time after which the first command is sent again.
 const RETRY: Duration = Duration::from_millis(2);
+/// Time after which another first command is sent, because the answer to the one before may be lost.
+const RENEWAL: Duration = Duration::from_secs(1);
 /// Commands that end a session, because each can be lost.
 const STOPS: u32 = 5;
 
@@ -72,20 +73,28 @@ impl RemoteRig {
         };
         rig.socket.set_read_timeout(Some(RETRY)).map_err(failed)?;
         let started = Instant::now();
+        let mut renewed = started;
+        let mut frame = rig.client.command(0.0, 0.0);
         loop {
-            rig.send(0.0, 0.0);
+            // A rig in step moves by a tick for each command, but not for a repeated one: its motion must not depend on
+            // the time until the answer.
+            if renewed.elapsed() > RENEWAL {
+                renewed = Instant::now();
+                frame = rig.client.command(0.0, 0.0);
+            }
+            rig.send_frame(&frame);
             if let Ok((Some(first), _)) = rig.take_one() {
                 rig.socket.set_nonblocking(is_realtime).map_err(failed)?;
                 rig.first = Some(first);
                 return Ok((rig, first));
             }
             std::thread::sleep(SHORTEST);
-            if started.elapsed() > FIRST_ANSWER {
+            if started.elapsed() > ANSWER {
                 return Err(Failure::new(format!(
                     "{}: no answer within {} s; is the rig running, and free of another session? `dashpot hybrid rig` \
                      starts a virtual one",
                     rig.name,
-                    FIRST_ANSWER.as_secs()
+                    ANSWER.as_secs()
                 )));
             }
         }
