@@ -220,8 +220,8 @@ fn a_rig_that_leaves_ends_the_run_without_a_jump() {
     assert!((last - before).abs() < 1e-6, "the command has come to rest");
 }
 
-/// Regression: a vehicle sent another first command every 2 ms until the rig answered. A rig in step made a tick for each,
-/// so a run depended on the speed of the machine.
+/// Regression: a vehicle sent another first command every 2 ms until the rig answered. A rig in step made a tick for
+/// each, so a run depended on the speed of the machine.
 #[test]
 fn the_first_command_is_repeated_and_moves_a_rig_by_one_tick() {
     let folder = tempfile::tempdir().unwrap();

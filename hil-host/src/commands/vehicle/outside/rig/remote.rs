@@ -9,8 +9,8 @@ use dashpot_hybrid::rig::RigClient;
 
 use crate::commands::failure::{Failure, Outcome};
 
-/// How long the rig may take for its first answer, and how long a run that is not paced waits for that of a tick. A busy
-/// machine may take seconds.
+/// How long the rig may take for its first answer, and how long a run that is not paced waits for that of a tick. On a
+/// busy machine it takes seconds.
 const ANSWER: Duration = Duration::from_secs(5);
 /// Shortest timeout that all systems take.
 const SHORTEST: Duration = Duration::from_micros(100);
