@@ -34,3 +34,13 @@ fn digits(number: f64, digits: usize) -> String {
 pub fn counted(count: u64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
+
+/// Converts a step (s) back to microseconds as the user wrote them.
+///
+/// ```
+/// assert_eq!(dashpot_report::rounded::microseconds(333e-6), 333.0);
+/// ```
+pub fn microseconds(step_s: f64) -> f64 {
+    // Round to the picosecond to remove the rounding error of the product.
+    (step_s * 1e12).round() / 1e6
+}

@@ -109,6 +109,20 @@ impl CompileError {
             Self::Files(_) => &[],
         }
     }
+
+    /// The error and its remedies, which `in_words` says in the words of the caller.
+    pub fn with_remedies(&self, in_words: impl Fn(Remedy) -> String) -> String {
+        let remedies: Vec<String> = self.remedies().iter().copied().map(in_words).collect();
+        // A compiler's messages may span several lines.
+        let separator = match self {
+            Self::Failed { .. } => "\n",
+            _ => "; ",
+        };
+        match remedies.is_empty() {
+            true => self.to_string(),
+            false => format!("{self}{separator}allowed: {}", remedies.join(", or ")),
+        }
+    }
 }
 
 /// Linker options for a Rust library on Linux. Only the functions of the interface stay visible, and unused code is
@@ -151,7 +165,7 @@ impl Target {
         }
     }
 
-    /// These targets, after [`Target::here`] if none of them is for this platform.
+    /// Puts [`Target::here`] before the given targets unless one of them is for this platform.
     pub fn with_here(mut targets: Vec<Self>) -> Vec<Self> {
         let here = Self::here();
         if targets

@@ -73,12 +73,6 @@ impl StepSize {
     }
 }
 
-/// Converts a step (s) back to microseconds as the user wrote them.
-pub(super) fn microseconds(step_s: f64) -> f64 {
-    // Round to the picosecond to remove the rounding error of the product.
-    (step_s * 1e12).round() / 1e6
-}
-
 impl FromStr for StepSize {
     type Err = String;
 

@@ -62,7 +62,7 @@ fn a_scene_comes_first_and_every_tick_is_in_a_frame() {
         let frame = viewer.frame();
         assert_eq!(frame.signals, signals);
         if frame.ticks != before.ticks + f64::from(frame.ticks_in_frame) {
-            // A busy machine may let the viewer lose frames, and tells it.
+            // On a busy machine a viewer can lose frames, and its status counts them.
             let mut told = (0..20).map(|_| viewer.text("status")["lost_frames"].as_u64().unwrap());
             let more = told.find(|told| *told > lost);
             lost = more.expect("a tick is in no frame");

@@ -6,9 +6,9 @@ use dashpot_core::Damper as Built;
 use dashpot_export::{
     Provenance, Word, c_header, c_source, rust_source, standalone_header, standalone_source,
 };
+use dashpot_report::rounded::microseconds;
 use pyo3::prelude::*;
 
-use super::step_us;
 use super::written::{Constant, Language};
 use crate::arrays::Precision;
 use crate::damper::Damper;
@@ -78,7 +78,7 @@ impl Wanted<'_> {
         );
         let provenance = Provenance {
             damper: &self.damper.name,
-            step_us: step_us(self.step_s),
+            step_us: microseconds(self.step_s),
             command: &call,
         };
         let name = constant.name.clone();

@@ -126,24 +126,14 @@ fn fmu<T: Word>(
 fn cannot_compile(error: &CompileError, target: &Target) -> Refusal {
     let platform = &target.platform;
     let is_here = *platform == Platform::here();
-    let remedies = error.remedies().iter().filter_map(|remedy| match remedy {
-        Remedy::OtherCompiler if is_here => Some("another C compiler in the variable CC".into()),
-        Remedy::OtherCompiler => Some(format!(
-            "another C compiler with platforms={{\"{platform}\": COMPILER}}"
-        )),
-        Remedy::SourcesOnly => Some("no library with sources_only=True".into()),
-        Remedy::Fmi3 => Some("fmi=3".into()),
-        // Only a vehicle has a library.
-        Remedy::OtherLibrary => None,
-    });
-    let remedies: Vec<String> = remedies.collect();
-    // A compiler's messages may span several lines.
-    let separator = match error {
-        CompileError::Failed { .. } => "\n",
-        _ => "; ",
-    };
-    Refusal::Value(match remedies.is_empty() {
-        true => error.to_string(),
-        false => format!("{error}{separator}allowed: {}", remedies.join(", or ")),
-    })
+    Refusal::Value(error.with_remedies(|remedy| match remedy {
+        Remedy::OtherCompiler if is_here => "another C compiler in the variable CC".into(),
+        Remedy::OtherCompiler => {
+            format!("another C compiler with platforms={{\"{platform}\": COMPILER}}")
+        }
+        Remedy::SourcesOnly => "no library with sources_only=True".into(),
+        Remedy::Fmi3 => "fmi=3".into(),
+        // Only the FMU of a vehicle has a library.
+        Remedy::OtherLibrary => "the command, which takes libraries".into(),
+    }))
 }

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use dashpot_export::{Provenance, health_c_header, health_c_source, health_rust_source};
+use dashpot_report::rounded::microseconds;
 use dashpot_testbench::health::Noise;
 use pyo3::prelude::*;
 
-use super::step_us;
 use super::written::{Constant, Language};
 use crate::damper::Damper;
 use crate::error::Outcome;
@@ -79,7 +79,7 @@ pub fn export_health(
     );
     let provenance = Provenance {
         damper: &damper.name,
-        step_us: step_us(step_s),
+        step_us: microseconds(step_s),
         command: &call,
     };
     let name = constant.name.clone();

@@ -19,11 +19,6 @@ fn own_name(damper: &Damper) -> &str {
     damper.name.split(", ").next().unwrap_or_default()
 }
 
-/// A step in microseconds, without the rounding error of the product.
-fn step_us(step_s: f64) -> f64 {
-    (step_s * 1e12).round() / 1e6
-}
-
 impl From<ExportError> for Refusal {
     fn from(error: ExportError) -> Self {
         Self::Value(error.to_string())

@@ -75,7 +75,7 @@ fn run(
     }))
 }
 
-/// What a test program says of its failed tests, which is far above the end of a whole run.
+/// Returns the messages of failed tests from the output of a test program.
 fn failures_in(output: &str) -> String {
     match output.split_once("\nfailures:\n") {
         Some((_, failures)) => format!(":\n{}", failures.trim()),

@@ -16,6 +16,7 @@ use dashpot_export::{Word, constant_name};
 use dashpot_files::Scalar;
 use dashpot_files::damper;
 use dashpot_files::output::{self, write_bytes};
+use dashpot_report::rounded::microseconds;
 
 /// Options of an FMU.
 #[derive(Debug, Clone, clap::Args)]
@@ -224,7 +225,7 @@ pub(super) fn fmu_name(arguments: &ExportArguments, content: &str) -> String {
 fn cannot_compile(error: &CompileError, target: &Target) -> Failure {
     let platform = &target.platform;
     let is_here = *platform == Platform::here();
-    let remedies = error.remedies().iter().map(|remedy| match remedy {
+    Failure::new(error.with_remedies(|remedy| match remedy {
         Remedy::OtherCompiler if is_here => "another C compiler in the variable CC".to_owned(),
         Remedy::OtherCompiler => format!("another C compiler with --platform {platform}=COMPILER"),
         Remedy::SourcesOnly => "no library with --sources-only".to_owned(),
@@ -233,17 +234,7 @@ fn cannot_compile(error: &CompileError, target: &Target) -> Failure {
             "a library for this platform with --library FILE".to_owned()
         }
         Remedy::OtherLibrary => format!("a library for it with --library {platform}=FILE"),
-    });
-    let remedies: Vec<String> = remedies.collect();
-    // A compiler's messages may span several lines.
-    let separator = match error {
-        CompileError::Failed { .. } => "\n",
-        _ => "; ",
-    };
-    Failure::new(match remedies.is_empty() {
-        true => error.to_string(),
-        false => format!("{error}{separator}allowed: {}", remedies.join(", or ")),
-    })
+    }))
 }
 
 /// Compiles and writes the FMU, and prints a report.
@@ -284,8 +275,7 @@ pub(super) fn report(
     platforms: Vec<String>,
     bytes: &[u8],
 ) -> Outcome<()> {
-    // Round to the picosecond to remove the rounding error of the product.
-    let step_us = (fmu.step_s() * 1e12).round() / 1e6;
+    let step_us = microseconds(fmu.step_s());
     write_bytes(&arguments.output, bytes)?;
     let report = Report {
         content,

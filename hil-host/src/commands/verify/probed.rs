@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::VerifyArguments;
 use crate::commands::failure::{Failure, Outcome};
-use crate::commands::step_size::microseconds;
 use crate::commands::{print_report, progress};
+use dashpot_report::rounded::microseconds;
 use dashpot_testbench::step_errors::{NamedMotion, StepErrorRow, StepErrors};
 
 /// Default steps (us): 1 kHz and 10 kHz.

@@ -9,10 +9,10 @@ use serde::Serialize;
 use super::VerifyArguments;
 use crate::commands::failure::Outcome;
 use crate::commands::gap_report::write_gaps;
-use crate::commands::step_size::microseconds;
 use crate::commands::{counted, print_report, progress};
 use dashpot_files::input;
 use dashpot_recording::{Gaps, Recording};
+use dashpot_report::rounded::microseconds;
 use dashpot_testbench::verification::{RecordedError, on_recording};
 
 #[derive(Serialize)]
